@@ -1,0 +1,47 @@
+# One CMake target per folder: libs/NAME -> hybrid_slam::NAME, its *_test.cpp -> hybrid_slam_NAME_test.
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+add_library(hybrid_slam_flags INTERFACE)
+target_compile_options(hybrid_slam_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  $<$<CONFIG:Release>:-O3>
+  # The same bytes on every run and for every number of threads: no contraction that depends on inlining.
+  -ffp-contract=off)
+if(HYBRID_SLAM_SANITIZE)
+  target_compile_options(hybrid_slam_flags INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(hybrid_slam_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# hybrid_slam_library(NAME TARGET...): every .cpp of the folder but the tests, linked with TARGET...
+function(hybrid_slam_library name)
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  add_library(hybrid_slam_${name} STATIC ${sources})
+  add_library(hybrid_slam::${name} ALIAS hybrid_slam_${name})
+  target_include_directories(hybrid_slam_${name} PUBLIC ${PROJECT_SOURCE_DIR}/libs)
+  target_link_libraries(hybrid_slam_${name} PUBLIC ${ARGN} PRIVATE hybrid_slam_flags)
+  if(tests)
+    hybrid_slam_test(${name} ${tests})
+    target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam::${name})
+  endif()
+endfunction()
+
+# hybrid_slam_test(NAME FILE...): one GoogleTest program, its cases known to ctest one by one.
+function(hybrid_slam_test name)
+  add_executable(hybrid_slam_${name}_test ${ARGN})
+  target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST)
+endfunction()
+
+# hybrid_slam_app(NAME TARGET...): apps/NAME/main.cpp -> program NAME.
+function(hybrid_slam_app name)
+  add_executable(${name} main.cpp)
+  target_compile_definitions(${name} PRIVATE HYBRID_SLAM_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE ${ARGN} CLI11::CLI11 hybrid_slam_flags)
+  install(TARGETS ${name} RUNTIME DESTINATION bin)
+endfunction()

@@ -1,0 +1,43 @@
+#include "base/LaserScan.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam {
+
+LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange) {
+  constexpr double kMaxTilt = 5 * M_PI / 180;
+  const auto rotation = observation.sensorPose.getRotationMatrix();
+  if (std::abs(rotation(2, 2)) < std::cos(kMaxTilt))
+    throw InputError("the laser's scan plane is tilted", "sensor `" + observation.sensorLabel + "`",
+                     "expected a horizontal plane within 5 deg, upright or upside down");
+  const bool upsideDown = rotation(2, 2) < 0;
+
+  LaserScan scan;
+  scan.timestamp = observation.timestamp;
+  // The heading of the sensor's own x axis, which stays in the plane also where the sensor is upside down.
+  scan.sensorPose = {observation.sensorPose.x(), observation.sensorPose.y(),
+                     std::atan2(rotation(1, 0), rotation(0, 0))};
+  scan.maxRange = observation.maxRange > 0 ? std::min<double>(maxRange, observation.maxRange) : maxRange;
+
+  const size_t n = observation.getScanSize();
+  const double aperture = observation.aperture;
+  const double step = n > 1 ? aperture / static_cast<double>(n - 1) : 0;
+  const bool reversed = observation.rightToLeft == upsideDown;  // angles fall with the beam's number
+  scan.beams.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    Beam& beam = scan.beams[reversed ? n - 1 - i : i];
+    const double rise = -0.5 * aperture + static_cast<double>(i) * step;
+    beam.angle = n == 1 ? 0 : (reversed ? -rise : rise);
+    beam.range = observation.getScanRange(i);
+    beam.valid = observation.getScanRangeValidity(i) && std::isfinite(beam.range) && beam.range > 0 &&
+                 beam.range < scan.maxRange;
+  }
+  return scan;
+}
+
+}  // namespace hybrid_slam

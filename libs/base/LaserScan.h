@@ -1,0 +1,38 @@
+/// @file LaserScan.h
+/// @brief A planar scan as the rest of the project sees it: valid beams only by flag, angles seen from above.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <vector>
+
+namespace mrpt::obs {
+class CObservation2DRangeScan;
+}
+
+namespace hybrid_slam {
+
+/// One beam in the sensor frame (x forwards, angles counter-clockwise seen from above).
+struct Beam {
+  double angle = 0;    ///< rad
+  double range = 0;    ///< m; meaningless unless valid
+  bool valid = false;  ///< finite, positive, below the maximum range, and marked valid by the sensor
+};
+
+/// The beams of one planar scan in the order of growing angle, and where the sensor sits on the robot.
+///
+/// A laser mounted upside down, or one that counts its beams clockwise (`rightToLeft == false`), is
+/// mirrored here once, so that nobody after this has to know.
+struct LaserScan {
+  mrpt::Clock::time_point timestamp;
+  mrpt::math::TPose2D sensorPose;  ///< in the robot frame (m, rad)
+  double maxRange = 0;             ///< m; readings at or beyond it are not valid
+  std::vector<Beam> beams;
+};
+
+/// @param maxRange  m; the smaller of this and the observation's own limit holds (a limit <= 0 is none)
+/// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
+LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,171 @@
+#include "base/Options.h"
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <sstream>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+/// Shortest decimal text that reads back to the same number.
+std::string numberText(double value) {
+  for (int digits = 6; digits < 17; ++digits) {
+    std::ostringstream text;
+    text.precision(digits);
+    text << value;
+    if (std::strtod(text.str().c_str(), nullptr) == value) return text.str();
+  }
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+std::string rangeText(double low, double high) { return numberText(low) + ".." + numberText(high); }
+
+/// The value is text from a file: a number must be the whole of it.
+bool parseNumber(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+}  // namespace
+
+void OptionTable::add(const char* key, double& value, double low, double high, const char* unit,
+                      const char* why) {
+  const std::string expected = "expected a number in " + rangeText(low, high) + (*unit ? " " : "") + unit;
+  options_.push_back({key, unit, rangeText(low, high), why, [&value] { return numberText(value); },
+                      [&value, low, high, expected](const std::string& text) -> std::string {
+                        double number = 0;
+                        if (!parseNumber(text, number) || number < low || number > high) return expected;
+                        value = number;
+                        return {};
+                      }});
+}
+
+void OptionTable::addAngle(const char* key, double& radians, double lowDeg, double highDeg, const char* why) {
+  const std::string expected = "expected a number in " + rangeText(lowDeg, highDeg) + " deg";
+  options_.push_back(
+      {key, "deg", rangeText(lowDeg, highDeg), why,
+       // Rounded at 1e-9 deg, so that 0.5 deg reads back as 0.5.
+       [&radians] { return numberText(std::round(radians / kDegree * 1e9) / 1e9); },
+       [&radians, lowDeg, highDeg, expected](const std::string& text) -> std::string {
+         double number = 0;
+         if (!parseNumber(text, number) || number < lowDeg || number > highDeg) return expected;
+         radians = number * kDegree;
+         return {};
+       }});
+}
+
+void OptionTable::add(const char* key, int& value, int low, int high, const char* why) {
+  const std::string expected = "expected a whole number in " + rangeText(low, high);
+  options_.push_back({key, "", rangeText(low, high), why, [&value] { return std::to_string(value); },
+                      [&value, low, high, expected](const std::string& text) -> std::string {
+                        double number = 0;
+                        if (!parseNumber(text, number) || number != std::floor(number) || number < low ||
+                            number > high)
+                          return expected;
+                        value = static_cast<int>(number);
+                        return {};
+                      }});
+}
+
+void OptionTable::add(const char* key, bool& value, const char* why) {
+  options_.push_back({key, "", "true or false", why, [&value] { return value ? "true" : "false"; },
+                      [&value](const std::string& text) -> std::string {
+                        if (text != "true" && text != "false") return "expected true or false";
+                        value = text == "true";
+                        return {};
+                      }});
+}
+
+void OptionTable::add(const char* key, std::string& value, const char* why) {
+  options_.push_back({key, "", "text", why, [&value] { return value; },
+                      [&value](const std::string& text) -> std::string {
+                        value = text;
+                        return {};
+                      }});
+}
+
+void OptionTable::addName(const char* key, const std::vector<std::string>& names,
+                          std::function<size_t()> get, std::function<void(size_t)> set, const char* why) {
+  const std::string list =
+      std::accumulate(names.begin() + 1, names.end(), names.front(),
+                      [](const std::string& all, const std::string& name) { return all + " | " + name; });
+  options_.push_back({key, "", list, why, [names, get] { return names.at(get()); },
+                      [names, set, list](const std::string& text) -> std::string {
+                        const auto found = std::find(names.begin(), names.end(), text);
+                        if (found == names.end()) return "expected one of " + list;
+                        set(static_cast<size_t>(found - names.begin()));
+                        return {};
+                      }});
+}
+
+std::vector<Option> Options::table() const {
+  OptionTable table;
+  const_cast<Options*>(this)->describe(table);  // binds the members; reading them changes nothing
+  return table.options();
+}
+
+void Options::loadFromConfigFile(const mrpt::config::CConfigFileBase& source, const std::string& section) {
+  const std::vector<Option> known = table();
+  std::vector<std::string> names;
+  for (const Option& option : known) names.push_back(option.key);
+
+  std::vector<std::string> keys;
+  source.getAllKeys(section, keys);
+  for (const std::string& key : keys) {
+    const std::string where = "section [" + section + "], key `" + key + "`";
+    const auto option =
+        std::find_if(known.begin(), known.end(), [&key](const Option& o) { return o.key == key; });
+    if (option == known.end())
+      throw InputError("unknown key", where, "the nearest known key is `" + nearestName(key, names) + "`");
+    const std::string text = trimmed(source.read_string(section, key, ""));
+    const std::string expected = option->set(text);
+    if (!expected.empty()) throw InputError("wrong value `" + text + "`", where, expected);
+  }
+}
+
+void Options::saveToConfigFile(mrpt::config::CConfigFileBase& target, const std::string& section) const {
+  for (const Option& option : table()) target.write(section, option.key, option.get());
+}
+
+size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+std::string nearestName(const std::string& name, const std::vector<std::string>& names) {
+  const auto nearest =
+      std::min_element(names.begin(), names.end(), [&name](const std::string& a, const std::string& b) {
+        return editDistance(name, a) < editDistance(name, b);
+      });
+  return nearest == names.end() ? std::string() : *nearest;
+}
+
+}  // namespace hybrid_slam

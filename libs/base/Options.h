@@ -1,0 +1,86 @@
+/// @file Options.h
+/// @brief Checked options: each setting is described once, and from that one description it is loaded,
+/// range-checked, saved and documented.
+#pragma once
+
+#include <mrpt/config/CLoadableOptions.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hybrid_slam {
+
+/// One setting of an INI section.
+struct Option {
+  std::string key;
+  std::string unit;   ///< "m", "deg", ...; empty for counts, names and switches
+  std::string range;  ///< what is accepted, in words: "0..10", "true or false", "a | b"
+  std::string why;    ///< one line
+  std::function<std::string()> get;
+  /// Takes a value as text; returns an empty text or what was expected.
+  std::function<std::string(const std::string&)> set;
+};
+
+/// The list of settings that an options struct fills in `describe`.
+class OptionTable {
+ public:
+  /// A real number in [low, high].
+  void add(const char* key, double& value, double low, double high, const char* unit, const char* why);
+  /// An angle: degrees in the file, radians in the member; the range is in degrees.
+  void addAngle(const char* key, double& radians, double lowDeg, double highDeg, const char* why);
+  /// A whole number in [low, high].
+  void add(const char* key, int& value, int low, int high, const char* why);
+  void add(const char* key, bool& value, const char* why);
+  void add(const char* key, std::string& value, const char* why);
+  /// One of a list of names, one for each enumerator.
+  template <class Enum>
+  void add(const char* key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
+           const char* why);
+
+  const std::vector<Option>& options() const { return options_; }
+
+ private:
+  void addName(const char* key, const std::vector<std::string>& names, std::function<size_t()> get,
+               std::function<void(size_t)> set, const char* why);
+  std::vector<Option> options_;
+};
+
+/// Base of every options struct of the project.
+struct Options : mrpt::config::CLoadableOptions {
+  /// Lists every member once: key, bounds, unit, why.
+  virtual void describe(OptionTable& table) = 0;
+
+  /// Reads the keys that the section holds, keeps the others' present values.
+  /// @throws InputError for an unknown key (naming the nearest), a wrong type, a value out of range.
+  void loadFromConfigFile(const mrpt::config::CConfigFileBase& source, const std::string& section) final;
+  /// Writes every key with its present value.
+  void saveToConfigFile(mrpt::config::CConfigFileBase& target, const std::string& section) const final;
+
+  /// The settings, bound to this object's members.
+  std::vector<Option> table() const;
+};
+
+/// The name nearest to `name` by edit distance, for "did you mean"; empty if there are no names.
+std::string nearestName(const std::string& name, const std::vector<std::string>& names);
+/// Levenshtein distance.
+size_t editDistance(const std::string& a, const std::string& b);
+
+template <class Enum>
+void OptionTable::add(const char* key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
+                      const char* why) {
+  std::vector<std::string> texts;
+  for (const auto& entry : names) texts.push_back(entry.second);
+  addName(
+      key, texts,
+      [&value, names] {
+        for (size_t i = 0; i < names.size(); ++i)
+          if (names[i].first == value) return i;
+        return names.size();
+      },
+      [&value, names](size_t i) { value = names[i].first; }, why);
+}
+
+}  // namespace hybrid_slam
