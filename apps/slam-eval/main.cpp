@@ -1,0 +1,147 @@
+/// @file main.cpp
+/// @brief slam-eval: a trajectory against a reference, JSON on standard output (doc/slam-eval.md).
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "base/Errors.h"
+#include "evaluation/AbsoluteTrajectoryError.h"
+#include "evaluation/RelationErrors.h"
+#include "evaluation/RelativePoseError.h"
+#include "evaluation/Trajectory.h"
+
+namespace {
+
+using namespace hybrid_slam;
+using Json = nlohmann::ordered_json;
+
+constexpr double kRadToDeg = 180 / M_PI;
+
+struct CommandLine {
+  std::string trajectory, relations, odometry, reference;
+  std::string delta = "1m";
+  double relationTolerance = 0.006;  // s
+  double referenceTolerance = 0.02;  // s
+};
+
+/// "1.5s" or "0.5m".
+RpeDelta parseDelta(const std::string& text) {
+  RpeDelta delta;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, delta.length);
+  const std::string unit(stop, end);
+  if (error != std::errc() || !std::isfinite(delta.length) || delta.length <= 0 ||
+      (unit != "s" && unit != "m"))
+    throw InputError("wrong value `" + text + "`", "option --delta",
+                     "expected a positive number with its unit, as in `1s` or `0.5m`");
+  delta.unit = unit == "s" ? RpeDelta::Unit::seconds : RpeDelta::Unit::metres;
+  return delta;
+}
+
+Json relationsJson(const CommandLine& line) {
+  const Trajectory trajectory = loadTum(line.trajectory);
+  const std::vector<Relation> relations = loadRelations(line.relations);
+  const Trajectory odometry = line.odometry.empty() ? Trajectory() : loadOdometry(line.odometry);
+  const RelationErrors errors = evaluateRelations(
+      trajectory, relations, line.odometry.empty() ? nullptr : &odometry, line.relationTolerance);
+  return {{"relations", errors.relations},
+          {"used", errors.used},
+          {"trans_mean_m", errors.translation.mean},
+          {"trans_std_m", errors.translation.std},
+          {"trans_median_m", errors.translation.median},
+          {"trans_max_m", errors.translation.max},
+          {"rot_mean_deg", errors.rotation.mean * kRadToDeg},
+          {"rot_std_deg", errors.rotation.std * kRadToDeg}};
+}
+
+/// Fields PREFIX_rmse_UNIT, PREFIX_mean_UNIT, ...
+void addStatistics(Json& json, const std::string& prefix, const std::string& unit,
+                   const ErrorStatistics& errors, double scale) {
+  json[prefix + "_rmse_" + unit] = errors.rmse * scale;
+  json[prefix + "_mean_" + unit] = errors.mean * scale;
+  json[prefix + "_median_" + unit] = errors.median * scale;
+  json[prefix + "_std_" + unit] = errors.std * scale;
+  json[prefix + "_max_" + unit] = errors.max * scale;
+}
+
+Json ateJson(const CommandLine& line) {
+  const Trajectory trajectory = loadTum(line.trajectory), reference = loadTum(line.reference);
+  const AteErrors errors = absoluteTrajectoryError(trajectory, reference, line.referenceTolerance);
+  Json json{{"poses", trajectory.size()}, {"pairs", errors.pairs}};
+  addStatistics(json, "trans", "m", errors.translation, 1);
+  json["alignment"] = {{"x_m", errors.alignment.x},
+                       {"y_m", errors.alignment.y},
+                       {"phi_deg", errors.alignment.phi * kRadToDeg}};
+  return json;
+}
+
+Json rpeJson(const CommandLine& line) {
+  const RpeDelta delta = parseDelta(line.delta);
+  const Trajectory trajectory = loadTum(line.trajectory), reference = loadTum(line.reference);
+  const RpeErrors errors = relativePoseError(trajectory, reference, delta, line.referenceTolerance);
+  Json json{{"delta", line.delta}, {"pairs", errors.pairs}};
+  addStatistics(json, "trans", "m", errors.translation, 1);
+  addStatistics(json, "rot", "deg", errors.rotation, kRadToDeg);
+  return json;
+}
+
+int run(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("A trajectory against a reference; prints JSON. Files: doc/slam-eval.md.", "slam-eval");
+  app.set_version_flag("--version", "slam-eval " HYBRID_SLAM_VERSION);
+  app.require_subcommand(1);
+
+  auto* relations = app.add_subcommand("relations", "relations metric of Kuemmerle et al. 2009");
+  auto* ate = app.add_subcommand("ate", "absolute trajectory error after rigid alignment");
+  auto* rpe = app.add_subcommand("rpe", "relative pose error over a stretch of time or way");
+  for (CLI::App* command : {relations, ate, rpe})
+    command->add_option("--trajectory", line.trajectory, "what is judged, TUM file")->required();
+  relations->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
+  relations->add_option(
+      "--odometry", line.odometry,
+      "file `t x y theta`, in log order, that carries poses between those of the trajectory");
+  relations
+      ->add_option("--tolerance", line.relationTolerance,
+                   "between a relation's time and a pose, s; with odometry at most 0.006")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  for (CLI::App* command : {ate, rpe}) {
+    command->add_option("--reference", line.reference, "the truth, TUM file")->required();
+    command->add_option("--tolerance", line.referenceTolerance, "between a pose and its reference pose, s")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+  }
+  rpe->add_option("--delta", line.delta, "length of the stretch, `1s` or `0.5m`")->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    throw InputError(error.what(), "command line", "see slam-eval --help");
+  }
+
+  const Json json = *relations ? relationsJson(line) : *ate ? ateJson(line) : rpeJson(line);
+  std::cout << json.dump(2) << std::endl;
+  if (!std::cout) throw std::runtime_error("cannot write to standard output");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const hybrid_slam::InputError& error) {
+    std::cerr << "slam-eval: error: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "slam-eval: error: " << error.what() << '\n';
+    return 1;
+  }
+}
