@@ -46,9 +46,10 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
-void OptionTable::add(const char* key, double& value, double low, double high, const char* unit,
-                      const char* why) {
-  const std::string expected = "expected a number in " + rangeText(low, high) + (*unit ? " " : "") + unit;
+void OptionTable::add(const std::string& key, double& value, double low, double high, const std::string& unit,
+                      const std::string& why) {
+  const std::string expected =
+      "expected a number in " + rangeText(low, high) + (unit.empty() ? "" : " ") + unit;
   options_.push_back({key, unit, rangeText(low, high), why, [&value] { return numberText(value); },
                       [&value, low, high, expected](const std::string& text) -> std::string {
                         double number = 0;
@@ -58,21 +59,22 @@ void OptionTable::add(const char* key, double& value, double low, double high, c
                       }});
 }
 
-void OptionTable::addAngle(const char* key, double& radians, double lowDeg, double highDeg, const char* why) {
+void OptionTable::addAngle(const std::string& key, double& radians, double lowDeg, double highDeg,
+                           const std::string& why) {
   const std::string expected = "expected a number in " + rangeText(lowDeg, highDeg) + " deg";
-  options_.push_back(
-      {key, "deg", rangeText(lowDeg, highDeg), why,
-       // Rounded at 1e-9 deg, so that 0.5 deg reads back as 0.5.
-       [&radians] { return numberText(std::round(radians / kDegree * 1e9) / 1e9); },
-       [&radians, lowDeg, highDeg, expected](const std::string& text) -> std::string {
-         double number = 0;
-         if (!parseNumber(text, number) || number < lowDeg || number > highDeg) return expected;
-         radians = number * kDegree;
-         return {};
-       }});
+  options_.push_back({key, "deg", rangeText(lowDeg, highDeg), why,
+                      // Rounded at 1e-9 deg, so that 0.5 deg reads back as 0.5.
+                      [&radians] { return numberText(std::round(radians / kDegree * 1e9) / 1e9); },
+                      [&radians, lowDeg, highDeg, expected](const std::string& text) -> std::string {
+                        double number = 0;
+                        if (!parseNumber(text, number) || number < lowDeg || number > highDeg)
+                          return expected;
+                        radians = number * kDegree;
+                        return {};
+                      }});
 }
 
-void OptionTable::add(const char* key, int& value, int low, int high, const char* why) {
+void OptionTable::add(const std::string& key, int& value, int low, int high, const std::string& why) {
   const std::string expected = "expected a whole number in " + rangeText(low, high);
   options_.push_back({key, "", rangeText(low, high), why, [&value] { return std::to_string(value); },
                       [&value, low, high, expected](const std::string& text) -> std::string {
@@ -85,7 +87,7 @@ void OptionTable::add(const char* key, int& value, int low, int high, const char
                       }});
 }
 
-void OptionTable::add(const char* key, bool& value, const char* why) {
+void OptionTable::add(const std::string& key, bool& value, const std::string& why) {
   options_.push_back({key, "", "true or false", why, [&value] { return value ? "true" : "false"; },
                       [&value](const std::string& text) -> std::string {
                         if (text != "true" && text != "false") return "expected true or false";
@@ -94,7 +96,7 @@ void OptionTable::add(const char* key, bool& value, const char* why) {
                       }});
 }
 
-void OptionTable::add(const char* key, std::string& value, const char* why) {
+void OptionTable::add(const std::string& key, std::string& value, const std::string& why) {
   options_.push_back({key, "", "text", why, [&value] { return value; },
                       [&value](const std::string& text) -> std::string {
                         value = text;
@@ -102,8 +104,9 @@ void OptionTable::add(const char* key, std::string& value, const char* why) {
                       }});
 }
 
-void OptionTable::addName(const char* key, const std::vector<std::string>& names,
-                          std::function<size_t()> get, std::function<void(size_t)> set, const char* why) {
+void OptionTable::addName(const std::string& key, const std::vector<std::string>& names,
+                          std::function<size_t()> get, std::function<void(size_t)> set,
+                          const std::string& why) {
   const std::string list =
       std::accumulate(names.begin() + 1, names.end(), names.front(),
                       [](const std::string& all, const std::string& name) { return all + " | " + name; });

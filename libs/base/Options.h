@@ -28,23 +28,25 @@ struct Option {
 class OptionTable {
  public:
   /// A real number in [low, high].
-  void add(const char* key, double& value, double low, double high, const char* unit, const char* why);
+  void add(const std::string& key, double& value, double low, double high, const std::string& unit,
+           const std::string& why);
   /// An angle: degrees in the file, radians in the member; the range is in degrees.
-  void addAngle(const char* key, double& radians, double lowDeg, double highDeg, const char* why);
+  void addAngle(const std::string& key, double& radians, double lowDeg, double highDeg,
+                const std::string& why);
   /// A whole number in [low, high].
-  void add(const char* key, int& value, int low, int high, const char* why);
-  void add(const char* key, bool& value, const char* why);
-  void add(const char* key, std::string& value, const char* why);
+  void add(const std::string& key, int& value, int low, int high, const std::string& why);
+  void add(const std::string& key, bool& value, const std::string& why);
+  void add(const std::string& key, std::string& value, const std::string& why);
   /// One of a list of names, one for each enumerator.
   template <class Enum>
-  void add(const char* key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
-           const char* why);
+  void add(const std::string& key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
+           const std::string& why);
 
   const std::vector<Option>& options() const { return options_; }
 
  private:
-  void addName(const char* key, const std::vector<std::string>& names, std::function<size_t()> get,
-               std::function<void(size_t)> set, const char* why);
+  void addName(const std::string& key, const std::vector<std::string>& names, std::function<size_t()> get,
+               std::function<void(size_t)> set, const std::string& why);
   std::vector<Option> options_;
 };
 
@@ -69,8 +71,8 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 size_t editDistance(const std::string& a, const std::string& b);
 
 template <class Enum>
-void OptionTable::add(const char* key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
-                      const char* why) {
+void OptionTable::add(const std::string& key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
+                      const std::string& why) {
   std::vector<std::string> texts;
   for (const auto& entry : names) texts.push_back(entry.second);
   addName(

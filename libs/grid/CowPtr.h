@@ -1,0 +1,43 @@
+/// @file CowPtr.h
+/// @brief A value shared between copies until one of them writes.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace hybrid_slam {
+
+/// Copying copies a pointer; `write` gives this copy a value of its own first. Several threads may read and
+/// write different CowPtrs that share a value at the same time.
+template <class T>
+class CowPtr {
+ public:
+  CowPtr() = default;
+  explicit CowPtr(T value) : shared_(std::make_shared<T>(std::move(value))) {}
+
+  explicit operator bool() const { return shared_ != nullptr; }
+  const T* get() const { return shared_.get(); }
+  const T& operator*() const { return *shared_; }
+  const T* operator->() const { return shared_.get(); }
+  /// Whether both share one value, and so one piece of memory.
+  bool sharesWith(const CowPtr& other) const { return shared_ == other.shared_; }
+
+  /// The value, made this copy's own; a default value where there was none.
+  T& write() {
+    if (!shared_) {
+      shared_ = std::make_shared<T>();
+    } else if (shared_.use_count() > 1) {
+      shared_ = std::make_shared<T>(std::as_const(*shared_));
+    } else {
+      // The last other owner may have read the value on another thread just before it let go.
+      std::atomic_thread_fence(std::memory_order_acquire);
+    }
+    return *shared_;
+  }
+
+ private:
+  std::shared_ptr<T> shared_;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,123 @@
+/// @file TileGrid.h
+/// @brief An unbounded grid of small tiles, shared between copies and copied on write.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "grid/CowPtr.h"
+
+namespace hybrid_slam {
+
+/// Column and row of a cell; cell (i, j) covers [i s, (i+1) s) x [j s, (j+1) s) for a cell size s.
+struct CellIndex {
+  int x = 0, y = 0;
+  bool operator==(const CellIndex& o) const { return x == o.x && y == o.y; }
+};
+
+/// A rectangle of cells, both corners included; empty while max < min.
+struct CellBox {
+  CellIndex min{0, 0}, max{-1, -1};
+  bool empty() const { return max.x < min.x || max.y < min.y; }
+};
+
+/// Log-odds of occupancy in steps of 1/16 (MRPT's scale, sign reversed: positive is occupied), 0 = unknown.
+///
+/// The idea is DP-SLAM's: particles of one ancestry share what they agree on. A grid is a window of blocks of
+/// 16 x 16 tiles of 32 x 32 cells; blocks and tiles are copied on write, so that copying a grid costs a few
+/// pointers whatever the size of the map, and it grows in any direction without moving a cell.
+class TileGrid {
+ public:
+  static constexpr int kTileBits = 5, kTileSize = 1 << kTileBits;
+  static constexpr int kBlockBits = 4, kBlockSize = 1 << kBlockBits;
+
+  struct Tile {
+    alignas(64) std::array<int8_t, kTileSize * kTileSize> cells{};
+  };
+
+  /// The log-odds of a cell; 0 where nothing was ever written.
+  int8_t at(CellIndex cell) const {
+    const Tile* tile = tileAt(cell.x >> kTileBits, cell.y >> kTileBits);
+    return tile ? tile->cells[inTile(cell)] : int8_t{0};
+  }
+  void set(CellIndex cell, int8_t value) {
+    writableTile(cell.x >> kTileBits, cell.y >> kTileBits).cells[inTile(cell)] = value;
+  }
+
+  /// The tile that holds cells [32 tx, 32 tx + 31] x [32 ty, 32 ty + 31], or null.
+  const Tile* tileAt(int tx, int ty) const {
+    const CowPtr<Block>* block = findBlock(tx >> kBlockBits, ty >> kBlockBits);
+    return block && *block ? (*block)->tiles[inBlock(tx, ty)].get() : nullptr;
+  }
+  /// The same tile for writing: made if it is missing, unshared if another grid shares it.
+  Tile& writableTile(int tx, int ty);
+
+  /// The cells of all tiles that exist.
+  CellBox bounds() const;
+  /// Calls visit(tx, ty, tile) for each tile that exists, in a fixed order.
+  void forEachTile(const std::function<void(int, int, const Tile&)>& visit) const;
+
+  static size_t inTile(CellIndex cell) {
+    return static_cast<size_t>(((cell.y & (kTileSize - 1)) << kTileBits) | (cell.x & (kTileSize - 1)));
+  }
+
+ private:
+  struct Block {
+    std::array<CowPtr<Tile>, kBlockSize * kBlockSize> tiles;
+  };
+  static size_t inBlock(int tx, int ty) {
+    return static_cast<size_t>(((ty & (kBlockSize - 1)) << kBlockBits) | (tx & (kBlockSize - 1)));
+  }
+  const CowPtr<Block>* findBlock(int bx, int by) const {
+    const int column = bx - firstX_, row = by - firstY_;
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
+    return &blocks_[static_cast<size_t>(row * columns_ + column)];
+  }
+  void growTo(int bx, int by);
+
+  int firstX_ = 0, firstY_ = 0, columns_ = 0, rows_ = 0;  ///< the window of blocks, in block indices
+  std::vector<CowPtr<Block>> blocks_;
+};
+
+/// Reads cells along a path: remembers the tile of the last cell.
+class TileReader {
+ public:
+  explicit TileReader(const TileGrid& grid) : grid_(&grid) {}
+  int8_t at(int x, int y) {
+    const int tx = x >> TileGrid::kTileBits, ty = y >> TileGrid::kTileBits;
+    if (tx != tx_ || ty != ty_ || first_) {
+      tile_ = grid_->tileAt(tx, ty);
+      tx_ = tx, ty_ = ty, first_ = false;
+    }
+    return tile_ ? tile_->cells[TileGrid::inTile({x, y})] : int8_t{0};
+  }
+
+ private:
+  const TileGrid* grid_;
+  const TileGrid::Tile* tile_ = nullptr;
+  int tx_ = 0, ty_ = 0;
+  bool first_ = true;
+};
+
+/// Writes cells along a path: remembers the tile of the last cell.
+class TileWriter {
+ public:
+  explicit TileWriter(TileGrid& grid) : grid_(&grid) {}
+  int8_t& at(int x, int y) {
+    const int tx = x >> TileGrid::kTileBits, ty = y >> TileGrid::kTileBits;
+    if (!tile_ || tx != tx_ || ty != ty_) {
+      tile_ = &grid_->writableTile(tx, ty);
+      tx_ = tx, ty_ = ty;
+    }
+    return tile_->cells[TileGrid::inTile({x, y})];
+  }
+
+ private:
+  TileGrid* grid_;
+  TileGrid::Tile* tile_ = nullptr;
+  int tx_ = 0, ty_ = 0;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,54 @@
+#include "io/SimpleMapFile.h"
+
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "io/GzipCheck.h"
+
+namespace hybrid_slam {
+namespace {
+
+/// A CSimpleMap to whoever reads it, that makes its pairs one by one while it is written.
+class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
+ public:
+  StreamedSimpleMap(RawlogSource& source, const std::vector<bool>& isUpdate,
+                    const std::vector<mrpt::math::TPose2D>& path)
+      : source_(&source), isUpdate_(&isUpdate), path_(&path) {}
+
+  void serializeTo(mrpt::serialization::CArchive& out) const override {
+    out.WriteAs<uint32_t>(path_->size());
+    size_t written = 0;
+    for (const bool isUpdate : *isUpdate_) {
+      const auto reading = source_->next();
+      if (!isUpdate || !reading) continue;
+      mrpt::obs::CSensoryFrame frame;
+      frame.insert(reading->scan);
+      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D((*path_)[written++])};
+      out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
+    }
+  }
+
+ private:
+  RawlogSource* source_;
+  const std::vector<bool>* isUpdate_;
+  const std::vector<mrpt::math::TPose2D>* path_;
+};
+
+}  // namespace
+
+void saveSimpleMap(const OutputFolder& folder, RawlogSource& source, const std::vector<bool>& isUpdate,
+                   const std::vector<mrpt::math::TPose2D>& path) {
+  folder.writeFile("map.simplemap.gz", [&](const std::string& file) {
+    mrpt::io::CFileGZOutputStream out;
+    if (!out.open(file)) return false;
+    const StreamedSimpleMap map(source, isUpdate, path);
+    mrpt::serialization::archiveFrom(out) << map;
+    out.close();
+    return isWholeGzip(file);
+  });
+}
+
+}  // namespace hybrid_slam

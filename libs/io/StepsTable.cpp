@@ -1,0 +1,35 @@
+#include "io/StepsTable.h"
+
+#include <cstdio>
+
+namespace hybrid_slam {
+
+void writeStepsHeader(std::ostream& out) {
+  out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
+         "lines_seen,lines_matched,step_ms\n";
+}
+
+void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
+  const auto number = [&out](const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    out << text << ',';
+  };
+  number("%.6f", timestamp);
+  out << s.particles << ',';
+  number("%.6f", s.ess);
+  if (s.resampled) out << (*s.resampled ? 1 : 0);
+  out << ',';
+  for (const double spread : {s.stdX, s.stdY, s.stdPhi, s.stdAlong, s.stdAcross}) number("%.6f", spread);
+  for (const auto& weight : {s.gridWeight, s.lineWeight})
+    if (weight)
+      number("%.6f", *weight);
+    else
+      out << ',';
+  out << s.linesSeen << ',' << s.linesMatched << ',';
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3f", milliseconds);
+  out << text << '\n';
+}
+
+}  // namespace hybrid_slam

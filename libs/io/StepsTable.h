@@ -1,0 +1,15 @@
+/// @file StepsTable.h
+/// @brief `steps.csv`: one row for each update of the filter.
+#pragma once
+
+#include <ostream>
+
+#include "rbpf/FilterView.h"
+
+namespace hybrid_slam {
+
+void writeStepsHeader(std::ostream& out);
+/// @param timestamp  s; @param milliseconds  that the update took
+void writeStep(std::ostream& out, double timestamp, const FilterStep& step, double milliseconds);
+
+}  // namespace hybrid_slam

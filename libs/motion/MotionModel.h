@@ -1,0 +1,44 @@
+/// @file MotionModel.h
+/// @brief The motion model of the paper's [9] (Eliazar & Parr, ICML 2004): distance, drift and turn.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+
+#include <cmath>
+
+#include "base/Options.h"
+#include "base/RandomStream.h"
+
+namespace hybrid_slam {
+
+/// One of D, C, T: normal with a mean and a variance that grow with the odometry's translation d (m) and
+/// rotation t (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2.
+struct MotionTerm {
+  double meanD, meanT;
+  double varianceD, varianceT;
+};
+
+/// Section [motion_model].
+struct MotionModelOptions : Options {
+  MotionTerm distance{1, 0, 0.01, 0.0004};  ///< D, along heading + T / 2 (m)
+  MotionTerm drift{0, 0, 0.0025, 0.0004};   ///< C, perpendicular to D, positive to the left (m)
+  MotionTerm turn{0, 1, 0.0025, 0.01};      ///< T (rad)
+  double minStdXY = 0.005, minStdPhi = 0.1 * M_PI / 180;
+  void describe(OptionTable& table) override;
+};
+
+/// A pose increment drawn for one particle from the odometry's increment (both in the robot frame at the
+/// start of the step; m, rad): Sec. III-A, step 1.
+mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
+                                 RandomStream& random);
+
+/// MRPT's Gaussian motion model nearest to this one, for code of MRPT that draws by itself: it knows one
+/// deviation for both axes and no systematic error.
+mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& options);
+
+/// The action that MRPT's filters take for an odometry increment.
+mrpt::obs::CActionRobotMovement2D toAction(const mrpt::math::TPose2D& odometry,
+                                           const MotionModelOptions& options);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,27 @@
+#include "rbpf/FilterOptions.h"
+
+namespace hybrid_slam {
+
+void ParticleFilterOptions::describe(OptionTable& t) {
+  using mrpt::bayes::CParticleFilter;
+  t.add("particles", particles, 1, 100000, "number of particles");
+  t.add("proposal", proposal,
+        {{Proposal::standard, "standard"},
+         {Proposal::auxiliaryStandard, "auxiliary_standard"},
+         {Proposal::auxiliaryOptimal, "auxiliary_optimal"}},
+        "standard: the paper's, samples from the motion model; the others are MRPT's auxiliary filters");
+  t.add("resampling", resampling,
+        {{CParticleFilter::prMultinomial, "multinomial"},
+         {CParticleFilter::prResidual, "residual"},
+         {CParticleFilter::prStratified, "stratified"},
+         {CParticleFilter::prSystematic, "systematic"}},
+        "MRPT's scheme for drawing the next generation");
+  t.add("ess_threshold", essThreshold, 0, 1, "",
+        "resamples when the effective sample size, as a share of the particles, is below");
+  t.add("update_distance", updateDistance, 0, 100, "m", "the filter runs when the robot has moved this far");
+  t.addAngle("update_angle_deg", updateAngle, 0, 360, "or has turned this far");
+  t.add("seed", seed, 0, 2147483647, "same seed, same bytes, for any number of threads");
+  t.add("threads", threads, 0, 1024, "threads over particles; 0: all cores");
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,64 @@
+/// @file FilterOptions.h
+/// @brief Settings of the particle filter, and those of all its parts together.
+#pragma once
+
+#include <mrpt/bayes/CParticleFilter.h>
+
+#include <cmath>
+
+#include "base/Options.h"
+#include "grid/GridWeight.h"
+#include "lines/LineAssociation.h"
+#include "lines/LineDatabase.h"
+#include "lines/LineExtractor.h"
+#include "lines/LineWeight.h"
+#include "motion/MotionModel.h"
+
+namespace hybrid_slam {
+
+/// Section [particle_filter].
+struct ParticleFilterOptions : Options {
+  enum class Proposal { standard, auxiliaryStandard, auxiliaryOptimal };
+
+  int particles = 50;
+  Proposal proposal = Proposal::standard;
+  mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
+      mrpt::bayes::CParticleFilter::prSystematic;
+  double essThreshold = 0.5;
+  double updateDistance = 0.3;
+  double updateAngle = 15 * M_PI / 180;
+  int seed = 1;
+  int threads = 1;
+  void describe(OptionTable& table) override;
+};
+
+/// The filter and its parts, a section each.
+struct FilterConfiguration {
+  bool useLines = true;  ///< false: the same filter without lines, `--method general`
+  ParticleFilterOptions filter;
+  MotionModelOptions motion;
+  GridOptions grid;
+  GridWeightOptions gridWeight;
+  SegmentationOptions segmentation;
+  LineFitOptions lineFit;
+  HoughOptions hough;
+  AssociationOptions association;
+  LineDatabaseOptions database;
+  LineWeightOptions lineWeight;
+
+  /// (section, options) of every part.
+  std::vector<std::pair<std::string, Options*>> sections() {
+    return {{"particle_filter", &filter},
+            {"motion_model", &motion},
+            {"grid", &grid},
+            {"grid_weight", &gridWeight},
+            {"segmentation", &segmentation},
+            {"line_fit", &lineFit},
+            {"hough", &hough},
+            {"line_association", &association},
+            {"line_database", &database},
+            {"line_weight", &lineWeight}};
+  }
+};
+
+}  // namespace hybrid_slam

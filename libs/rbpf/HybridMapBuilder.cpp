@@ -1,0 +1,160 @@
+#include "rbpf/HybridMapBuilder.h"
+
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/poses/CPose3DPDFParticles.h>
+
+#include <cmath>
+
+#include "base/Errors.h"
+#include "grid/GridConversion.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation2DRangeScan;
+
+namespace {
+
+mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions& options) {
+  using mrpt::bayes::CParticleFilter;
+  using Proposal = ParticleFilterOptions::Proposal;
+  CParticleFilter::TParticleFilterOptions out;
+  out.PF_algorithm = options.proposal == Proposal::standard ? CParticleFilter::pfStandardProposal
+                     : options.proposal == Proposal::auxiliaryStandard
+                         ? CParticleFilter::pfAuxiliaryPFStandard
+                         : CParticleFilter::pfAuxiliaryPFOptimal;
+  out.resamplingMethod = options.resampling;
+  out.sampleSize = static_cast<unsigned int>(options.particles);
+  out.BETA = options.essThreshold;
+  out.adaptiveSampleSize = false;
+  return out;
+}
+
+}  // namespace
+
+HybridMapBuilder::HybridMapBuilder(const FilterConfiguration& configuration)
+    : configuration_(configuration),
+      lineExtractor_(configuration.segmentation, configuration.lineFit, configuration.hough),
+      particles_(configuration) {
+  particleFilter_.m_options = mrptOptions(configuration.filter);
+  initialize();
+}
+
+void HybridMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
+                                                mrpt::obs::CSensoryFrame& observations) {
+  odometry_ = odometry_ + odometryIncrement(action);
+  const auto scan = observations.getObservationByClass<CObservation2DRangeScan>();
+  const bool isDue = !hasMap_ || odometry_.norm() >= configuration_.filter.updateDistance ||
+                     std::abs(odometry_.phi) >= configuration_.filter.updateAngle;
+  if (scan && isDue) update(*scan, observations);
+}
+
+// Fig. 1 from top to bottom.
+void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
+                              mrpt::obs::CSensoryFrame& observations) {
+  const PreparedScan scan = prepare(observation);  // line detection, Sec. III-B
+  particles_.beginStep(scan);
+  if (hasMap_) {
+    mrpt::obs::CActionCollection motion;
+    motion.insert(toAction(odometry_, configuration_.motion));
+    particleFilter_.executeOn(particles_, &motion, &observations);  // sample, weigh, resample
+  } else {
+    particles_.appendPose(odometry_);
+  }
+  particles_.updateMaps();  // map estimation: grids and line databases, Sec. III-C
+
+  odometry_ = TPose2D();
+  hasMap_ = true;
+  ++updates_;
+  if (remembersScans_) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(observations.getObservationByClass<CObservation2DRangeScan>());
+    scans_.push_back(frame);
+  }
+}
+
+PreparedScan HybridMapBuilder::prepare(const CObservation2DRangeScan& observation) const {
+  const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
+  return {&observation, ScanBeams(scan, 1),
+          ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
+          configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
+}
+
+void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, const mrpt::poses::CPosePDF* x0) {
+  odometry_ = TPose2D();
+  updates_ = 0;
+  hasMap_ = false;
+  scans_.clear();
+  particles_.reset(TPose2D());
+  for (size_t i = 0; i < initialMap.size(); ++i) {
+    const auto [posePdf, frame] = initialMap.getAsPair(i);
+    const auto scan = frame->getObservationByClass<CObservation2DRangeScan>();
+    if (!scan) continue;
+    particles_.appendPose(TPose2D(posePdf->getMeanVal().asTPose()) - particles_.best().path.back());
+    const PreparedScan prepared = prepare(*scan);
+    particles_.beginStep(prepared);
+    particles_.updateMaps();
+    hasMap_ = true;
+  }
+  const TPose2D start = x0 ? x0->getMeanVal().asTPose() : particles_.best().path.back();
+  particles_.startPathAt(start);
+}
+
+mrpt::poses::CPose3DPDF::Ptr HybridMapBuilder::getCurrentPoseEstimation() const {
+  auto pdf = std::make_shared<mrpt::poses::CPose3DPDFParticles>();
+  pdf->m_particles.clear();
+  for (const auto& [pose, logWeight] : particles_.poses()) {
+    pdf->m_particles.emplace_back();
+    pdf->m_particles.back().d = mrpt::math::TPose3D(pose + odometry_);
+    pdf->m_particles.back().log_w = logWeight;
+  }
+  return pdf;
+}
+
+void HybridMapBuilder::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const {
+  map.clear();
+  const std::vector<TPose2D> path = bestPath();
+  for (size_t i = 0; i < scans_.size(); ++i)
+    map.insert(mrpt::poses::CPosePDFGaussian(mrpt::poses::CPose2D(path[i])), *scans_[i]);
+}
+
+const mrpt::maps::CMultiMetricMap* HybridMapBuilder::getCurrentlyBuiltMetricMap() const {
+  metricMap_.maps.clear();
+  metricMap_.maps.push_back(mrpt::maps::COccupancyGridMap2D::Create(bestGrid()));
+  return &metricMap_;
+}
+
+void HybridMapBuilder::saveCurrentEstimationToImage(const std::string& file, bool /*formatEmfBmp*/) {
+  bestGrid().saveAsBitmapFile(file);
+}
+
+void HybridMapBuilder::getCurrentMostLikelyPath(std::deque<mrpt::math::TPose3D>& path) const {
+  path.clear();
+  for (const TPose2D& pose : bestPath()) path.emplace_back(pose);
+}
+
+std::vector<TPose2D> HybridMapBuilder::bestPath() const {
+  std::vector<TPose2D> poses = particles_.best().path.poses();
+  poses.erase(poses.begin());  // where the robot was before its first scan
+  return poses;
+}
+
+mrpt::maps::COccupancyGridMap2D HybridMapBuilder::bestGrid() const { return toMrpt(particles_.best().grid); }
+
+std::vector<DatabaseLine> HybridMapBuilder::bestLines() const {
+  const auto& lines = particles_.best().lines->lines();
+  return {lines.begin(), lines.end()};
+}
+
+TPose2D odometryIncrement(const mrpt::obs::CActionCollection& action) {
+  if (const auto flat = action.getBestMovementEstimation()) {
+    if (flat->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry)
+      return flat->rawOdometryIncrementReading.asTPose();
+    return flat->poseChange->getMeanVal().asTPose();
+  }
+  if (const auto spatial = action.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
+    return TPose2D(spatial->poseChange.getMeanVal().asTPose());
+  throw InputError("no odometry", "action of the step", "expected a CActionRobotMovement2D or 3D");
+}
+
+}  // namespace hybrid_slam

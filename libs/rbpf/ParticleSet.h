@@ -1,0 +1,93 @@
+/// @file ParticleSet.h
+/// @brief The particles on MRPT's particle-filter scaffolding: Sec. III-A, steps 1 to 4.
+#pragma once
+
+#include <mrpt/bayes/CParticleFilterData.h>
+#include <mrpt/slam/PF_implementations_data.h>
+#include <tbb/task_arena.h>
+
+#include "rbpf/FilterOptions.h"
+#include "rbpf/FilterView.h"
+#include "rbpf/Particle.h"
+
+namespace hybrid_slam {
+
+/// What all particles need of one scan, prepared once.
+struct PreparedScan {
+  const mrpt::obs::CObservation2DRangeScan* observation;
+  ScanBeams beams;                 ///< every beam, for insertion
+  ScanBeams weighedBeams;          ///< every beam_step-th, for weighing
+  std::vector<LineSegment> lines;  ///< robot frame
+};
+
+class ParticleSet
+    : public mrpt::bayes::CParticleFilterData<Particle>,
+      public mrpt::bayes::CParticleFilterDataImpl<ParticleSet,
+                                                  mrpt::bayes::CParticleFilterData<Particle>::CParticleList>,
+      public mrpt::slam::PF_implementation<Particle, ParticleSet,
+                                           mrpt::bayes::particle_storage_mode::POINTER> {
+ public:
+  explicit ParticleSet(const FilterConfiguration& configuration);
+  ParticleSet(const ParticleSet&) = delete;
+  ParticleSet& operator=(const ParticleSet&) = delete;
+
+  /// All particles at `start` with empty maps; nothing has been weighed.
+  void reset(const mrpt::math::TPose2D& start);
+  /// Readies the next step: its scan, and the random streams of its number.
+  void beginStep(const PreparedScan& scan);
+  /// Moves every particle by `motion` without sampling or weighing: while there is no map.
+  void appendPose(const mrpt::math::TPose2D& motion);
+  /// Forgets the paths so far, keeps the maps: every particle goes on from `start`.
+  void startPathAt(const mrpt::math::TPose2D& start);
+  /// Step 4, map estimation: scan into the grids, lines into the databases, at each particle's pose.
+  void updateMaps();
+
+  const Particle& best() const;  ///< argmax of the weight before resampling
+  const FilterStep& lastStep() const { return step_; }
+  std::vector<WeightedPose> poses() const;
+
+  /// Also gives all particles the same weight again, which MRPT 2.5.8 forgets (doc/mrpt-notes.md).
+  void performSubstitution(const std::vector<size_t>& indices) override;
+
+  /// @name What MRPT's PF_implementation asks for
+  /// @{
+  mrpt::math::TPose3D getLastPose(size_t i, bool& isValid) const override;
+  void PF_SLAM_implementation_custom_update_particle_with_new_pose(
+      Particle* particle, const mrpt::math::TPose3D& pose) const override;
+  double PF_SLAM_computeObservationLikelihoodForParticle(
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& options, size_t particle,
+      const mrpt::obs::CSensoryFrame& observation, const mrpt::poses::CPose3D& pose) const override;
+  /// @}
+
+ protected:
+  void prediction_and_update_pfStandardProposal(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
+  void prediction_and_update_pfAuxiliaryPFStandard(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
+  void prediction_and_update_pfAuxiliaryPFOptimal(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
+
+ private:
+  struct Weight {
+    double logGrid;  ///< ln w_grid before tempering
+    LineWeight line;
+    double log(double exponent) const;
+  };
+  Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose) const;
+  void setWeight(Particle& particle, const Weight& weight) const;
+  void summarise();
+  template <class Body>
+  void forEachParticle(const Body& body);
+
+  FilterConfiguration configuration_;
+  GridWeight gridWeight_;
+  tbb::task_arena arena_;
+  const PreparedScan* scan_ = nullptr;
+  uint64_t stepNumber_ = 0;
+  FilterStep step_;
+};
+
+}  // namespace hybrid_slam

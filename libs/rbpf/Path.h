@@ -1,0 +1,55 @@
+/// @file Path.h
+/// @brief A particle's trajectory, shared with the particles of the same ancestry.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace hybrid_slam {
+
+/// The poses of one trajectory hypothesis, newest last (map frame). Copying costs one pointer, whatever the
+/// length; what two particles have in common is stored once.
+class Path {
+ public:
+  void push(const mrpt::math::TPose2D& pose) {
+    const size_t length = size() + 1;
+    last_ = std::make_shared<Node>(pose, length, std::move(last_));
+  }
+  bool empty() const { return !last_; }
+  size_t size() const { return last_ ? last_->length : 0; }
+  /// The newest pose; the origin of the map before the first one.
+  mrpt::math::TPose2D back() const { return last_ ? last_->pose : mrpt::math::TPose2D(); }
+  bool sharesWith(const Path& other) const { return last_ == other.last_; }
+
+  /// All poses, oldest first.
+  std::vector<mrpt::math::TPose2D> poses() const {
+    std::vector<mrpt::math::TPose2D> all;
+    all.reserve(size());
+    for (const Node* node = last_.get(); node; node = node->parent.get()) all.push_back(node->pose);
+    std::reverse(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  struct Node {
+    Node(const mrpt::math::TPose2D& p, size_t n, std::shared_ptr<Node> before)
+        : pose(p), length(n), parent(std::move(before)) {}
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+    /// Frees the ancestors that nobody else holds in a loop: an hour of driving would overflow the stack.
+    ~Node() {
+      std::shared_ptr<Node> node = std::move(parent);
+      while (node && node.use_count() == 1) node = std::move(node->parent);
+    }
+    mrpt::math::TPose2D pose;
+    size_t length;
+    std::shared_ptr<Node> parent;
+  };
+  std::shared_ptr<Node> last_;
+};
+
+}  // namespace hybrid_slam
