@@ -1,0 +1,135 @@
+/// @file main.cpp
+/// @brief log2rawlog: CARMEN, GMapping and DP-SLAM logs to rawlogs, with their own timestamps.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "io/LogConversion.h"
+
+namespace {
+
+using hybrid_slam::LogFormat;
+using hybrid_slam::LogTime;
+
+int fail(int code, std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::cerr << "log2rawlog: error: " << text << std::endl;
+  return code;
+}
+
+/// CLI::Range lets `nan` pass.
+CLI::Validator within(double low, double high) {
+  std::ostringstream range;
+  range << low << ".." << high;
+  return {[low, high, text = range.str()](const std::string& given) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(given, value) && value >= low && value <= high) return {};
+            return "`" + given + "` is not a number in " + text;
+          },
+          range.str()};
+}
+
+const char* formatName(LogFormat format) {
+  switch (format) {
+    case LogFormat::gfs:
+      return "GMapping .gfs";
+    case LogFormat::dpslam:
+      return "DP-SLAM";
+    default:
+      return "CARMEN";
+  }
+}
+
+void printSummary(const std::string& output, const hybrid_slam::LogSummary& s) {
+  std::printf("%s: %s log, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken lines",
+              output.c_str(), formatName(s.format), s.scans, s.odometryReadings, s.latest - s.earliest,
+              s.pathLength, s.brokenLines);
+  const char* separator = "; passed over: ";
+  for (const auto& [name, count] : s.otherRecords) {
+    std::printf("%s%zu %s", separator, count, name.c_str());
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
+/// A SICK laser says "no return" by the numbers 8183 to 8191 in its unit: cm in the 80 m mode, mm in the 8 m
+/// mode, where they pass for walls.
+void warnOfShortMode(const std::string& input, float longestRange) {
+  if (longestRange < 8.1829f || longestRange > 8.1911f) return;
+  std::cerr << "log2rawlog: warning: the longest readings are " << longestRange
+            << " m, by which a SICK laser in its 8 m mode means no return: " << input
+            << "; --max-range 8.18 drops them\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::string input, output;
+  hybrid_slam::LogConversionOptions options;
+  std::optional<double> angularStepDeg;
+  std::string format, time = "ipc";
+
+  CLI::App app{
+      "Converts a robot's text log (CARMEN, GMapping .gfs, DP-SLAM; plain or gzipped) into a rawlog."};
+  app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
+  app.add_option("input", input, "the log")->required()->type_name("in.clf[.gz]");
+  app.add_option("output", output, "the rawlog to write")->required()->type_name("out.rawlog");
+  app.add_option("--format", format, "what the log is; told from its content unless given")
+      ->check(CLI::IsMember({"carmen", "gfs", "dpslam"}));
+  app.add_option("--time", time, "CARMEN: the message's own time, or that of its arrival at the logger")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"ipc", "logger"}));
+  app.add_option("--period", options.period, "DP-SLAM, whose logs have no times: time between two scans, s")
+      ->capture_default_str()
+      ->type_name("S")
+      ->check(within(1e-6, 1e4));
+  app.add_option("--max-range", options.maxRange,
+                 "a reading from here on is no return, m (default: 80, which covers the 81.83 and 81.91 of "
+                 "CARMEN logs; DP-SLAM: 8.18)")
+      ->type_name("M")
+      ->check(within(0.01, 1e4));
+  app.add_option("--angular-step", angularStepDeg,
+                 "between two beams, deg (default: by the number of beams: 1 for 180 and 181, 0.5 for 360 "
+                 "and 361, ...); ROBOTLASER1 rows carry their own")
+      ->type_name("DEG")
+      ->check(within(1e-3, 90.));
+  app.add_option("--laser-x", options.laserX,
+                 "the front laser ahead of the robot's centre, m (default: what PARAM "
+                 "robot_frontlaser_offset says, else 0)")
+      ->type_name("M")
+      ->check(within(-100., 100.));
+  app.add_flag("--action-observation", options.actionObservation,
+               "write (action, sensory frame) pairs instead of one observation for each row");
+  app.add_flag("--strict", options.strict, "stop at the first broken line");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    return fail(2, std::string(e.what()) + ": command line; see log2rawlog --help");
+  }
+  const std::map<std::string, LogFormat> formats{
+      {"carmen", LogFormat::carmen}, {"gfs", LogFormat::gfs}, {"dpslam", LogFormat::dpslam}};
+  if (!format.empty()) options.format = formats.at(format);
+  options.time = time == "ipc" ? LogTime::ipc : LogTime::logger;
+  if (angularStepDeg) options.angularStep = *angularStepDeg * M_PI / 180;
+
+  const auto summary =
+      hybrid_slam::convertLog(input, output, options, [&input](size_t number, const std::string& why) {
+        std::cerr << "log2rawlog: warning: broken line: " << input << ", line " << number << "; " << why
+                  << '\n';
+      });
+  warnOfShortMode(input, summary.longestRange);
+  printSummary(output, summary);
+  return 0;
+} catch (const hybrid_slam::InputError& e) {
+  return fail(2, e.what());
+} catch (const std::exception& e) {
+  return fail(1, e.what());
+}

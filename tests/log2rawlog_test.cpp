@@ -1,0 +1,214 @@
+/// What a user of the program sees: exit code, messages, files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/obs/CRawlog.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "io/TemporaryFolder.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string scanRow(const std::string& time, const std::string& range = "2.5") {
+  std::string row = "FLASER 181";
+  for (int i = 0; i < 181; ++i) row += " " + range;
+  return row + " 0 0 0 " + time + " 0 0 " + time + " host 0\n";
+}
+
+class Log2Rawlog : public testing::Test {
+ protected:
+  /// Runs the program; `before` is shell code that runs first.
+  int run(const std::string& arguments, const std::string& before = "") {
+    const std::string command = before + "'" LOG2RAWLOG "' " + arguments + " >'" + folder.path("stdout") +
+                                "' 2>'" + folder.path("stderr") + "'";
+    const int status = std::system(command.c_str());
+    out = contentOf(folder.path("stdout"));
+    err = contentOf(folder.path("stderr"));
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int convert(const std::string& input, const std::string& options = "", const std::string& before = "") {
+    return run(options + " '" + input + "' '" + rawlog + "'", before);
+  }
+  /// Exit 2, one line that says so, and no file.
+  void expectError(int exitCode, const std::string& text) {
+    EXPECT_EQ(exitCode, 2);
+    EXPECT_THAT(err, MatchesRegex("log2rawlog: error: [^\n]*: [^\n]*; [^\n]*\n"));
+    EXPECT_THAT(err, HasSubstr(text));
+    EXPECT_THAT(out, IsEmpty());
+    EXPECT_FALSE(fs::exists(rawlog));
+    EXPECT_FALSE(fs::exists(rawlog + ".part"));
+  }
+  size_t entries() const {
+    mrpt::obs::CRawlog log;
+    return log.loadFromRawLogFile(rawlog) ? log.size() : 0;
+  }
+
+  TemporaryFolder folder;
+  std::string rawlog = folder.path("out.rawlog");
+  std::string out, err;
+};
+
+TEST_F(Log2Rawlog, ConvertsAndSumsUp) {
+  const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5") + "SYNC tag\n");
+  EXPECT_EQ(convert(log), 0);
+  EXPECT_EQ(out, rawlog +
+                     ": CARMEN log, 2 scans, 2 odometry readings, 2.5 s, path 2.5 m, 0 broken lines; "
+                     "passed over: 1 SYNC\n");
+  EXPECT_THAT(err, IsEmpty());
+  EXPECT_EQ(entries(), 4u);
+}
+
+TEST_F(Log2Rawlog, GzippedGivesTheSameBytes) {
+  const std::string log = scanRow("10") + scanRow("12.5");
+  EXPECT_EQ(convert(folder.write("in.clf", log)), 0);
+  const std::string plain = contentOf(rawlog);
+  gzFile file = gzopen(folder.path("in.clf.gz").c_str(), "wb");
+  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
+  gzclose(file);
+  EXPECT_EQ(convert(folder.path("in.clf.gz")), 0);
+  EXPECT_EQ(contentOf(rawlog), plain);
+}
+
+TEST_F(Log2Rawlog, BrokenLinesAreReportedAndDoNotStop) {
+  const std::string log = folder.write("in.clf", scanRow("10") + "ODOM 1 2\n" + scanRow("11"));
+  EXPECT_EQ(convert(log), 0);
+  EXPECT_EQ(err, "log2rawlog: warning: broken line: " + log +
+                     ", line 2; 2 fields where 9 were expected: x y theta tv rv acceleration ipc_time host "
+                     "logger_time\n");
+  EXPECT_THAT(out, HasSubstr("2 scans"));
+  EXPECT_THAT(out, HasSubstr("1 broken lines"));
+}
+
+TEST_F(Log2Rawlog, StrictStopsAtABrokenLine) {
+  const std::string log = folder.write("in.clf", scanRow("10") + "ODOM 1 2\n" + scanRow("11"));
+  expectError(convert(log, "--strict"), "line 2; 2 fields");
+}
+
+TEST_F(Log2Rawlog, OptionsReachTheConversion) {
+  const std::string log =
+      folder.write("in.log", "Odometry 0 0 0\nLaser 3 1 2 3\nOdometry 1 0 0\nLaser 3 1 2 3\n");
+  EXPECT_EQ(convert(log, "--format dpslam --period 0.25 --laser-x -0.4 --angular-step 2 --max-range 7"), 0);
+  EXPECT_THAT(out, HasSubstr("DP-SLAM log, 2 scans, 2 odometry readings, 0.2 s"));
+  EXPECT_EQ(convert(log, "--action-observation --angular-step 2"), 0);
+  EXPECT_EQ(entries(), 4u);
+  const std::string carmen = folder.write("in.clf", scanRow("10") + scanRow("20"));
+  EXPECT_EQ(convert(carmen, "--time logger"), 0);
+  EXPECT_THAT(out, HasSubstr(" 0.0 s,"));
+  EXPECT_EQ(convert(carmen, "--time ipc"), 0);
+  EXPECT_THAT(out, HasSubstr(" 10.0 s,"));
+}
+
+TEST_F(Log2Rawlog, WarnsOfTheEightMetreMode) {
+  const std::string log = folder.write("in.clf", scanRow("10", "8.183"));
+  EXPECT_EQ(convert(log), 0);
+  EXPECT_THAT(err, HasSubstr("--max-range 8.18 drops them"));
+  EXPECT_EQ(convert(log, "--max-range 8.18"), 0);
+  EXPECT_THAT(err, IsEmpty());
+}
+
+TEST_F(Log2Rawlog, HelpAndVersion) {
+  EXPECT_EQ(run("--help"), 0);
+  for (const char* option : {"--format", "--time", "--period", "--max-range", "--angular-step", "--laser-x",
+                             "--action-observation", "--strict", "--version"})
+    EXPECT_THAT(out, HasSubstr(option));
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_THAT(out, MatchesRegex("log2rawlog [0-9]+[.][0-9]+[.][0-9]+\n"));
+}
+
+TEST_F(Log2Rawlog, WrongCommandLine) {
+  const std::string log = folder.write("in.clf", scanRow("10"));
+  expectError(run(""), "input is required");
+  expectError(run("'" + log + "'"), "output is required");
+  expectError(convert(log, "--frmat carmen"), "");
+  expectError(convert(log, "--format clf"), "clf");
+  expectError(convert(log, "--time now"), "now");
+  expectError(convert(log, "--max-range -1"), "-1");
+  expectError(convert(log, "--angular-step x"), "angular-step");
+  expectError(convert(log, "--period 0"), "period");
+  expectError(convert(log, "--laser-x nan"), "laser-x");
+}
+
+TEST_F(Log2Rawlog, WrongInput) {
+  expectError(convert(folder.path("none")), "no such file: " + folder.path("none") + "; expected");
+  expectError(convert(folder.path("")), "a folder, not a file");
+  expectError(convert(folder.write("empty", "")), "not a robot log");
+  expectError(convert(folder.write("text", "once upon\na time\n")), "not a robot log");
+  expectError(convert(LOG2RAWLOG), "not a");
+  expectError(convert(folder.write("odometry", "ODOM 1 2 3 0 0 0 5 host 6\n")), "no laser scan");
+  const std::string whole = folder.write("whole", scanRow("1"));
+  ASSERT_EQ(convert(whole), 0);
+  const std::string bytes = contentOf(rawlog);
+  fs::remove(rawlog);
+  expectError(convert(folder.write("rawlog", bytes)), "not a robot log");
+}
+
+TEST_F(Log2Rawlog, CutGzip) {
+  std::string log;
+  for (int i = 0; i < 2000; ++i) log += scanRow(std::to_string(i), std::to_string(1 + i % 37));
+  gzFile file = gzopen(folder.path("whole.gz").c_str(), "wb");
+  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
+  gzclose(file);
+  const std::string bytes = contentOf(folder.path("whole.gz"));
+  // The last line that could still be read may be a broken one, which is reported before.
+  EXPECT_EQ(convert(folder.write("cut.gz", bytes.substr(0, bytes.size() / 2))), 2);
+  EXPECT_THAT(err,
+              HasSubstr("log2rawlog: error: gzip file cut off: " + folder.path("cut.gz") + ", after line "));
+  EXPECT_FALSE(fs::exists(rawlog));
+  EXPECT_FALSE(fs::exists(rawlog + ".part"));
+}
+
+TEST_F(Log2Rawlog, UnreadableInput) {
+  const std::string log = folder.write("in.clf", scanRow("10"));
+  fs::permissions(log, fs::perms::none);
+  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who may read everything";
+  expectError(convert(log), "cannot read");
+}
+
+TEST_F(Log2Rawlog, OutputThatCannotBeWritten) {
+  const std::string log = folder.write("in.clf", scanRow("10"));
+  rawlog = folder.path("none/out.rawlog");
+  expectError(convert(log), "cannot write: " + rawlog);
+  EXPECT_EQ(run("'" + log + "' '" + folder.path("") + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("expected the name of a file"));
+  EXPECT_EQ(run("'" + log + "' '" + log + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("the output is the input"));
+  EXPECT_EQ(contentOf(log), scanRow("10"));
+}
+
+/// A limit on the size of files stands in for a full disk: writing fails in the middle.
+TEST_F(Log2Rawlog, DiskFull) {
+  std::string log;
+  for (int i = 0; i < 3000; ++i) {
+    std::string row = scanRow(std::to_string(i));
+    for (size_t at = row.find("2.5"), k = 1; at != std::string::npos; at = row.find("2.5", at + 3), ++k)
+      row[at + 2] = static_cast<char>('0' + (static_cast<size_t>(i) * k * k % 101) % 10);
+    log += row;
+  }
+  const std::string path = folder.write("in.clf", log);
+  ASSERT_EQ(convert(path), 0);
+  ASSERT_GT(fs::file_size(rawlog), 40000u);
+  fs::remove(rawlog);
+  expectError(convert(path, "", "trap '' XFSZ; ulimit -f 20; "), "cannot write: " + rawlog);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
