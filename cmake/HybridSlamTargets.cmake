@@ -45,3 +45,11 @@ function(hybrid_slam_app name)
   target_link_libraries(${name} PRIVATE ${ARGN} CLI11::CLI11 hybrid_slam_flags)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()
+
+# hybrid_slam_program_test(FILE PROGRAM MACRO TARGET...): FILE.cpp runs PROGRAM, whose path MACRO holds.
+function(hybrid_slam_program_test file program macro)
+  hybrid_slam_test(${file} ${file}_test.cpp)
+  target_link_libraries(hybrid_slam_${file}_test PRIVATE ${ARGN})
+  target_compile_definitions(hybrid_slam_${file}_test PRIVATE ${macro}="$<TARGET_FILE:${program}>")
+  add_dependencies(hybrid_slam_${file}_test ${program})
+endfunction()

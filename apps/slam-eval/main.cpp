@@ -108,12 +108,10 @@ int run(int argc, char** argv) {
   relations
       ->add_option("--tolerance", line.relationTolerance,
                    "between a relation's time and a pose, s; with odometry at most 0.006")
-      ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   for (CLI::App* command : {ate, rpe}) {
     command->add_option("--reference", line.reference, "the truth, TUM file")->required();
     command->add_option("--tolerance", line.referenceTolerance, "between a pose and its reference pose, s")
-        ->check(CLI::Range(0.0, 1e9))
         ->capture_default_str();
   }
   rpe->add_option("--delta", line.delta, "length of the stretch, `1s` or `0.5m`")->capture_default_str();
@@ -125,6 +123,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError(error.what(), "command line", "see slam-eval --help");
   }
+
+  for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
+    if (!(tolerance >= 0))
+      throw InputError("wrong value", "option --tolerance", "expected a number of seconds, 0 or more");
 
   const Json json = *relations ? relationsJson(line) : *ate ? ateJson(line) : rpeJson(line);
   std::cout << json.dump(2) << std::endl;

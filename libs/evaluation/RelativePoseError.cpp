@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace hybrid_slam {
 namespace {
 
 /// Time (s) or way along the reference (m) at each pair; grows from pair to pair.
-std::vector<double> progress(const std::vector<PosePair>& pairs, RpeDelta::Unit unit) {
+std::vector<double> progressAlong(const std::vector<PosePair>& pairs, RpeDelta::Unit unit) {
   std::vector<double> result;
   for (size_t i = 0; i < pairs.size(); ++i) {
     const mrpt::math::TPose2D& here = pairs[i].reference;
@@ -25,27 +26,34 @@ std::vector<double> progress(const std::vector<PosePair>& pairs, RpeDelta::Unit 
   return result;
 }
 
+/// The index after i, which is not the last, whose progress is nearest to the target.
+size_t nearestAfter(const std::vector<double>& progress, size_t i, double target) {
+  const auto first = std::next(progress.begin(), static_cast<std::ptrdiff_t>(i) + 1);
+  auto nearest = std::lower_bound(first, progress.end(), target);
+  if (nearest == progress.end() || (nearest != first && target - *std::prev(nearest) <= *nearest - target))
+    --nearest;
+  return static_cast<size_t>(nearest - progress.begin());
+}
+
 }  // namespace
 
 RpeErrors relativePoseError(const Trajectory& estimate, const Trajectory& reference, const RpeDelta& delta,
                             double tolerance) {
   constexpr double kLengthTolerance = 0.1;  // of delta
+  constexpr double kRounding = 1e-6;        // s or m; of stamps in files
   std::vector<PosePair> pairs = associate(estimate, reference, tolerance);
   if (delta.unit == RpeDelta::Unit::seconds)
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const PosePair& a, const PosePair& b) { return a.timestamp < b.timestamp; });
-  const std::vector<double> at = progress(pairs, delta.unit);
+  const std::vector<double> at = progressAlong(pairs, delta.unit);
 
   std::vector<double> translations, rotations;
   for (size_t i = 0; i + 1 < pairs.size(); ++i) {
     const double target = at[i] + delta.length;
-    auto end = std::lower_bound(at.begin() + static_cast<std::ptrdiff_t>(i) + 1, at.end(), target);
-    if (end == at.end() ||
-        (end - at.begin() > static_cast<std::ptrdiff_t>(i) + 1 && target - *(end - 1) <= *end - target))
-      --end;
-    if (std::abs(*end - target) > kLengthTolerance * delta.length) continue;
-    const PosePair& first = pairs[i];
-    const PosePair& last = pairs[static_cast<size_t>(end - at.begin())];
+    if (at.back() < target - kRounding) break;  // cut short by the end: these would all be too short
+    const size_t j = nearestAfter(at, i, target);
+    if (std::abs(at[j] - target) > kLengthTolerance * delta.length) continue;
+    const PosePair &first = pairs[i], &last = pairs[j];
     const mrpt::math::TPose2D error = (last.estimate - first.estimate) - (last.reference - first.reference);
     translations.push_back(std::hypot(error.x, error.y));
     rotations.push_back(std::abs(error.phi));

@@ -24,7 +24,8 @@ struct RpeErrors {
 
 /// The errors inverse(inverse(r_i) + r_j) + (inverse(p_i) + p_j) of the estimate p against the reference r.
 /// Every pose i begins one stretch; it ends at the pose j whose time, or way along the reference, after i is
-/// nearest to delta, and counts if it is so within 10 %. Time is by stamp; way adds up in file order.
+/// nearest to delta, and counts if it is so within 10 % and the trajectory does not end before. Time is by
+/// stamp; way adds up in file order.
 /// @param tolerance  s; between a pose and the reference pose it is compared with
 /// @throws InputError if the two do not overlap in time or hold no stretch of that length.
 RpeErrors relativePoseError(const Trajectory& estimate, const Trajectory& reference, const RpeDelta& delta,

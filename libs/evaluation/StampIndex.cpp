@@ -19,7 +19,7 @@ std::optional<size_t> StampIndex::nearest(double timestamp, double tolerance) co
   if (after != stamps_.begin()) best = after - 1;
   if (after != stamps_.end() && (best == stamps_.end() || after->first - timestamp < timestamp - best->first))
     best = after;
-  if (best == stamps_.end() || std::abs(best->first - timestamp) > tolerance) return std::nullopt;
+  if (best == stamps_.end() || !(std::abs(best->first - timestamp) <= tolerance)) return std::nullopt;
   return best->second;
 }
 

@@ -1,0 +1,329 @@
+/// slam-eval as its users call it: figures, agreement with the reference evaluator, every bad input.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/RandomStream.h"
+#include "evaluation/RelationErrors.h"
+#include "evaluation/Trajectory.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+/// A folder of its own for each test, and slam-eval called in it.
+struct SlamEval : testing::Test {
+  fs::path folder;
+
+  SlamEval() {
+    std::string name = (fs::temp_directory_path() / "slam-eval-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    folder = name;
+  }
+  ~SlamEval() override { fs::remove_all(folder); }
+
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder / file) << text; }
+
+  Outcome shell(const std::string& command) const {
+    const std::string whole = "cd '" + folder.string() + "' && " + command + " >.out 2>.err";
+    const int status = std::system(whole.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / ".out"),
+            contents(folder / ".err")};
+  }
+  Outcome run(const std::string& arguments) const {
+    return shell(std::string("'") + SLAM_EVAL_PROGRAM + "' " + arguments);
+  }
+  json figures(const std::string& arguments) const {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return o.status == 0 ? json::parse(o.out) : json();
+  }
+  /// Exit 2, nothing on standard output, and one line on standard error, which is returned.
+  std::string errorLine(const std::string& arguments) const {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, 2) << o.out;
+    EXPECT_EQ(o.out, "");
+    EXPECT_THAT(o.err, StartsWith("slam-eval: error: "));
+    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
+    return o.err.substr(0, o.err.size() - 1);
+  }
+};
+
+const char* const kStraight =
+    "0 0 0 0 0 0 0 1\n"
+    "1 1 0 0 0 0 0 1\n"
+    "2 2 0 0 0 0 0 1\n"
+    "3 3 0 0 0 0 0 1\n";
+const char* const kLonger =  // 10 % longer, turned by 90 deg, shifted by (5, 6)
+    "0 5 6 0 0 0 0.7071067811865476 0.7071067811865476\n"
+    "1 5 7.1 0 0 0 0.7071067811865476 0.7071067811865476\n"
+    "2 5 8.2 0 0 0 0.7071067811865476 0.7071067811865476\n"
+    "3 5 9.3 0 0 0 0.7071067811865476 0.7071067811865476\n";
+
+TEST_F(SlamEval, HelpAndVersion) {
+  for (const char* call : {"--help", "relations --help", "ate --help", "rpe --help"}) {
+    const Outcome o = run(call);
+    EXPECT_EQ(o.status, 0) << call;
+    EXPECT_THAT(o.out, HasSubstr("Usage: slam-eval")) << call;
+  }
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "slam-eval " HYBRID_SLAM_VERSION "\n");
+}
+
+TEST_F(SlamEval, AteByHand) {
+  write("truth.tum", kStraight);
+  write("estimate.tum", kLonger);
+  // About the centre the poses lie at 0.5 and 1.5 m: they are 0.05 and 0.15 m off.
+  const json j = figures("ate --trajectory estimate.tum --reference truth.tum");
+  EXPECT_EQ(j.at("poses"), 4);
+  EXPECT_EQ(j.at("pairs"), 4);
+  EXPECT_NEAR(j.at("trans_rmse_m"), std::sqrt(0.0125), 1e-9);
+  EXPECT_NEAR(j.at("trans_mean_m"), 0.1, 1e-9);
+  EXPECT_NEAR(j.at("trans_median_m"), 0.15, 1e-9);
+  EXPECT_NEAR(j.at("trans_std_m"), 0.05, 1e-9);
+  EXPECT_NEAR(j.at("trans_max_m"), 0.15, 1e-9);
+  EXPECT_NEAR(j.at("alignment").at("phi_deg"), -90, 1e-9);
+  EXPECT_NEAR(j.at("alignment").at("x_m"), 1.5 - 7.65, 1e-9);
+  EXPECT_NEAR(j.at("alignment").at("y_m"), 5, 1e-9);
+}
+
+TEST_F(SlamEval, RpeByHandOverWayAndTime) {
+  write("truth.tum", kStraight);
+  write("estimate.tum", kLonger);
+  for (const char* delta : {"2m", "2s"}) {
+    const json j =
+        figures(std::string("rpe --trajectory estimate.tum --reference truth.tum --delta ") + delta);
+    EXPECT_EQ(j.at("delta"), delta);
+    EXPECT_EQ(j.at("pairs"), 2);
+    for (const char* figure : {"rmse", "mean", "median", "max"}) {
+      EXPECT_NEAR(j.at(std::string("trans_") + figure + "_m"), 0.2, 1e-9) << figure;
+      EXPECT_NEAR(j.at(std::string("rot_") + figure + "_deg"), 0, 1e-9) << figure;
+    }
+    EXPECT_NEAR(j.at("trans_std_m"), 0, 1e-9);
+    EXPECT_NEAR(j.at("rot_std_deg"), 0, 1e-9);
+  }
+}
+
+TEST_F(SlamEval, RelationsByHandWithAndWithoutOdometry) {
+  write("estimate.tum", "0 0 0 0 0 0 0 1\n2 2 0.4 0 0 0 0 1\n");
+  write("truth.relations", "0 2 2 0.4 0 0 0 0.017453292519943295\n0 1 1 0 0 0 0 0\n");
+  write("odometry.txt", "0 0 0 0\n1 1 0 0\n2 2 0 0\n");
+  const std::string call = "relations --trajectory estimate.tum --relations truth.relations";
+  const json without = figures(call);
+  EXPECT_EQ(without.size(), 8u);
+  EXPECT_EQ(without.at("relations"), 2);
+  EXPECT_EQ(without.at("used"), 1);
+  EXPECT_NEAR(without.at("trans_mean_m"), 0, 1e-12);
+  EXPECT_NEAR(without.at("rot_mean_deg"), 1, 1e-12);
+
+  ASSERT_EQ(shell("gzip -k odometry.txt").status, 0);
+  for (const char* odometry : {"odometry.txt", "odometry.txt.gz"}) {
+    const json with = figures(call + " --odometry " + odometry);
+    EXPECT_EQ(with.at("used"), 2);
+    EXPECT_NEAR(with.at("trans_mean_m"), 0.1, 1e-12);
+    EXPECT_NEAR(with.at("trans_std_m"), 0.1, 1e-12);
+    EXPECT_NEAR(with.at("trans_median_m"), 0.2, 1e-12);
+    EXPECT_NEAR(with.at("trans_max_m"), 0.2, 1e-12);
+    EXPECT_NEAR(with.at("rot_mean_deg"), 0.5, 1e-12);
+    EXPECT_NEAR(with.at("rot_std_deg"), 0.5, 1e-12);
+  }
+}
+
+TEST_F(SlamEval, ToleranceDecidesWhichPosesBelongTogether) {
+  write("truth.tum", kStraight);
+  write("late.tum", "0.01 0 0 0 0 0 0 1\n1.01 1 0 0 0 0 0 1\n2.04 2 0 0 0 0 0 1\n");
+  EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum").at("pairs"), 2);
+  EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum --tolerance 0.05").at("pairs"), 3);
+}
+
+TEST_F(SlamEval, BadFiles) {
+  write("truth.tum", kStraight);
+  write("broken.tum", "# ok\n0 0 0 0 0 0 0 1\n1 0 0\n");
+  write("empty.tum", "");
+  write("later.tum", "100 0 0 0 0 0 0 1\n101 0 0 0 0 0 0 1\n");
+  write("broken.relations", "0 1 1 0 0 0 0 0\n0 2 2 0 0 0 0\n");
+  write("later.relations", "100 101 1 0 0 0 0 0\n");
+  write("good.relations", "0 1 1 0 0 0 0 0\n");
+  write("broken.odometry", "0 0 0 0\n1 1 0 zero\n");
+
+  const std::string tum = "`timestamp x y z qx qy qz qw`";
+  EXPECT_EQ(
+      errorLine("ate --trajectory missing.tum --reference truth.tum"),
+      "slam-eval: error: cannot open the file: file `missing.tum`; expected lines of 8 numbers, " + tum);
+  EXPECT_EQ(errorLine("rpe --trajectory truth.tum --reference broken.tum"),
+            "slam-eval: error: broken line: file `broken.tum`, line 3; expected lines of 8 numbers, " + tum);
+  EXPECT_EQ(errorLine("ate --trajectory empty.tum --reference truth.tum"),
+            "slam-eval: error: the file is empty: file `empty.tum`; expected lines of 8 numbers, " + tum);
+  for (const char* command : {"ate", "rpe"})
+    EXPECT_EQ(
+        errorLine(std::string(command) + " --trajectory truth.tum --reference later.tum"),
+        "slam-eval: error: the reference does not overlap the trajectory in time: trajectory 0.000..3.000 "
+        "s, reference 100.000..101.000 s; expected poses within 0.02 s of each other");
+  EXPECT_EQ(
+      errorLine("relations --trajectory truth.tum --relations broken.relations"),
+      "slam-eval: error: broken line: file `broken.relations`, line 2; expected lines of 8 numbers, `t1 t2 "
+      "x y z roll pitch yaw`");
+  EXPECT_THAT(errorLine("relations --trajectory truth.tum --relations later.relations"),
+              HasSubstr("no usable relation: trajectory 0.000..3.000 s, relations 100.000..101.000 s; "));
+  EXPECT_EQ(
+      errorLine("relations --trajectory truth.tum --relations good.relations --odometry broken.odometry"),
+      "slam-eval: error: broken line: file `broken.odometry`, line 2; expected lines of 4 numbers, `t x y "
+      "theta`");
+  EXPECT_THAT(errorLine("ate --trajectory . --reference truth.tum"), HasSubstr("cannot read the file"));
+}
+
+TEST_F(SlamEval, BadCommandLines) {
+  write("truth.tum", kStraight);
+  for (const char* call : {"", "map", "ate", "ate --trajectory truth.tum", "relations --trajectory truth.tum",
+                           "ate --trajectory truth.tum --reference truth.tum --delta 1m",
+                           "ate --trajectory truth.tum --reference truth.tum --tolerance wide"})
+    EXPECT_THAT(errorLine(call), HasSubstr(": command line; see slam-eval --help")) << call;
+  const std::string pair = " --trajectory truth.tum --reference truth.tum ";
+  for (const char* tolerance : {"-1", "nan"})
+    EXPECT_THAT(errorLine("ate" + pair + "--tolerance=" + tolerance),
+                HasSubstr("option --tolerance; expected"));
+  for (const char* delta : {"1", "m", "1km", "0m", "-1s", "nans", "infm", "1 m"})
+    EXPECT_EQ(errorLine("rpe" + pair + "--delta='" + delta + "'"),
+              std::string("slam-eval: error: wrong value `") + delta +
+                  "`: option --delta; expected a positive number with its unit, as in `1s` or `0.5m`");
+  EXPECT_THAT(errorLine("rpe" + pair + "--delta 50m"), HasSubstr("no stretch of 50 m"));
+}
+
+TEST_F(SlamEval, FailedWriteIsNotTakenForSuccess) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  write("truth.tum", kStraight);
+  const Outcome o = shell(std::string("('") + SLAM_EVAL_PROGRAM +
+                          "' ate --trajectory truth.tum --reference truth.tum >/dev/full)");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_EQ(o.err, "slam-eval: error: cannot write to standard output\n");
+}
+
+/// The Intel log's odometry as a trajectory: no good one, but with everything that makes the metric hard.
+struct ReferenceEvaluator : SlamEval {
+  fs::path datasets, evaluator;
+  Trajectory odometry;
+
+  void SetUp() override {
+    const char* const name = std::getenv("HYBRID_SLAM_DATASETS");
+    if (!name) GTEST_SKIP() << "HYBRID_SLAM_DATASETS is not set";
+    datasets = fs::absolute(name);
+    evaluator = datasets / ".." / "tools";
+    if (!fs::exists(evaluator / "evalrel.py")) GTEST_SKIP() << "no evalrel.py in " << evaluator;
+    if (shell("python3 --version").status != 0) GTEST_SKIP() << "no python3";
+    odometry = loadOdometry((datasets / "intel-lab.odom.gz").string());
+    std::ofstream text(folder / "odometry.txt");  // it reads plain text only
+    text << std::setprecision(17);
+    for (const StampedPose& o : odometry)
+      text << o.timestamp << ' ' << o.pose.x << ' ' << o.pose.y << ' ' << o.pose.phi << '\n';
+  }
+
+  /// Every `step`-th reading with noise, in log order, with the stamps as a TUM file holds them.
+  Trajectory noisyTrajectory(size_t step) const {
+    RandomStream random(9, step, 0);
+    Trajectory t;
+    for (size_t i = 0; i < odometry.size(); i += step) {
+      StampedPose p = odometry[i];
+      p.pose.x += 0.05 * random.gaussian();
+      p.pose.y += 0.05 * random.gaussian();
+      p.pose.phi += 0.02 * random.gaussian();
+      t.push_back(p);
+    }
+    return t;
+  }
+
+  json expected(const Trajectory& trajectory, bool bridge, double tolerance) const {
+    {
+      std::ofstream text(folder / "trajectory.txt");
+      text << std::setprecision(17);
+      for (const StampedPose& p : trajectory)
+        text << p.timestamp << ' ' << p.pose.x << ' ' << p.pose.y << ' ' << p.pose.phi << '\n';
+    }
+    write("run.py",
+          "import sys, json\n"
+          "sys.path.insert(0, sys.argv[1])\n"
+          "import evalrel as e\n"
+          "odometry = e.load('odometry.txt') if sys.argv[3] == '1' else None\n"
+          "print(json.dumps(e.evaluate(e.load('trajectory.txt'), e.loadrel(sys.argv[2]), odometry, "
+          "float(sys.argv[4]))))\n");
+    const Outcome o = shell("python3 -B run.py '" + evaluator.string() + "' '" + relationsFile() + "' " +
+                            (bridge ? "1 " : "0 ") + std::to_string(tolerance));
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.status == 0 ? json::parse(o.out) : json();
+  }
+
+  std::string relationsFile() const { return (datasets / "intel-lab.relations").string(); }
+
+  void compare(size_t step, bool bridge, double tolerance) const {
+    SCOPED_TRACE(testing::Message() << "every " << step << "th reading, bridge " << bridge);
+    const Trajectory trajectory = noisyTrajectory(step);
+    const json theirs = expected(trajectory, bridge, tolerance);
+    ASSERT_TRUE(theirs.is_object());
+    {
+      std::ofstream text(folder / "trajectory.tum");
+      saveTum(trajectory, text);
+    }
+    const json ours =
+        figures("relations --trajectory trajectory.tum --relations '" + relationsFile() + "' --tolerance " +
+                std::to_string(tolerance) +
+                (bridge ? " --odometry '" + (datasets / "intel-lab.odom.gz").string() + "'" : ""));
+    EXPECT_EQ(ours.at("relations"), theirs.at("relations"));
+    EXPECT_EQ(ours.at("used"), theirs.at("usable"));
+    EXPECT_GT(ours.at("used"), 100);
+    const std::pair<const char*, const char*> names[] = {
+        {"trans_mean_m", "trans_abs"}, {"trans_std_m", "trans_abs_std"}, {"trans_median_m", "trans_median"},
+        {"trans_max_m", "trans_max"},  {"rot_mean_deg", "rot_abs_deg"},  {"rot_std_deg", "rot_abs_std"}};
+    for (const auto& [ourName, theirName] : names)
+      EXPECT_NEAR(ours.at(ourName), theirs.at(theirName), 1e-6) << ourName;
+
+    // In process nothing is rounded, so that the agreement must be closer, and holds for all figures.
+    const RelationErrors e = evaluateRelations(trajectory, loadRelations(relationsFile()),
+                                               bridge ? &odometry : nullptr, tolerance);
+    EXPECT_EQ(e.used, theirs.at("usable"));
+    EXPECT_NEAR(e.translation.rmse * e.translation.rmse, theirs.at("trans_sq"), 1e-9);
+    EXPECT_NEAR(e.translation.mean, theirs.at("trans_abs"), 1e-9);
+    EXPECT_NEAR(e.translation.median, theirs.at("trans_median"), 1e-9);
+    EXPECT_NEAR(e.rotation.max * 180 / M_PI, theirs.at("rot_max"), 1e-9);
+  }
+};
+
+TEST_F(ReferenceEvaluator, AgreesWithTheOdometryBridge) {
+  for (const size_t step : {3, 10, 30, 100}) compare(step, true, 0.006);
+  compare(30, true, 0.05);  // both hold it at 0.006 s
+  compare(30, true, 0.002);
+}
+
+TEST_F(ReferenceEvaluator, AgreesWithoutTheOdometryBridge) {
+  compare(1, false, 0.006);
+  compare(3, false, 0.05);
+  compare(10, false, 0.5);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
