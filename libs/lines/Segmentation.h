@@ -1,0 +1,59 @@
+/// @file Segmentation.h
+/// @brief From a scan to runs of points that may be straight (Sec. III-B, step 1).
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "base/LaserScan.h"
+#include "base/Options.h"
+
+namespace hybrid_slam {
+
+/// Section [segmentation].
+struct SegmentationOptions : Options {
+  double gapAbsolute = 0.1;    ///< m
+  double gapRelative = 0.15;   ///< m of gap per m of range
+  bool split = true;           ///< iterative end-point fit
+  double splitDistance = 0.1;  ///< m
+  int minPoints = 6;
+  double minLength = 1.0;  ///< m
+
+  void describe(OptionTable& table) override;
+};
+
+/// Consecutive points of a scan, in the sensor frame (m). Does not own them.
+struct PointRange {
+  const mrpt::math::TPoint2D* first = nullptr;
+  const mrpt::math::TPoint2D* last = nullptr;  ///< one past the end
+
+  const mrpt::math::TPoint2D* begin() const { return first; }
+  const mrpt::math::TPoint2D* end() const { return last; }
+  size_t size() const { return static_cast<size_t>(last - first); }
+  const mrpt::math::TPoint2D& front() const { return *first; }
+  const mrpt::math::TPoint2D& back() const { return *(last - 1); }
+};
+
+/// The beams' ends in the sensor frame, cut into runs. A run ends at an invalid beam and at a gap between
+/// neighbours above gapAbsolute + gapRelative * (range of the nearer one).
+class SegmentedScan {
+ public:
+  SegmentedScan(const LaserScan& scan, const SegmentationOptions& options);
+
+  /// The runs of at least minPoints points, in the order of the beams.
+  std::vector<PointRange> runs() const;
+
+ private:
+  std::vector<mrpt::math::TPoint2D> points_;
+  std::vector<size_t> starts_;  ///< index of each run's first point
+  int minPoints_;
+};
+
+/// Iterative end-point fit: a run is cut at its point farthest from the chord between its ends while that
+/// distance is above splitDistance. The corner belongs to both pieces; pieces with fewer than minPoints
+/// points are left out. The run's pieces are appended to `pieces` in the order of the beams.
+void splitAtCorners(PointRange run, const SegmentationOptions& options, std::vector<PointRange>& pieces);
+
+}  // namespace hybrid_slam
