@@ -116,6 +116,16 @@ TEST(RelativePoseError, OverTimeTheOrderOfTheRowsDoesNotMatter) {
   expectAll(e.translation, 0.03, 1e-12);
 }
 
+TEST(RelativePoseError, WayGoesRoundCornersInFileOrder) {
+  const Trajectory reference{{0, {0, 0, 0}}, {1, {1, 0, 0}}, {3, {1, 1, 0}}, {2, {0, 1, 0}}, {4, {0, 2, 0}}};
+  Trajectory estimate = reference;
+  estimate[3].pose.y += 0.3;
+  const RpeErrors e = relativePoseError(estimate, reference, {2, Unit::metres}, 0.01);
+  EXPECT_EQ(e.pairs, 3u);  // rows 0-2, 1-3, 2-4
+  EXPECT_NEAR(e.translation.mean, 0.1, 1e-12);
+  EXPECT_NEAR(e.translation.max, 0.3, 1e-12);
+}
+
 TEST(RelativePoseError, EndsAtTheNearestPoseWithinTenPercent) {
   const Trajectory poses{{0, {0, 0, 0}}, {0.95, {1, 0, 0}}, {1.08, {2, 0, 0}}, {3, {3, 0, 0}}};
   Trajectory estimate = poses;

@@ -30,6 +30,7 @@ FittedLine refineByHough(PointRange points, const FittedLine& fitted, const Houg
   const int rhoCells = static_cast<int>(options.rhoWindow / options.rhoResolution);
 
   std::vector<int> votes(static_cast<size_t>(2 * rhoCells + 1));
+  int* const votesAt = votes.data() + rhoCells;  // index 0: through the pivot
   int most = 0, bestTheta = 0, bestRho = 0;
   for (int i = -thetaCells; i <= thetaCells; ++i) {
     const double theta = fitted.theta + i * options.thetaResolution;
@@ -37,10 +38,10 @@ FittedLine refineByHough(PointRange points, const FittedLine& fitted, const Houg
     std::fill(votes.begin(), votes.end(), 0);
     for (const TPoint2D& p : points) {
       const double cell = std::round((p.x - pivot.x) * c + (p.y - pivot.y) * s);
-      if (std::abs(cell) <= rhoCells) ++votes[static_cast<size_t>(static_cast<int>(cell) + rhoCells)];
+      if (std::abs(cell) <= rhoCells) ++votesAt[static_cast<int>(cell)];
     }
     for (int j = -rhoCells; j <= rhoCells; ++j) {
-      const int count = votes[static_cast<size_t>(j + rhoCells)];
+      const int count = votesAt[j];
       // Of equal cells the one nearest to the fitted line.
       if (count > most ||
           (count == most && std::abs(i) + std::abs(j) < std::abs(bestTheta) + std::abs(bestRho))) {
