@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs every test. Extra arguments go to ctest (-R NAME, ...).
+# HYBRID_SLAM_PRESET chooses the build: release (default), debug or sanitize.
+source "$(dirname "$0")/lib.sh"
+preset=${HYBRID_SLAM_PRESET:-release}
+install_packages "${packages[@]}"
+build "$preset"
+[[ -n ${HYBRID_SLAM_DATASETS:-} ]] || echo "HYBRID_SLAM_DATASETS is unset: tests on the public logs are skipped (doc/datasets.md)"
+ctest --preset "$preset" -j2 "$@"
