@@ -105,11 +105,14 @@ void run(const CommandLine& line) {
   writeTogether({{output, [&](const std::string& f) { writeRawlog(toRawlog(log, options.form), f); }},
                  {truth, [&](const std::string& f) { writeGroundTruth(log.groundTruth, f); }},
                  {picture, [&](const std::string& f) { writePicture(plan, log.groundTruth, f); }}});
-  if (!line.quiet)
+  if (!line.quiet) {
+    const double seconds = log.groundTruth.empty() ? 0
+                                                   : mrpt::Clock::toDouble(log.groundTruth.back().timestamp) -
+                                                         mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
     std::printf("%s: %zu scans, %zu odometry readings, %.1f m in %.1f s; ground truth %s, picture %s\n",
-                output.c_str(), log.scans.size(), log.odometry.size(),
-                route.progressAt(route.duration()).distance, route.duration(), truth.c_str(),
-                picture.c_str());
+                output.c_str(), log.scans.size(), log.odometry.size(), route.progressAt(seconds).distance,
+                seconds, truth.c_str(), picture.c_str());
+  }
 }
 
 }  // namespace
@@ -140,7 +143,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "simul-floorplan: error: %s\n", e.what());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "simul-floorplan: error: %s\n", e.what());
+    const std::string what = e.what();  // MRPT's own run over several lines
+    std::fprintf(stderr, "simul-floorplan: error: %s\n", what.substr(0, what.find('\n')).c_str());
     return 1;
   }
   return 0;

@@ -1,7 +1,8 @@
 #include "simulation/SimulationOutput.h"
 
 #include <mrpt/img/CImage.h>
-#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/io/zip.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -91,11 +92,18 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
 }
 
 void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
-  constexpr int kBestCompression = 9;
-  mrpt::io::CFileGZOutputStream stream;
-  if (!stream.open(file, kBestCompression)) throw std::runtime_error("cannot write " + file);
-  auto archive = mrpt::serialization::archiveFrom(stream);
+  mrpt::io::CMemoryStream plain;
+  auto archive = mrpt::serialization::archiveFrom(plain);
   for (const auto& entry : rawlog) archive << *entry;
+  const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
+  std::vector<uint8_t> zipped;
+  constexpr int kBestCompression = 9;
+  const bool done = mrpt::io::zip::compress_gz_data_block({bytes, bytes + plain.getTotalBytesCount()}, zipped,
+                                                          kBestCompression);
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(zipped.data()), static_cast<std::streamsize>(zipped.size()));
+  out.close();
+  if (!done || !out) throw std::runtime_error("cannot write " + file);
 }
 
 void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file) {
