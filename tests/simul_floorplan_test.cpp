@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "simulation/Simulation.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,6 +229,25 @@ TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {
   mrpt::obs::CRawlog rawlog;
   ASSERT_TRUE(rawlog.loadFromRawLogFile(std::string(SOURCE_DIR) + "/datasets/csie/csie-corridor.rawlog"));
   EXPECT_EQ(rawlog.size(), 2 * 378u);
+}
+
+/// The rows of doc/simulation.md, from the options themselves.
+std::string rowsOf(const hybrid_slam::Options& options) {
+  std::string rows;
+  for (const auto& option : options.table()) {
+    std::string range = option.range;
+    for (size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 2) range.insert(at, "\\");
+    rows += "| `" + option.key + "` | " + option.get() + " | " + option.unit + " | " + range + " | " +
+            option.why + " |\n";
+  }
+  return rows;
+}
+
+TEST(SimulationDocument, ListsEveryKeyWithItsDefaultUnitAndBounds) {
+  const std::string document = contentOf(std::string(SOURCE_DIR) + "/doc/simulation.md");
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::SimulationOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::LaserOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::OdometryOptions())));
 }
 
 }  // namespace

@@ -106,9 +106,10 @@ void run(const CommandLine& line) {
                  {truth, [&](const std::string& f) { writeGroundTruth(log.groundTruth, f); }},
                  {picture, [&](const std::string& f) { writePicture(plan, log.groundTruth, f); }}});
   if (!line.quiet) {
-    const double seconds = log.groundTruth.empty() ? 0
-                                                   : mrpt::Clock::toDouble(log.groundTruth.back().timestamp) -
-                                                         mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
+    const double seconds = log.groundTruth.empty()
+                               ? 0
+                               : mrpt::Clock::toDouble(log.groundTruth.back().timestamp) -
+                                     mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
     std::printf("%s: %zu scans, %zu odometry readings, %.1f m in %.1f s; ground truth %s, picture %s\n",
                 output.c_str(), log.scans.size(), log.odometry.size(), route.progressAt(seconds).distance,
                 seconds, truth.c_str(), picture.c_str());
