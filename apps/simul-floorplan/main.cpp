@@ -1,0 +1,152 @@
+/// @file main.cpp
+/// @brief simul-floorplan: a floor plan, a robot and its sensors into a rawlog with ground truth.
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "base/Errors.h"
+#include "simulation/FloorPlan.h"
+#include "simulation/Route.h"
+#include "simulation/SimulationOutput.h"
+
+namespace {
+
+using namespace hybrid_slam;
+namespace fs = std::filesystem;
+
+struct CommandLine {
+  std::string config, output;
+  int seed = -1;
+  std::vector<std::string> settings;
+  bool quiet = false;
+};
+
+mrpt::config::CConfigFileMemory readConfig(const CommandLine& line) {
+  std::ifstream in(line.config);
+  if (!in || !fs::is_regular_file(line.config))
+    throw InputError("cannot be read", "file " + line.config, "expected an INI file");
+  mrpt::config::CConfigFileMemory config(std::string(std::istreambuf_iterator<char>(in), {}));
+  for (const std::string& setting : line.settings) {
+    const auto equals = setting.find('='), dot = setting.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot > equals)
+      throw InputError("wrong setting `" + setting + "`", "option --set", "expected SECTION.KEY=VALUE");
+    config.write(setting.substr(0, dot), setting.substr(dot + 1, equals - dot - 1),
+                 setting.substr(equals + 1));
+  }
+  if (line.seed >= 0) config.write("simulation", "seed", line.seed);
+  return config;
+}
+
+void checkSections(const mrpt::config::CConfigFileBase& config, const std::vector<std::string>& known) {
+  std::vector<std::string> sections;
+  config.getAllSections(sections);
+  for (const std::string& section : sections)
+    if (std::find(known.begin(), known.end(), section) == known.end())
+      throw InputError("unknown section", "section [" + section + "]",
+                       "the nearest known section is [" + nearestName(section, known) + "]");
+}
+
+std::string besideConfig(const CommandLine& line, const std::string& file, const char* key) {
+  if (file.empty())
+    throw InputError("missing key", std::string("section [simulation], key `") + key + "`",
+                     "expected a file name");
+  return (fs::path(line.config).parent_path() / file).lexically_normal().string();
+}
+
+/// Writes all files under other names first, so that nothing half-written stands under a final name.
+void writeTogether(
+    const std::vector<std::pair<fs::path, std::function<void(const std::string&)>>>& filesAndWriters) {
+  const auto partial = [](fs::path file) {
+    return file.replace_extension(".part" + file.extension().string());
+  };
+  try {
+    for (const auto& [file, write] : filesAndWriters) write(partial(file).string());
+    for (const auto& [file, write] : filesAndWriters) fs::rename(partial(file), file);
+  } catch (...) {
+    std::error_code ignored;
+    for (const auto& [file, write] : filesAndWriters) fs::remove(partial(file), ignored);
+    throw;
+  }
+}
+
+void run(const CommandLine& line) {
+  const mrpt::config::CConfigFileMemory config = readConfig(line);
+  SimulationOptions options;
+  LaserOptions laser;
+  OdometryOptions odometry;
+  checkSections(config, {"simulation", "laser", "odometry"});
+  options.loadFromConfigFile(config, "simulation");
+  laser.loadFromConfigFile(config, "laser");
+  odometry.loadFromConfigFile(config, "odometry");
+  const fs::path output = line.output;
+  if (output.extension() != ".rawlog")
+    throw InputError("wrong output name `" + line.output + "`", "option -o",
+                     "expected a name ending in .rawlog");
+  if (output.has_parent_path() && !fs::is_directory(output.parent_path()))
+    throw InputError("no such folder", "folder " + output.parent_path().string(),
+                     "expected an existing folder");
+
+  const FloorPlan plan = FloorPlan::load(besideConfig(line, options.plan, "plan"));
+  const Route route = Route::load(besideConfig(line, options.route, "route"));
+  const SimulatedLog log = simulate(plan, route, options, laser, odometry);
+
+  fs::path truth = output, picture = output;
+  truth.replace_extension(".tum");
+  picture.replace_extension(".png");
+  writeTogether({{output, [&](const std::string& f) { writeRawlog(toRawlog(log, options.form), f); }},
+                 {truth, [&](const std::string& f) { writeGroundTruth(log.groundTruth, f); }},
+                 {picture, [&](const std::string& f) { writePicture(plan, log.groundTruth, f); }}});
+  if (!line.quiet) {
+    const double seconds = log.groundTruth.empty()
+                               ? 0
+                               : mrpt::Clock::toDouble(log.groundTruth.back().timestamp) -
+                                     mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
+    std::printf("%s: %zu scans, %zu odometry readings, %.1f m in %.1f s; ground truth %s, picture %s\n",
+                output.c_str(), log.scans.size(), log.odometry.size(), route.progressAt(seconds).distance,
+                seconds, truth.c_str(), picture.c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Simulates a robot with a laser in a floor plan: rawlog, ground truth (.tum) and picture (.png).",
+      "simul-floorplan");
+  CommandLine line;
+  app.add_option("config", line.config, "INI file, see doc/simulation.md")->required();
+  app.add_option("-o,--output", line.output, "OUT.rawlog; OUT.tum and OUT.png are written beside it")
+      ->required();
+  app.add_option("-s,--seed", line.seed, "seed of all noise, instead of the INI file's")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--set", line.settings, "SECTION.KEY=VALUE over the INI file's; repeatable")
+      ->allow_extra_args(false);
+  app.add_flag("-q,--quiet", line.quiet, "print nothing but errors");
+  app.set_version_flag("--version", HYBRID_SLAM_VERSION);
+  try {
+    app.parse(argc, argv);
+    run(line);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::Error& e) {
+    std::fprintf(stderr, "simul-floorplan: error: %s: command line; see simul-floorplan --help\n", e.what());
+    return 2;
+  } catch (const InputError& e) {
+    std::fprintf(stderr, "simul-floorplan: error: %s\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    const std::string what = e.what();  // MRPT's own run over several lines
+    std::fprintf(stderr, "simul-floorplan: error: %s\n", what.substr(0, what.find('\n')).c_str());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,253 @@
+// simul-floorplan as a user meets it: command line in, files and one-line errors out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/io/zip.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CRawlog.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "simulation/Simulation.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+/// A folder of its own for each test, with a small room, a short route and their INI file in it.
+class SimulFloorplan : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("simul-floorplan-" + std::string(info->name()) + "-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    write("room.plan", "rectangle 0 0 8 6\ncircle 6 4 0.5\n");
+    write("room.route", "start 1 1 0\nspeed 0.5\ngo 6 1\ngo 6 2.5\n");
+    write("room.ini", "[simulation]\nplan = room.plan\nroute = room.route\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  Outcome call(const std::string& command) const {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const int code = std::system(("cd '" + folder_.string() + "' && " + command + " > '" + out.string() +
+                                  "' 2> '" + err.string() + "'")
+                                     .c_str());
+    return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, contentOf(out), contentOf(err)};
+  }
+  Outcome simulate(const std::string& arguments) const {
+    return call(std::string("'") + SIMUL_FLOORPLAN + "' " + arguments);
+  }
+
+  /// One clear line, exit 2, no file.
+  void expectInputError(const std::string& arguments, const std::string& part) const {
+    const Outcome outcome = simulate(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_THAT(outcome.err, StartsWith("simul-floorplan: error: "));
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_THAT(outcome.err, HasSubstr("; "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_FALSE(fs::exists(folder_ / "out.part.rawlog"));
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* kRun = "room.ini -o out.rawlog";
+
+TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
+  const Outcome outcome = simulate(kRun);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("scans"));
+  mrpt::obs::CRawlog rawlog;
+  ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "out.rawlog").string()));
+  size_t scans = 0;
+  for (const auto& entry : rawlog) scans += IS_CLASS(*entry, mrpt::obs::CObservation2DRangeScan);
+  std::ifstream truth(folder_ / "out.tum");
+  size_t rows = 0;
+  for (std::string line; std::getline(truth, line); ++rows) {
+    std::istringstream parts(line);
+    const std::vector<double> numbers(std::istream_iterator<double>(parts), {});
+    ASSERT_EQ(numbers.size(), 8u);
+    EXPECT_NEAR(numbers[6] * numbers[6] + numbers[7] * numbers[7], 1, 1e-8);
+    if (rows == 0) {
+      EXPECT_EQ(std::vector<double>(numbers.begin(), numbers.begin() + 4),
+                (std::vector<double>{1287388800, 1, 1, 0}));
+    }
+  }
+  EXPECT_EQ(scans, 76u);  // 5 m and 1.5 m at 0.5 m/s, 2 s of turning, at 5 Hz, both ends counted
+  EXPECT_EQ(rows, scans);
+  EXPECT_THAT(contentOf(folder_ / "out.png"), StartsWith("\x89PNG"));
+  EXPECT_FALSE(fs::exists(folder_ / "out.part.rawlog"));
+}
+
+TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
+  ASSERT_EQ(simulate("room.ini -o a.rawlog").status, 0);
+  ASSERT_EQ(call("sleep 1.1").status, 0);  // a clock in the gzip header would show
+  ASSERT_EQ(simulate("room.ini -q -s 1 -o b.rawlog").status, 0);
+  ASSERT_EQ(simulate("room.ini -s 2 -o c.rawlog").status, 0);
+  for (const char* extension : {".rawlog", ".tum", ".png"})
+    EXPECT_TRUE(contentOf(folder_ / ("a" + std::string(extension))) ==
+                contentOf(folder_ / ("b" + std::string(extension))))
+        << extension;
+  EXPECT_FALSE(contentOf(folder_ / "a.rawlog") == contentOf(folder_ / "c.rawlog"));
+  const std::string header = contentOf(folder_ / "a.rawlog").substr(4, 4);
+  EXPECT_EQ(header, std::string(4, '\0'));  // gzip's MTIME
+}
+
+TEST_F(SimulFloorplan, QuietHelpAndVersion) {
+  EXPECT_EQ(simulate("room.ini -q -o out.rawlog").out, "");
+  EXPECT_EQ(simulate("--help").status, 0);
+  EXPECT_THAT(simulate("--help").out, HasSubstr("--output"));
+  EXPECT_EQ(simulate("--version").status, 0);
+}
+
+TEST_F(SimulFloorplan, SettingsOverrideTheFile) {
+  ASSERT_EQ(simulate(std::string(kRun) + " --set simulation.form=pairs --set simulation.scans=7").status, 0);
+  mrpt::obs::CRawlog rawlog;
+  ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "out.rawlog").string()));
+  EXPECT_EQ(rawlog.size(), 14u);
+  EXPECT_EQ(rawlog.getType(0), mrpt::obs::CRawlog::etActionCollection);
+}
+
+TEST_F(SimulFloorplan, WrongCommandLines) {
+  expectInputError("", "config is required");
+  expectInputError("room.ini", "--output is required");
+  expectInputError("room.ini -o out.rawlog --fast", "--fast");
+  expectInputError("none.ini -o out.rawlog", "cannot be read: file none.ini");
+  expectInputError(". -o out.rawlog", "cannot be read");
+  expectInputError("room.ini -o out.txt", "expected a name ending in .rawlog");
+  expectInputError("room.ini -o nowhere/out.rawlog", "no such folder");
+  expectInputError("room.ini -o out.rawlog -s -3", "--seed");
+  expectInputError("room.ini -o out.rawlog --set rate=3", "expected SECTION.KEY=VALUE");
+}
+
+TEST_F(SimulFloorplan, WrongIniFiles) {
+  expectInputError(std::string(kRun) + " --set laser.sensor=LMS-300",
+                   "wrong value `LMS-300`: section [laser], key `sensor`; expected one of LMS-100 | LMS-200");
+  expectInputError(std::string(kRun) + " --set laser.resolution_deg=1", "the LMS-100 has no such resolution");
+  expectInputError(std::string(kRun) + " --set laser.rat=4", "the nearest known key is `rate`");
+  expectInputError(std::string(kRun) + " --set lasers.rate=4", "unknown section: section [lasers]");
+  expectInputError(std::string(kRun) + " --set odometry.slips=12", "wrong slip `12`");
+  expectInputError(std::string(kRun) + " --set simulation.robot_radius=-1", "expected a number in 0..5 m");
+  write("room.ini", "[simulation]\nroute = room.route\n");
+  expectInputError(kRun, "missing key: section [simulation], key `plan`");
+  write("room.ini", "[simulation]\nplan = room.plan\nroute = none.route\n");
+  expectInputError(kRun, "cannot be read: file none.route");
+}
+
+TEST_F(SimulFloorplan, WrongFloorPlans) {
+  write("room.plan", "rectangle 0 0 8 6\npolygon 3 3 4 3 4 4\n");
+  expectInputError(kRun, "`polygon` with 6 numbers: file room.plan, line 2");
+  write("room.plan", "rectangle 0 0 8 6\npolygon 3 3 4 3 4 4 3 4\n");
+  expectInputError(
+      kRun, "polygon is not closed: file room.plan, line 2; expected the last point to repeat the first");
+  write("room.plan", "rectangle 0 0 8 6\nwall 3 3 3 3\n");
+  expectInputError(kRun, "wall of zero length: file room.plan, line 2");
+  write("room.plan", "rectangle 0 0 8 6\nwindow 3 3 3 3\n");
+  expectInputError(kRun, "unknown word `window`: file room.plan, line 2");
+  write("room.plan", "");
+  expectInputError(kRun, "floor plan without walls");
+  fs::remove(folder_ / "room.plan");
+  expectInputError(kRun, "cannot be read: file room.plan");
+}
+
+TEST_F(SimulFloorplan, WrongRoutes) {
+  write("room.route", "start 1 1 0\ngo 7.9 1\n");
+  expectInputError(kRun, "way point inside a wall at (7.90, 1.00): file room.route, line 2");
+  write("room.route", "start 1 4 0\ngo 7.5 4\n");
+  expectInputError(kRun, "path hits a wall at (5.2");
+  expectInputError(std::string(kRun) + " --set simulation.robot_radius=0", "path crosses a wall at (5.5");
+  write("room.route", "start 1 4 0\nrun 7.5 4\n");
+  expectInputError(kRun, "unknown word `run`: file room.route, line 2");
+}
+
+TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNothingBehind) {
+  const Outcome outcome = call(std::string("sh -c \"ulimit -f 1; trap '' XFSZ; '") + SIMUL_FLOORPLAN +
+                               "' room.ini -o out.rawlog\"");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("simul-floorplan: error: cannot write"));
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_NE(entry.path().stem().string().substr(0, 3), "out") << entry.path();
+}
+
+/// Where bytes differ: which file, how large each, and whether only the compression is another.
+std::string differenceOf(const fs::path& made, const fs::path& committed) {
+  const std::string a = contentOf(made), b = contentOf(committed);
+  if (a == b) return "none";
+  std::string text = made.filename().string() + ": " + std::to_string(a.size()) + " bytes made, " +
+                     std::to_string(b.size()) + " committed";
+  std::vector<uint8_t> plainA, plainB;
+  mrpt::io::zip::decompress_gz_data_block({a.begin(), a.end()}, plainA);
+  mrpt::io::zip::decompress_gz_data_block({b.begin(), b.end()}, plainB);
+  if (plainA == plainB) return text + "; the same once decompressed: another zlib";
+  const auto [first, _] = std::mismatch(plainA.begin(), plainA.end(), plainB.begin(), plainB.end());
+  return text + "; decompressed, the first difference is at byte " + std::to_string(first - plainA.begin()) +
+         " of " + std::to_string(plainA.size());
+}
+
+TEST_F(SimulFloorplan, TheCommittedCsieLogsAreRemadeByteForByte) {
+  const fs::path source = SOURCE_DIR, committed = source / "datasets/csie";
+  const Outcome outcome = call("'" + (source / "scripts/make-csie.sh").string() + "' '" + folder_.string() +
+                               "' '" + SIMUL_FLOORPLAN + "'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* route : {"csie-loop", "csie-doorways", "csie-corridor"})
+    for (const char* extension : {".rawlog", ".tum", ".png"}) {
+      const std::string name = std::string(route) + extension;
+      EXPECT_EQ(differenceOf(folder_ / name, committed / name), "none");
+    }
+  for (const auto& entry : fs::directory_iterator(committed))
+    EXPECT_LT(fs::file_size(entry.path()), 1000000u) << entry.path();
+}
+
+TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {
+  mrpt::obs::CRawlog rawlog;
+  ASSERT_TRUE(rawlog.loadFromRawLogFile(std::string(SOURCE_DIR) + "/datasets/csie/csie-corridor.rawlog"));
+  EXPECT_EQ(rawlog.size(), 2 * 378u);
+}
+
+/// The rows of doc/simulation.md, from the options themselves.
+std::string rowsOf(const hybrid_slam::Options& options) {
+  std::string rows;
+  for (const auto& option : options.table()) {
+    std::string range = option.range;
+    for (size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 2) range.insert(at, "\\");
+    rows += "| `" + option.key + "` | " + option.get() + " | " + option.unit + " | " + range + " | " +
+            option.why + " |\n";
+  }
+  return rows;
+}
+
+TEST(SimulationDocument, ListsEveryKeyWithItsDefaultUnitAndBounds) {
+  const std::string document = contentOf(std::string(SOURCE_DIR) + "/doc/simulation.md");
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::SimulationOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::LaserOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::OdometryOptions())));
+}
+
+}  // namespace
