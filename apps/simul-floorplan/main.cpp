@@ -116,9 +116,7 @@ void run(const CommandLine& line) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parseAndRun(int argc, char** argv) {
   CLI::App app(
       "Simulates a robot with a laser in a floor plan: rawlog, ground truth (.tum) and picture (.png).",
       "simul-floorplan");
@@ -134,19 +132,28 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", HYBRID_SLAM_VERSION);
   try {
     app.parse(argc, argv);
-    run(line);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::Error& e) {
-    std::fprintf(stderr, "simul-floorplan: error: %s: command line; see simul-floorplan --help\n", e.what());
-    return 2;
+    throw InputError(e.what(), "command line", "see simul-floorplan --help");
+  }
+  run(line);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parseAndRun(argc, argv);
   } catch (const InputError& e) {
     std::fprintf(stderr, "simul-floorplan: error: %s\n", e.what());
     return 2;
   } catch (const std::exception& e) {
-    const std::string what = e.what();  // MRPT's own run over several lines
-    std::fprintf(stderr, "simul-floorplan: error: %s\n", what.substr(0, what.find('\n')).c_str());
+    std::fputs("simul-floorplan: error: ", stderr);
+    // MRPT's own messages run over several lines.
+    for (const char* c = e.what(); *c != '\0' && *c != '\n'; ++c) std::fputc(*c, stderr);
+    std::fputc('\n', stderr);
     return 1;
   }
-  return 0;
 }

@@ -122,10 +122,11 @@ void writePicture(const FloorPlan& plan, const std::vector<TruePose>& poses, con
   const TPoint2D &low = plan.lowerLeft(), &high = plan.upperRight();
   Drawing drawing(low, high);
   constexpr double kGrid = 5;  // m
-  for (double x = std::ceil(low.x / kGrid) * kGrid; x <= high.x; x += kGrid)
-    drawing.line({x, low.y}, {x, high.y}, {225, 225, 225}, 1);
-  for (double y = std::ceil(low.y / kGrid) * kGrid; y <= high.y; y += kGrid)
-    drawing.line({low.x, y}, {high.x, y}, {225, 225, 225}, 1);
+  const auto lineNumber = [](double coordinate) { return static_cast<int>(std::ceil(coordinate / kGrid)); };
+  for (int i = lineNumber(low.x); i * kGrid <= high.x; ++i)
+    drawing.line({i * kGrid, low.y}, {i * kGrid, high.y}, {225, 225, 225}, 1);
+  for (int i = lineNumber(low.y); i * kGrid <= high.y; ++i)
+    drawing.line({low.x, i * kGrid}, {high.x, i * kGrid}, {225, 225, 225}, 1);
   for (const Wall& wall : plan.walls()) {
     const int chords = wall.isArc() ? static_cast<int>(std::ceil(wall.sweep / 0.05)) : 1;
     for (int i = 0; i < chords; ++i)
