@@ -86,7 +86,6 @@ int main(int argc, char** argv) {
   } catch (const hybrid_slam::InputError& e) {
     return fail(2, e.what());
   } catch (const std::exception& e) {
-    const std::string message = e.what();
-    return fail(1, message.substr(0, message.find('\n')));
+    return fail(1, hybrid_slam::messageOf(e));
   }
 }

@@ -2,6 +2,7 @@
 /// @brief The one kind of error that is the user's to mend.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -17,5 +18,13 @@ class InputError : public std::runtime_error {
   InputError(const std::string& what, const std::string& where, const std::string& expected)
       : std::runtime_error(what + ": " + where + "; " + expected) {}
 };
+
+/// The message of an exception in one line. MRPT's tell their call stack too, over several lines.
+inline std::string messageOf(const std::exception& exception) {
+  const std::string text = exception.what(), head = "Message: ";
+  const size_t labelled = text.find(head), start = labelled == std::string::npos ? 0 : labelled + head.size();
+  const size_t begin = text.find_first_not_of(" \n", start);
+  return begin == std::string::npos ? "no message" : text.substr(begin, text.find('\n', begin) - begin);
+}
 
 }  // namespace hybrid_slam

@@ -1,6 +1,5 @@
 #include "io/RawlogReader.h"
 
-#include <mrpt/core/exceptions.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -24,12 +23,6 @@ struct CountingStream {
   size_t Write(const void*, size_t) { return 0; }
   std::string getStreamDescription() const { return file.filePathAtUse(); }
 };
-
-/// An exception of MRPT tells its call stack too: the first line is the message.
-std::string firstLine(const std::string& text) {
-  const std::string message = text.substr(0, text.find('\n'));
-  return message.empty() ? "unreadable object" : message;
-}
 
 }  // namespace
 
@@ -59,7 +52,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     if (entry_ == 0)
       throw InputError(stream_->in.bytes == 0 ? "empty or not a rawlog" : "not a rawlog", file_,
                        "expected serialised MRPT objects (log2rawlog converts text logs)");
-    defect_ = "ends in the middle of an object or holds an unreadable one (" + firstLine(e.what()) + ")";
+    defect_ = "ends in the middle of an object or holds an unreadable one (" + messageOf(e) + ")";
     return nullptr;
   }
 }
