@@ -22,9 +22,9 @@ struct GridWeightOptions : Options {
     meanInformation
   };
   Method method = Method::penetration;
-  double exponent = 10;
+  double exponent = 60;
   int beamStep = 1;
-  double sigma = 0.1;
+  double sigma = 0.25;
   double unknownDepth = 8;
   double outlier = 0.1;
   void describe(OptionTable& table) override;

@@ -21,9 +21,9 @@ struct MotionTerm {
 
 /// Section [motion_model].
 struct MotionModelOptions : Options {
-  MotionTerm distance{1, 0, 0.01, 0.0004};  ///< D, along heading + T / 2 (m)
-  MotionTerm drift{0, 0, 0.0025, 0.0004};   ///< C, perpendicular to D, positive to the left (m)
-  MotionTerm turn{0, 1, 0.0025, 0.01};      ///< T (rad)
+  MotionTerm distance{1, 0, 0.0025, 0.0016};  ///< D, along heading + T / 2 (m)
+  MotionTerm drift{0, 0, 0.0025, 0.0016};     ///< C, perpendicular to D, positive to the left (m)
+  MotionTerm turn{0, 1, 0.01, 0.01};          ///< T (rad)
   double minStdXY = 0.005, minStdPhi = 0.1 * M_PI / 180;
   void describe(OptionTable& table) override;
 };
