@@ -18,9 +18,23 @@ void describeTerm(OptionTable& t, MotionTerm& term, const std::string& name, con
         "variance of the " + what + " per squared radian of odometry");
 }
 
-double drawTerm(const MotionTerm& term, double d, double t, double minStd, RandomStream& random) {
-  const double variance = term.varianceD * d * d + term.varianceT * t * t + minStd * minStd;
-  return term.meanD * d + term.meanT * t + std::sqrt(variance) * random.gaussian();
+/// The odometry's own step, seen along its mean heading: what it moved sideways stays in the drift.
+struct OdometryStep {
+  explicit OdometryStep(const mrpt::math::TPose2D& odometry)
+      : d(std::cos(odometry.phi / 2) * odometry.x + std::sin(odometry.phi / 2) * odometry.y),
+        sideways(-std::sin(odometry.phi / 2) * odometry.x + std::cos(odometry.phi / 2) * odometry.y),
+        t(odometry.phi) {}
+  double mean(const MotionTerm& term) const { return term.meanD * d + term.meanT * t; }
+  double variance(const MotionTerm& term, double minStd) const {
+    return term.varianceD * d * d + term.varianceT * t * t + minStd * minStd;
+  }
+  double d, sideways, t;  ///< m, m, rad
+};
+
+/// The step of `distance` along the heading in the middle of the turn, and `drift` across it.
+mrpt::math::TPose2D step(double distance, double drift, double turn) {
+  const double c = std::cos(turn / 2), s = std::sin(turn / 2);
+  return {c * distance - s * drift, s * distance + c * drift, turn};
 }
 
 }  // namespace
@@ -35,16 +49,28 @@ void MotionModelOptions::describe(OptionTable& t) {
 
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& o,
                                  RandomStream& random) {
-  // The odometry's own step, seen along its mean heading: what it moved sideways stays in the drift.
-  const double c = std::cos(odometry.phi / 2), s = std::sin(odometry.phi / 2);
-  const double d = c * odometry.x + s * odometry.y, sideways = -s * odometry.x + c * odometry.y;
-  const double t = odometry.phi;
+  const OdometryStep seen(odometry);
+  const auto draw = [&](const MotionTerm& term, double minStd) {
+    return seen.mean(term) + std::sqrt(seen.variance(term, minStd)) * random.gaussian();
+  };
+  const double distance = draw(o.distance, o.minStdXY);
+  const double drift = seen.sideways + draw(o.drift, o.minStdXY);
+  return step(distance, drift, draw(o.turn, o.minStdPhi));
+}
 
-  const double distance = drawTerm(o.distance, d, t, o.minStdXY, random);
-  const double drift = sideways + drawTerm(o.drift, d, t, o.minStdXY, random);
-  const double turn = drawTerm(o.turn, d, t, o.minStdPhi, random);
-  const double cs = std::cos(turn / 2), sn = std::sin(turn / 2);
-  return {cs * distance - sn * drift, sn * distance + cs * drift, turn};
+MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
+                                      const MotionModelOptions& o) {
+  const OdometryStep seen(odometry);
+  const double distance = seen.mean(o.distance), drift = seen.sideways + seen.mean(o.drift);
+  const double turn = seen.mean(o.turn), heading = start.phi + turn / 2;
+  const double c = std::cos(heading), s = std::sin(heading);
+  Eigen::Matrix3d jacobian;  // of the pose after the step by (distance, drift, turn)
+  jacobian << c, -s, (-s * distance - c * drift) / 2,  //
+      s, c, (c * distance - s * drift) / 2,            //
+      0, 0, 1;
+  const Eigen::Vector3d variances(seen.variance(o.distance, o.minStdXY), seen.variance(o.drift, o.minStdXY),
+                                  seen.variance(o.turn, o.minStdPhi));
+  return {start + step(distance, drift, turn), jacobian * variances.asDiagonal() * jacobian.transpose()};
 }
 
 mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& o) {

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "base/Options.h"
@@ -32,6 +33,15 @@ struct MotionModelOptions : Options {
 /// start of the step; m, rad): Sec. III-A, step 1.
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  RandomStream& random);
+
+/// The normal distribution nearest to `sampleMotion`: the mean pose after the step, and its covariance
+/// (x, y, phi) in the frame that `start` is given in.
+struct MotionDistribution {
+  mrpt::math::TPose2D mean;
+  Eigen::Matrix3d covariance;
+};
+MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
+                                      const MotionModelOptions& options);
 
 /// MRPT's Gaussian motion model nearest to this one, for code of MRPT that draws by itself: it knows one
 /// deviation for both axes and no systematic error.

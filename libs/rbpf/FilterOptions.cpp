@@ -7,9 +7,11 @@ void ParticleFilterOptions::describe(OptionTable& t) {
   t.add("particles", particles, 1, 100000, "number of particles");
   t.add("proposal", proposal,
         {{Proposal::standard, "standard"},
+         {Proposal::improved, "improved"},
          {Proposal::auxiliaryStandard, "auxiliary_standard"},
          {Proposal::auxiliaryOptimal, "auxiliary_optimal"}},
-        "standard: the paper's, samples from the motion model; the others are MRPT's auxiliary filters");
+        "standard: the paper's, samples from the motion model; improved: samples around a scan match; "
+        "the others are MRPT's auxiliary filters");
   t.add("resampling", resampling,
         {{CParticleFilter::prMultinomial, "multinomial"},
          {CParticleFilter::prResidual, "residual"},
@@ -22,6 +24,13 @@ void ParticleFilterOptions::describe(OptionTable& t) {
   t.addAngle("update_angle_deg", updateAngle, 0, 360, "or has turned this far");
   t.add("seed", seed, 0, 2147483647, "same seed, same bytes, for any number of threads");
   t.add("threads", threads, 0, 1024, "threads over particles; 0: all cores");
+}
+
+void ImprovedProposalOptions::describe(OptionTable& t) {
+  t.add("samples", samples, 2, 10000,
+        "poses around the scan match that make out the proposal and the weight");
+  t.add("min_fit", minFit, 0, 1, "",
+        "a match that fits the map less is not used: the motion model is sampled");
 }
 
 }  // namespace hybrid_slam

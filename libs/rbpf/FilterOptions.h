@@ -8,6 +8,7 @@
 
 #include "base/Options.h"
 #include "grid/GridWeight.h"
+#include "grid/ScanMatcher.h"
 #include "lines/LineAssociation.h"
 #include "lines/LineDatabase.h"
 #include "lines/LineExtractor.h"
@@ -18,7 +19,7 @@ namespace hybrid_slam {
 
 /// Section [particle_filter].
 struct ParticleFilterOptions : Options {
-  enum class Proposal { standard, auxiliaryStandard, auxiliaryOptimal };
+  enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
 
   int particles = 50;
   Proposal proposal = Proposal::standard;
@@ -29,6 +30,13 @@ struct ParticleFilterOptions : Options {
   double updateAngle = 15 * M_PI / 180;
   int seed = 1;
   int threads = 1;
+  void describe(OptionTable& table) override;
+};
+
+/// Section [improved_proposal].
+struct ImprovedProposalOptions : Options {
+  int samples = 20;
+  double minFit = 0.3;
   void describe(OptionTable& table) override;
 };
 
@@ -45,6 +53,8 @@ struct FilterConfiguration {
   AssociationOptions association;
   LineDatabaseOptions database;
   LineWeightOptions lineWeight;
+  ImprovedProposalOptions improved;
+  ScanMatcherOptions matcher;
 
   /// (section, options) of every part.
   std::vector<std::pair<std::string, Options*>> sections() {
@@ -57,7 +67,9 @@ struct FilterConfiguration {
             {"hough", &hough},
             {"line_association", &association},
             {"line_database", &database},
-            {"line_weight", &lineWeight}};
+            {"line_weight", &lineWeight},
+            {"improved_proposal", &improved},
+            {"scan_matcher", &matcher}};
   }
 };
 

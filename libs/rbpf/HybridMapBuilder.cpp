@@ -19,10 +19,20 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
   using mrpt::bayes::CParticleFilter;
   using Proposal = ParticleFilterOptions::Proposal;
   CParticleFilter::TParticleFilterOptions out;
-  out.PF_algorithm = options.proposal == Proposal::standard ? CParticleFilter::pfStandardProposal
-                     : options.proposal == Proposal::auxiliaryStandard
-                         ? CParticleFilter::pfAuxiliaryPFStandard
-                         : CParticleFilter::pfAuxiliaryPFOptimal;
+  switch (options.proposal) {
+    case Proposal::standard:
+      out.PF_algorithm = CParticleFilter::pfStandardProposal;
+      break;
+    case Proposal::improved:
+      out.PF_algorithm = CParticleFilter::pfOptimalProposal;
+      break;
+    case Proposal::auxiliaryStandard:
+      out.PF_algorithm = CParticleFilter::pfAuxiliaryPFStandard;
+      break;
+    case Proposal::auxiliaryOptimal:
+      out.PF_algorithm = CParticleFilter::pfAuxiliaryPFOptimal;
+      break;
+  }
   out.resamplingMethod = options.resampling;
   out.sampleSize = static_cast<unsigned int>(options.particles);
   out.BETA = options.essThreshold;
@@ -77,6 +87,7 @@ PreparedScan HybridMapBuilder::prepare(const CObservation2DRangeScan& observatio
   const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
   return {&observation, ScanBeams(scan, 1),
           ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
+          ScanBeams(scan, static_cast<size_t>(configuration_.matcher.beamStep)),
           configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
 }
 

@@ -34,9 +34,18 @@ using mrpt::math::TPose2D;
 using mrpt::slam::detail::TPoseBin2D;
 using PfOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
 
+namespace {
+
+TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
+  return action.getBestMovementEstimation()->rawOdometryIncrementReading.asTPose();
+}
+
+}  // namespace
+
 ParticleSet::ParticleSet(const FilterConfiguration& configuration)
     : configuration_(configuration),
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
+      improvedProposal_(configuration),
       arena_(configuration.filter.threads > 0 ? configuration.filter.threads : +tbb::task_arena::automatic) {}
 
 template <class Body>
@@ -65,9 +74,12 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   step_ = FilterStep();
   step_.resampled = false;
   // MRPT's resampling and auxiliary filters draw from its global generator.
-  const auto seed = static_cast<uint64_t>(configuration_.filter.seed);
-  RandomStream random(seed, stepNumber_, m_particles.size());
+  RandomStream random = stream(m_particles.size());
   mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(random.bits()));
+}
+
+RandomStream ParticleSet::stream(size_t particle) const {
+  return RandomStream(static_cast<uint64_t>(configuration_.filter.seed), stepNumber_, particle);
 }
 
 void ParticleSet::appendPose(const TPose2D& motion) {
@@ -88,18 +100,36 @@ void ParticleSet::startPathAt(const TPose2D& start) {
 }
 
 // Sec. III-A, steps 1 and 2, as in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
+double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry, RandomStream& random) const {
+  particle.path.push(particle.path.back() + sampleMotion(odometry, configuration_.motion, random));
+  const Weight weight = weigh(particle, particle.path.back());
+  setWeight(particle, weight);
+  return weight.log(configuration_.gridWeight.exponent);
+}
+
 void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CActionCollection* action,
                                                            const mrpt::obs::CSensoryFrame* /*observation*/,
                                                            const PfOptions& /*PF_options*/) {
-  const auto movement = action->getBestMovementEstimation();
-  const TPose2D odometry = movement->rawOdometryIncrementReading.asTPose();
-  const auto seed = static_cast<uint64_t>(configuration_.filter.seed);
+  const TPose2D odometry = rawOdometry(*action);
   forEachParticle([&](size_t i, Particle& particle) {
-    RandomStream random(seed, stepNumber_, i);
-    particle.path.push(particle.path.back() + sampleMotion(odometry, configuration_.motion, random));
-    const Weight weight = weigh(particle, particle.path.back());
-    setWeight(particle, weight);
-    m_particles[i].log_w += weight.log(configuration_.gridWeight.exponent);
+    RandomStream random = stream(i);
+    m_particles[i].log_w += sampleAndWeigh(particle, odometry, random);
+  });
+  summarise();
+}
+
+// The paper's [5]: sample around a scan match instead.
+void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActionCollection* action,
+                                                          const mrpt::obs::CSensoryFrame* /*observation*/,
+                                                          const PfOptions& /*PF_options*/) {
+  const TPose2D odometry = rawOdometry(*action);
+  forEachParticle([&](size_t i, Particle& particle) {
+    RandomStream random = stream(i);
+    const auto proposed = improvedProposal_.propose(particle, odometry, *scan_, random);
+    particle.path.push(proposed.pose);
+    particle.gridWeight = proposed.fit;
+    particle.lineWeight = proposed.lineWeight;
+    m_particles[i].log_w += proposed.logWeight;
   });
   summarise();
 }

@@ -8,17 +8,10 @@
 
 #include "rbpf/FilterOptions.h"
 #include "rbpf/FilterView.h"
+#include "rbpf/ImprovedProposal.h"
 #include "rbpf/Particle.h"
 
 namespace hybrid_slam {
-
-/// What all particles need of one scan, prepared once.
-struct PreparedScan {
-  const mrpt::obs::CObservation2DRangeScan* observation;
-  ScanBeams beams;                 ///< every beam, for insertion
-  ScanBeams weighedBeams;          ///< every beam_step-th, for weighing
-  std::vector<LineSegment> lines;  ///< robot frame
-};
 
 class ParticleSet
     : public mrpt::bayes::CParticleFilterData<Particle>,
@@ -63,6 +56,9 @@ class ParticleSet
   void prediction_and_update_pfStandardProposal(
       const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
       const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
+  void prediction_and_update_pfOptimalProposal(
+      const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
   void prediction_and_update_pfAuxiliaryPFStandard(
       const mrpt::obs::CActionCollection* action, const mrpt::obs::CSensoryFrame* observation,
       const mrpt::bayes::CParticleFilter::TParticleFilterOptions& PF_options) override;
@@ -76,14 +72,18 @@ class ParticleSet
     LineWeight line;
     double log(double exponent) const;
   };
+  RandomStream stream(size_t particle) const;  ///< the random numbers of a particle in this step
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose) const;
   void setWeight(Particle& particle, const Weight& weight) const;
   void summarise();
+  /// Steps 1 and 2 for one particle: moves it and returns by how much its log-weight grows.
+  double sampleAndWeigh(Particle& particle, const mrpt::math::TPose2D& odometry, RandomStream& random) const;
   template <class Body>
   void forEachParticle(const Body& body);
 
   FilterConfiguration configuration_;
   GridWeight gridWeight_;
+  ImprovedProposal improvedProposal_;
   tbb::task_arena arena_;
   const PreparedScan* scan_ = nullptr;
   uint64_t stepNumber_ = 0;

@@ -1,0 +1,195 @@
+#include "grid/ScanMatcher.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+/// The four weights of a cubic B-spline at the fraction t in [0, 1) between the two middle samples, and their
+/// derivatives.
+struct SplineWeights {
+  explicit SplineWeights(double t) {
+    const double u = 1 - t;
+    value = {u * u * u / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * u * u + 3 * u * u * u) / 6,
+             t * t * t / 6};
+    slope = {-u * u / 2, (3 * t * t - 4 * t) / 2, (4 * u - 3 * u * u) / 2, t * t / 2};
+  }
+  std::array<double, 4> value, slope;
+};
+
+/// m and its gradient (per cell) at a place given in cells.
+struct MapSample {
+  double m = 0, dx = 0, dy = 0;
+};
+
+MapSample sampleMap(TileReader& cells, const std::array<float, 256>& occupied, double x, double y) {
+  // Cell (i, j) has its centre at (i + 1/2, j + 1/2).
+  const double cx = x - 0.5, cy = y - 0.5;
+  const int i = static_cast<int>(std::floor(cx)), j = static_cast<int>(std::floor(cy));
+  const SplineWeights wx(cx - i), wy(cy - j);
+  MapSample sample;
+  for (int row = 0; row < 4; ++row) {
+    double value = 0, slope = 0;
+    for (int column = 0; column < 4; ++column) {
+      const auto m =
+          static_cast<double>(occupied[static_cast<size_t>(cells.at(i - 1 + column, j - 1 + row) + 128)]);
+      const auto c = static_cast<size_t>(column);
+      value += wx.value[c] * m;
+      slope += wx.slope[c] * m;
+    }
+    const auto r = static_cast<size_t>(row);
+    sample.m += wy.value[r] * value;
+    sample.dx += wy.value[r] * slope;
+    sample.dy += wy.slope[r] * value;
+  }
+  return sample;
+}
+
+TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
+  return {pose.x + step.x(), pose.y + step.y(), mrpt::math::wrapToPi(pose.phi + step.z())};
+}
+
+}  // namespace
+
+void ScanMatcherOptions::describe(OptionTable& t) {
+  t.add("sigma", sigma, 0.01, 100, "", "deviation of one beam's residual 1 - m; larger trusts a match less");
+  t.add("beam_step", beamStep, 1, 100, "matches every n-th beam");
+  t.add("iterations", iterations, 1, 1000, "at most so many steps of a climb");
+  t.add("search_distance", searchDistance, 0, 5, "m",
+        "reach of the lattice of starts; 0: the prediction alone");
+  t.addAngle("search_angle_deg", searchAngle, 0, 90, "reach of the lattice in heading");
+}
+
+LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Eigen::Matrix3d& information) {
+  const Eigen::Vector3d off(pose.x - mean.x, pose.y - mean.y, mrpt::math::wrapToPi(pose.phi - mean.phi));
+  LogDensity density;
+  density.gradient = -information * off;
+  density.value = 0.5 * off.dot(density.gradient);
+  density.information = information;
+  return density;
+}
+
+ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {
+  for (int value = -128; value < 128; ++value) {
+    const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
+    occupied_[static_cast<size_t>(value + 128)] = static_cast<float>(std::max(0.0, 2 * p - 1));
+  }
+}
+
+LogDensity ScanMatcher::logLikelihood(const ScanBeams& scan, const TPose2D& pose,
+                                      const OccupancyGrid& grid) const {
+  const double perCell = 1 / grid.resolution();
+  const GridPose frame(pose, scan, grid.resolution());
+  const double robotX = pose.x * perCell, robotY = pose.y * perCell;
+  TileReader cells(grid.tiles());
+  LogDensity density;
+  for (const auto& ray : scan.rays) {
+    const double range = ray.range * perCell;
+    const double x = frame.originX + range * frame.dirX(ray), y = frame.originY + range * frame.dirY(ray);
+    const MapSample sample = sampleMap(cells, occupied_, x, y);
+    const double residual = 1 - sample.m;
+    density.value -= residual * residual;
+    if (sample.dx == 0 && sample.dy == 0) continue;
+    // Turning the robot moves the end of the beam at a right angle to its arm.
+    const Eigen::Vector3d slope(sample.dx * perCell, sample.dy * perCell,
+                                -sample.dx * (y - robotY) + sample.dy * (x - robotX));
+    density.gradient += residual * slope;
+    density.information.noalias() += slope * slope.transpose();
+  }
+  const double weight = 1 / (options_.sigma * options_.sigma);
+  density.value *= 0.5 * weight;
+  density.gradient *= weight;
+  density.information *= weight;
+  return density;
+}
+
+double ScanMatcher::logLikelihoodValue(const ScanBeams& scan, const TPose2D& pose,
+                                       const OccupancyGrid& grid) const {
+  const GridPose frame(pose, scan, grid.resolution());
+  TileReader cells(grid.tiles());
+  double sum = 0;
+  for (const auto& ray : scan.rays) {
+    const double range = ray.range / grid.resolution();
+    const double m = sampleMap(cells, occupied_, frame.originX + range * frame.dirX(ray),
+                               frame.originY + range * frame.dirY(ray))
+                         .m;
+    sum += (1 - m) * (1 - m);
+  }
+  return -0.5 * sum / (options_.sigma * options_.sigma);
+}
+
+ScanMatch ScanMatcher::climb(const ScanBeams& scan, TPose2D pose, const OccupancyGrid& grid,
+                             const Prior& prior) const {
+  constexpr double kSmallStep = 1e-4;  // m or rad
+  const auto posterior = [&](const TPose2D& at) {
+    LogDensity density = logLikelihood(scan, at, grid);
+    return density += prior(at);
+  };
+  LogDensity here = posterior(pose);
+  double damping = 1e-3;
+  for (int i = 0; i < options_.iterations; ++i) {
+    Eigen::Matrix3d damped = here.information;
+    damped.diagonal() *= 1 + damping;
+    damped.diagonal().array() += 1e-9;
+    const Eigen::Vector3d step = damped.ldlt().solve(here.gradient);
+    const TPose2D next = moved(pose, step);
+    const LogDensity there = posterior(next);
+    if (there.value > here.value) {
+      pose = next, here = there;
+      damping = std::max(damping * 0.3, 1e-6);
+    } else {
+      damping = std::max(damping * 10, 1e-2);
+    }
+    if (step.cwiseAbs().maxCoeff() < kSmallStep) break;
+  }
+  ScanMatch match;
+  match.pose = pose;
+  match.logPosterior = here.value;
+  match.information = here.information;
+  return match;
+}
+
+ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
+                             const Prior& prior) const {
+  return search(scan, start, grid, prior, options_.searchDistance, options_.searchAngle);
+}
+
+ScanMatch ScanMatcher::search(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
+                              const Prior& prior, double reach, double reachAngle) const {
+  ScanMatch best = climb(scan, start, grid, prior);
+  if (reach > 0) {
+    // A lattice fine enough that the climb from its best place ends on the right wall.
+    const double step = grid.resolution(), stepAngle = 1.5 * M_PI / 180;
+    const int n = static_cast<int>(std::ceil(reach / step)),
+              a = static_cast<int>(std::ceil(reachAngle / stepAngle));
+    TPose2D top = start;
+    double topValue = -1e300;
+    for (int k = -a; k <= a; ++k)
+      for (int j = -n; j <= n; ++j)
+        for (int i = -n; i <= n; ++i) {
+          const TPose2D at = moved(start, {i * step, j * step, k * stepAngle});
+          const double value = logLikelihoodValue(scan, at, grid) + prior(at).value;
+          if (value > topValue) top = at, topValue = value;
+        }
+    const ScanMatch second = climb(scan, top, grid, prior);
+    if (second.logPosterior > best.logPosterior) best = second;
+  }
+  const GridPose frame(best.pose, scan, grid.resolution());
+  TileReader cells(grid.tiles());
+  for (const auto& ray : scan.rays) {
+    const double range = ray.range / grid.resolution();
+    best.fit += sampleMap(cells, occupied_, frame.originX + range * frame.dirX(ray),
+                          frame.originY + range * frame.dirY(ray))
+                    .m;
+  }
+  if (!scan.rays.empty()) best.fit /= static_cast<double>(scan.rays.size());
+  return best;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,87 @@
+/// @file ScanMatcher.h
+/// @brief A scan against a particle's grid: the most likely pose near a predicted one, and how sure it is.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <functional>
+
+#include "base/Options.h"
+#include "grid/OccupancyGrid.h"
+
+namespace hybrid_slam {
+
+/// Section [scan_matcher].
+struct ScanMatcherOptions : Options {
+  double sigma = 1;
+  int beamStep = 1;
+  int iterations = 20;
+  double searchDistance = 0.1;
+  double searchAngle = 3 * M_PI / 180;
+  void describe(OptionTable& table) override;
+};
+
+/// ln of a density of the pose (x, y, phi), with the gradient and the (negative, at least semi-definite)
+/// second derivative of its local quadratic form.
+struct LogDensity {
+  double value = 0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< minus the second derivative
+
+  LogDensity& operator+=(const LogDensity& other) {
+    value += other.value, gradient += other.gradient, information += other.information;
+    return *this;
+  }
+};
+
+/// What is known of the pose beside the scan (odometry, line directions), as a function of the pose.
+using Prior = std::function<LogDensity(const mrpt::math::TPose2D&)>;
+
+/// The normal density around `mean` with the given information matrix (inverse covariance), up to a constant.
+LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& mean,
+                              const Eigen::Matrix3d& information);
+
+/// Where a match ended.
+struct ScanMatch {
+  mrpt::math::TPose2D pose;
+  double fit = 0;           ///< mean over the beams of the occupancy at their ends, in [0, 1]
+  double logPosterior = 0;  ///< of the scan and the prior at `pose`, up to a constant
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of scan and prior at `pose`
+};
+
+/// Matches the ends of the beams with the occupied cells.
+///
+/// The map is m(x, y) = max(0, 2 p - 1), p the occupancy, smoothed by a cubic B-spline over the cells:
+/// nothing at unknown and free cells, twice continuously differentiable, blurred by 0.58 cells. A beam that
+/// ends at (x, y) has the residual 1 - m, and a scan the log-likelihood - sum (1 - m)^2 / (2 sigma^2), as of
+/// so many measurements with the deviation sigma. Gauss-Newton climbs from the predicted pose; the quadratic
+/// form at the top is the information that the scan holds, which is nil along a featureless corridor.
+class ScanMatcher {
+ public:
+  explicit ScanMatcher(const ScanMatcherOptions& options);
+
+  /// ln p(scan | pose, grid), up to a constant.
+  LogDensity logLikelihood(const ScanBeams& scan, const mrpt::math::TPose2D& pose,
+                           const OccupancyGrid& grid) const;
+  /// The same, the value alone.
+  double logLikelihoodValue(const ScanBeams& scan, const mrpt::math::TPose2D& pose,
+                            const OccupancyGrid& grid) const;
+
+  /// Climbs from `start` and, where searchDistance is not 0, from the best of a lattice around it.
+  ScanMatch match(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
+                  const Prior& prior) const;
+  /// The same with a lattice of the given reach (m, rad): for a robot that has slipped.
+  ScanMatch search(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
+                   const Prior& prior, double reach, double reachAngle) const;
+
+ private:
+  ScanMatch climb(const ScanBeams& scan, mrpt::math::TPose2D pose, const OccupancyGrid& grid,
+                  const Prior& prior) const;
+
+  ScanMatcherOptions options_;
+  std::array<float, 256> occupied_;  ///< m of a cell by its value + 128
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,107 @@
+#include "rbpf/ImprovedProposal.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+TPose2D displaced(const TPose2D& pose, const Eigen::Vector3d& by) {
+  return {pose.x + by.x(), pose.y + by.y(), mrpt::math::wrapToPi(pose.phi + by.z())};
+}
+
+Eigen::Vector3d standardNormal(RandomStream& random) {
+  const double x = random.gaussian(), y = random.gaussian();
+  return {x, y, random.gaussian()};
+}
+
+}  // namespace
+
+ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
+    : configuration_(configuration), matcher_(configuration.matcher) {}
+
+Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odometry,
+                                   const PreparedScan& scan, RandomStream& random) const {
+  const MotionDistribution motion = motionDistribution(particle.path.back(), odometry, configuration_.motion);
+  const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
+  const Prior prior = [&](const TPose2D& pose) {
+    LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
+    if (configuration_.useLines)
+      density += lineLogDensity(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
+    return density;
+  };
+  const ScanMatch match = matcher_.match(scan.matchedBeams, motion.mean, particle.grid, prior);
+
+  // The normal distribution around the top, and its factor for drawing: covariance = root root^T.
+  const Eigen::LLT<Eigen::Matrix3d> factor(match.information);
+  const Eigen::Matrix3d root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
+  const double logVolume = root.diagonal().array().abs().log().sum();
+
+  const auto samples = static_cast<size_t>(configuration_.improved.samples);
+  std::vector<Eigen::Vector3d> offsets(samples);
+  std::vector<double> logRatios(samples);  // ln of p over the density it was drawn from
+  for (size_t k = 0; k < samples; ++k) {
+    const Eigen::Vector3d normal = standardNormal(random);
+    offsets[k] = root * normal;
+    const TPose2D pose = displaced(match.pose, offsets[k]);
+    logRatios[k] = matcher_.logLikelihoodValue(scan.matchedBeams, pose, particle.grid) + prior(pose).value +
+                   0.5 * normal.squaredNorm() + logVolume;
+  }
+  const double highest = *std::max_element(logRatios.begin(), logRatios.end());
+  double sum = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (size_t k = 0; k < samples; ++k) {
+    logRatios[k] = std::exp(logRatios[k] - highest);
+    sum += logRatios[k];
+    mean += logRatios[k] * offsets[k];
+  }
+  mean /= sum;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (size_t k = 0; k < samples; ++k)
+    covariance += logRatios[k] / sum * (offsets[k] - mean) * (offsets[k] - mean).transpose();
+
+  Proposed proposed;
+  proposed.fit = match.fit;
+  proposed.logWeight = highest + std::log(sum / static_cast<double>(samples));
+  // The covariance of few samples may be flat in one direction; the root of a semi-definite matrix is not
+  // unique, LDLT gives one.
+  const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
+  const Eigen::Vector3d deviations = spread.vectorD().cwiseMax(0).cwiseSqrt();
+  const Eigen::Vector3d drawn =
+      spread.transpositionsP().transpose() *
+      Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
+  proposed.pose = displaced(match.pose, mean + drawn);
+  if (configuration_.useLines)
+    proposed.lineWeight =
+        lineWeight(scan.lines, proposed.pose.phi, *particle.lines, configuration_.lineWeight);
+  return proposed;
+}
+
+LogDensity lineLogDensity(const std::vector<LineSegment>& seen, double heading, const LineDatabase& database,
+                          const LineWeightOptions& options) {
+  LogDensity density;
+  const LineWeight weight = lineWeight(seen, heading, database, options);
+  density.value = std::log(weight.value);
+  const auto direction = database.dominatingDirection();
+  if (!direction || weight.value <= options.floor || options.method == LineWeightOptions::Method::paper)
+    return density;
+  const double information = 1 / (options.sigma * options.sigma);
+  double sum = 0, slope = 0;
+  for (const LineSegment& line : seen) {
+    const double d = std::remainder(line.theta + heading - *direction, M_PI / 2);
+    const double share = line.length * std::exp(-0.5 * d * d * information);
+    sum += share;
+    slope -= share * d * information;
+  }
+  if (sum <= 0) return density;
+  density.gradient.z() = slope / sum;
+  density.information(2, 2) = information;
+  return density;
+}
+
+}  // namespace hybrid_slam
