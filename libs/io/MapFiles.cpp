@@ -1,14 +1,13 @@
 #include "io/MapFiles.h"
 
 #include <mrpt/img/CImage.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <opencv2/imgcodecs.hpp>
 
-#include "io/GzipCheck.h"
+#include "io/RawlogWriter.h"
 
 namespace hybrid_slam {
 namespace {
@@ -76,7 +75,12 @@ void savePicture(const OutputFolder& folder, const COccupancyGridMap2D& grid, co
                column(robot.x) + static_cast<int>(std::lround(radius * std::cos(robot.phi))),
                row(robot.y) - static_cast<int>(std::lround(radius * std::sin(robot.phi))), lightBlue, 2);
   }
-  folder.writeFile("map.png", [&image](const std::string& file) { return image.saveToFile(file); });
+  // Encoded in memory: libpng would report a full disk on standard error by itself.
+  std::vector<unsigned char> png;
+  cv::imencode(".png", image.asCvMatRef(), png);
+  folder.write("map.png", [&png](std::ostream& out) {
+    out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  });
 }
 
 void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
@@ -101,13 +105,9 @@ void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
 }
 
 void saveGridMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  folder.writeFile("map.gridmap.gz", [&grid](const std::string& file) {
-    mrpt::io::CFileGZOutputStream out;
-    if (!out.open(file)) return false;
-    mrpt::serialization::archiveFrom(out) << grid;
-    out.close();
-    return isWholeGzip(file);
-  });
+  RawlogWriter file(folder.path("map.gridmap.gz"));
+  file.write(grid);
+  file.finish();
 }
 
 void saveLines(const OutputFolder& folder, const std::vector<DatabaseLine>& lines) {

@@ -92,7 +92,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   RawlogSource source(run.rawlog, configuration.input, log);
   const Filter filter = makeFilter(configuration);
 
-  GrowingFile steps(folder, "steps.csv");
+  GrowingFile steps(folder.path("steps.csv"));
   writeStepsHeader(steps.stream());
   TrajectoryRecorder recorder;
   std::vector<bool> isUpdate;
