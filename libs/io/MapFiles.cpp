@@ -84,7 +84,7 @@ void savePicture(const OutputFolder& folder, const COccupancyGridMap2D& grid, co
 }
 
 void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  constexpr float kOccupied = 0.65f, kFree = 0.196f;
+  constexpr double kOccupied = 0.65, kFree = 0.196;
   const Window window = knownWindow(grid);
   folder.write("map.pgm", [&](std::ostream& out) {
     out << "P5\n" << window.width() << " " << window.height() << "\n255\n";
@@ -94,12 +94,11 @@ void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
         out.put(static_cast<char>(occupied > kOccupied ? 0 : occupied < kFree ? 254 : 205));
       }
   });
-  const auto millimetres = [](double metres) { return std::round(metres * 1000) / 1000; };
+  const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT's are floats
   const double cell = grid.getResolution();
   folder.write("map.yaml", [&](std::ostream& out) {
-    out << "image: map.pgm\nresolution: " << millimetres(cell) << "\norigin: ["
-        << millimetres(grid.getXMin() + window.x0 * cell) << ", "
-        << millimetres(grid.getYMin() + window.y0 * cell)
+    out << std::setprecision(10) << "image: map.pgm\nresolution: " << rounded(cell) << "\norigin: ["
+        << rounded(grid.getXMin() + window.x0 * cell) << ", " << rounded(grid.getYMin() + window.y0 * cell)
         << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupied << "\nfree_thresh: " << kFree << "\n";
   });
 }
