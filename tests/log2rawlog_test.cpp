@@ -55,7 +55,7 @@ class Log2Rawlog : public testing::Test {
     EXPECT_THAT(err, HasSubstr(text));
     EXPECT_THAT(out, IsEmpty());
     EXPECT_FALSE(fs::exists(rawlog));
-    EXPECT_FALSE(fs::exists(rawlog + ".part"));
+    EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
   }
   size_t entries() const {
     mrpt::obs::CRawlog log;
@@ -173,7 +173,7 @@ TEST_F(Log2Rawlog, CutGzip) {
   EXPECT_THAT(err,
               HasSubstr("log2rawlog: error: gzip file cut off: " + folder.path("cut.gz") + ", after line "));
   EXPECT_FALSE(fs::exists(rawlog));
-  EXPECT_FALSE(fs::exists(rawlog + ".part"));
+  EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
 }
 
 TEST_F(Log2Rawlog, UnreadableInput) {

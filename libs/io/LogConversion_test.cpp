@@ -289,7 +289,7 @@ TEST(LogConversion, NothingIsLeftWhereItFails) {
   EXPECT_THAT(errorOf(folder.write("text", "hello\nworld\n"), out), HasSubstr("not a robot log"));
   EXPECT_THAT(errorOf(folder.write("odometry", odom("1 2 3", "4")), out), HasSubstr("no laser scan"));
   EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_FALSE(std::filesystem::exists(out + ".part"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path(".partial.out.rawlog")));
   const std::string good = folder.write("good", laser("FLASER", 181, "0 0 0", "1"));
   EXPECT_THAT(errorOf(good, good), HasSubstr("the output is the input"));
   EXPECT_THAT(errorOf(good, folder.path("none/out.rawlog")), HasSubstr("cannot write"));

@@ -1,14 +1,13 @@
 #include "io/MapFiles.h"
 
 #include <mrpt/img/CImage.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <opencv2/imgcodecs.hpp>
 
-#include "io/GzipCheck.h"
+#include "io/RawlogWriter.h"
 
 namespace hybrid_slam {
 namespace {
@@ -76,11 +75,16 @@ void savePicture(const OutputFolder& folder, const COccupancyGridMap2D& grid, co
                column(robot.x) + static_cast<int>(std::lround(radius * std::cos(robot.phi))),
                row(robot.y) - static_cast<int>(std::lround(radius * std::sin(robot.phi))), lightBlue, 2);
   }
-  folder.writeFile("map.png", [&image](const std::string& file) { return image.saveToFile(file); });
+  // Encoded in memory: libpng would report a full disk on standard error by itself.
+  std::vector<unsigned char> png;
+  cv::imencode(".png", image.asCvMatRef(), png);
+  folder.write("map.png", [&png](std::ostream& out) {
+    out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  });
 }
 
 void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  constexpr float kOccupied = 0.65f, kFree = 0.196f;
+  constexpr double kOccupied = 0.65, kFree = 0.196;
   const Window window = knownWindow(grid);
   folder.write("map.pgm", [&](std::ostream& out) {
     out << "P5\n" << window.width() << " " << window.height() << "\n255\n";
@@ -90,24 +94,19 @@ void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
         out.put(static_cast<char>(occupied > kOccupied ? 0 : occupied < kFree ? 254 : 205));
       }
   });
-  const auto millimetres = [](double metres) { return std::round(metres * 1000) / 1000; };
+  const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT's are floats
   const double cell = grid.getResolution();
   folder.write("map.yaml", [&](std::ostream& out) {
-    out << "image: map.pgm\nresolution: " << millimetres(cell) << "\norigin: ["
-        << millimetres(grid.getXMin() + window.x0 * cell) << ", "
-        << millimetres(grid.getYMin() + window.y0 * cell)
+    out << std::setprecision(10) << "image: map.pgm\nresolution: " << rounded(cell) << "\norigin: ["
+        << rounded(grid.getXMin() + window.x0 * cell) << ", " << rounded(grid.getYMin() + window.y0 * cell)
         << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupied << "\nfree_thresh: " << kFree << "\n";
   });
 }
 
 void saveGridMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  folder.writeFile("map.gridmap.gz", [&grid](const std::string& file) {
-    mrpt::io::CFileGZOutputStream out;
-    if (!out.open(file)) return false;
-    mrpt::serialization::archiveFrom(out) << grid;
-    out.close();
-    return isWholeGzip(file);
-  });
+  RawlogWriter file(folder.path("map.gridmap.gz"));
+  file.write(grid);
+  file.finish();
 }
 
 void saveLines(const OutputFolder& folder, const std::vector<DatabaseLine>& lines) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/Errors.h"
@@ -15,21 +16,44 @@ namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
 namespace {
 
-/// Calls visit for every laser scan in an object of a rawlog.
+/// Calls visit for every observation in an object of a rawlog.
 template <class Visit>
-void forEachScan(const mrpt::serialization::CSerializable::Ptr& object, const Visit& visit) {
-  if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(object)) {
-    visit(scan);
-  } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
-    for (const auto& observation : *frame)
-      if (const auto inFrame = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
-        visit(inFrame);
+void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, const Visit& visit) {
+  if (const auto single = std::dynamic_pointer_cast<CObservation>(object)) visit(single);
+  if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object))
+    for (const auto& observation : *frame) visit(observation);
+}
+
+/// The increment of an action, NaN if it says none; nothing for an object that is no action, or an empty one.
+std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object) {
+  const auto action = std::dynamic_pointer_cast<CActionCollection>(object);
+  if (!action || action->size() == 0) return std::nullopt;
+  try {
+    return odometryIncrement(*action);
+  } catch (const InputError&) {
+    return TPose2D(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  }
+}
+
+bool isFinite(const TPose2D& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.phi); }
+
+void note(Oddity& oddity, size_t entry) {
+  if (oddity.count++ == 0) oddity.first = entry;
+}
+
+/// MRPT's own code takes the readings of valid beams as they are.
+void markInvalidBeams(CObservation2DRangeScan& scan) {
+  for (size_t i = 0; i < scan.getScanSize(); ++i) {
+    const float range = scan.getScanRange(i);
+    if (!std::isfinite(range) || range <= 0 || (scan.maxRange > 0 && range >= scan.maxRange))
+      scan.setScanRangeValidity(i, false);
   }
 }
 
@@ -57,29 +81,34 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
   RawlogReader reader(file);
   std::set<std::string> labels;
   double earliest = 0, latest = 0, last = 0;
-  bool stamped = false;
+  bool isFirst = true;
+  const auto noteOdometry = [&](const TPose2D& pose, bool& hasSome) {
+    if (isFinite(pose))
+      hasSome = true;
+    else
+      note(summary.wrongOdometry, reader.entry());
+  };
+  const auto noteScan = [&](const CObservation2DRangeScan& scan) {
+    if (labels.empty() && options.sensorLabel.empty()) summary.sensorLabel = scan.sensorLabel;
+    labels.insert(scan.sensorLabel);
+    if (scan.sensorLabel != summary.sensorLabel) return;
+    if (scan.getScanSize() == 0) return note(summary.empty, reader.entry());
+    ++summary.scans;
+    if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
+    const double t = seconds(scan.timestamp);
+    if (!isFirst && t < last) note(summary.stepsBack, reader.entry());
+    if (!isFirst && t == last) note(summary.repeatedStamps, reader.entry());
+    earliest = isFirst ? t : std::min(earliest, t);
+    latest = isFirst ? t : std::max(latest, t);
+    last = t;
+    isFirst = false;
+  };
   while (const auto object = reader.next()) {
-    summary.hasOdometry |= std::dynamic_pointer_cast<CObservationOdometry>(object) ||
-                           std::dynamic_pointer_cast<CActionCollection>(object);
-    forEachScan(object, [&](const CObservation2DRangeScan::Ptr& scan) {
-      if (labels.empty() && options.sensorLabel.empty()) summary.sensorLabel = scan->sensorLabel;
-      labels.insert(scan->sensorLabel);
-      if (scan->sensorLabel != summary.sensorLabel) return;
-      if (scan->getScanSize() == 0) {
-        if (summary.emptyScans++ == 0) summary.firstEmpty = reader.entry();
-        return;
-      }
-      ++summary.scans;
-      if (!isStamped(*scan)) {
-        if (summary.unstampedScans++ == 0) summary.firstUnstamped = reader.entry();
-        return;
-      }
-      const double t = seconds(scan->timestamp);
-      if (stamped && t < last && summary.stepsBack++ == 0) summary.firstStepBack = reader.entry();
-      earliest = stamped ? std::min(earliest, t) : t;
-      latest = stamped ? std::max(latest, t) : t;
-      last = t;
-      stamped = true;
+    if (const auto increment = incrementOf(object)) noteOdometry(*increment, summary.hasActions);
+    forEachObservation(object, [&](const CObservation::Ptr& observation) {
+      if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
+        noteOdometry(odometry->odometry.asTPose(), summary.hasOdometryReadings);
+      if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) noteScan(*scan);
     });
   }
   summary.duration = latest - earliest;
@@ -96,7 +125,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
   }
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
-  if (!summary.hasOdometry && options.requireOdometry)
+  if (!summary.hasActions && !summary.hasOdometryReadings && options.requireOdometry)
     throw InputError("no odometry", file,
                      "expected actions or CObservationOdometry; [input] require_odometry = false takes a log "
                      "of scans only");
@@ -104,21 +133,21 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
 }
 
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
-    : reader_(file), options_(options), sensorLabel_(summary.sensorLabel) {
-  options_.requireOdometry = summary.hasOdometry;
-}
+    : reader_(file),
+      maxOdometryGap_(options.maxOdometryGap),
+      sensorLabel_(summary.sensorLabel),
+      hasOdometryReadings_(summary.hasOdometryReadings) {}
 
 std::optional<Reading> RawlogSource::next() {
   while (ready_.empty()) {
     const auto object = reader_.next();
-    if (!object) {
-      if (waiting_.empty()) return std::nullopt;
-      // No odometry reading came after these: the last one holds.
-      for (const auto& scan : waiting_) finish(scan, travelled_);
-      waiting_.clear();
-      break;
+    if (object) {
+      take(object);
+    } else if (!waiting_.empty()) {
+      finishWaiting(travelled_);  // no odometry came after these
+    } else {
+      return std::nullopt;
     }
-    take(object);
   }
   Reading reading = ready_.front();
   ready_.pop_front();
@@ -126,29 +155,24 @@ std::optional<Reading> RawlogSource::next() {
 }
 
 void RawlogSource::take(const mrpt::serialization::CSerializable::Ptr& object) {
-  if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(object)) {
-    takeOdometry(*odometry);
-  } else if (const auto action = std::dynamic_pointer_cast<CActionCollection>(object)) {
-    travelled_ = travelled_ + odometryIncrement(*action);
-  } else if (std::dynamic_pointer_cast<CSensoryFrame>(object)) {
-    bool taken = false;  // one scan of the label for each frame
-    forEachScan(object, [&](const CObservation2DRangeScan::Ptr& scan) {
-      if (taken || scan->sensorLabel != sensorLabel_ || scan->getScanSize() == 0) return;
-      taken = true;
-      finish(scan, travelled_);
-    });
-  } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(object)) {
-    if (scan->sensorLabel == sensorLabel_ && scan->getScanSize() > 0) takeScan(scan);
-  }
+  const auto increment = incrementOf(object);
+  if (increment && isFinite(*increment)) travelled_ = travelled_ + *increment;
+  forEachObservation(object, [this](const CObservation::Ptr& observation) {
+    if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+      if (isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
+    } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
+      if (scan->sensorLabel == sensorLabel_ && scan->getScanSize() > 0) takeScan(scan);
+    }
+  });
 }
 
 void RawlogSource::takeScan(const CObservation2DRangeScan::Ptr& scan) {
-  const bool isCertain = !options_.requireOdometry || !isStamped(*scan) ||
-                         (lastOdometry_ && seconds(scan->timestamp) == lastOdometryTime_);
-  if (isCertain && waiting_.empty())
-    finish(scan, travelled_);
-  else
-    waiting_.push_back(scan);
+  waiting_.push_back(scan);
+  if (hasOdometryReadings_ && !lastOdometry_) return;
+  const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
+  const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
+  // Nobody waits longer than the gap, so that memory does not grow where odometry ends before the scans do.
+  if (!mayLieBetween && (waiting_.size() == 1 || age > maxOdometryGap_)) finishWaiting(travelled_);
 }
 
 void RawlogSource::takeOdometry(const CObservationOdometry& odometry) {
@@ -159,7 +183,7 @@ void RawlogSource::takeOdometry(const CObservationOdometry& odometry) {
     const double t = isStamped(*scan) ? seconds(scan->timestamp) : lastOdometryTime_;
     if (!lastOdometry_)
       finish(scan, pose);
-    else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= options_.maxOdometryGap)
+    else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= maxOdometryGap_)
       finish(scan, interpolate(*lastOdometry_, pose, (t - lastOdometryTime_) / (time - lastOdometryTime_)));
     else
       finish(scan, *lastOdometry_);
@@ -169,7 +193,13 @@ void RawlogSource::takeOdometry(const CObservationOdometry& odometry) {
   lastOdometryTime_ = time;
 }
 
+void RawlogSource::finishWaiting(const TPose2D& odometry) {
+  for (const auto& scan : waiting_) finish(scan, odometry);
+  waiting_.clear();
+}
+
 void RawlogSource::finish(const CObservation2DRangeScan::Ptr& scan, const TPose2D& odometry) {
+  markInvalidBeams(*scan);
   Reading reading;
   reading.scan = scan;
   if (isStamped(*scan)) lastTimestamp_ = seconds(scan->timestamp);

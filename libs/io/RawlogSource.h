@@ -30,12 +30,18 @@ struct Reading {
   mrpt::math::TPose2D motion;
 };
 
+/// How often something odd is in a log, and the entry (from 1) where it is first.
+struct Oddity {
+  size_t count = 0, first = 0;
+};
+
 /// What a log holds, found in one pass before the filter runs.
 struct RawlogSummary {
-  std::string sensorLabel;  ///< of the laser to be used
-  size_t scans = 0, emptyScans = 0, unstampedScans = 0, stepsBack = 0;
-  size_t firstEmpty = 0, firstUnstamped = 0, firstStepBack = 0;  ///< entry numbers
-  bool hasOdometry = false;
+  std::string sensorLabel;                             ///< of the laser to be used
+  size_t scans = 0;                                    ///< of that laser, with beams
+  Oddity empty, unstamped, repeatedStamps, stepsBack;  ///< scans of that laser
+  Oddity wrongOdometry;                                ///< NaN or infinite
+  bool hasActions = false, hasOdometryReadings = false;
   double duration = 0;  ///< s, from the earliest scan to the latest
   size_t entries = 0;
   std::string defect;  ///< how the log is cut off; empty if it is whole
@@ -47,8 +53,9 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options);
 
 /// Reads a log of action-observation pairs, or one of observations only, where odometry and scans interleave:
 /// there the odometry at a scan's own time is interpolated between the readings around it; where timestamps
-/// step back or the readings are too far apart, the reading before it in the log's order holds.
-/// Scans without beams are left out.
+/// step back or the readings are too far apart, the reading before it in the log's order holds, and the first
+/// one for the scans before it. Scans without beams and odometry that is not a number are left out; beams
+/// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
 class RawlogSource {
  public:
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
@@ -60,11 +67,13 @@ class RawlogSource {
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
+  void finishWaiting(const mrpt::math::TPose2D& odometry);
   void finish(const mrpt::obs::CObservation2DRangeScan::Ptr& scan, const mrpt::math::TPose2D& odometry);
 
   RawlogReader reader_;
-  InputOptions options_;
+  double maxOdometryGap_;
   std::string sensorLabel_;
+  bool hasOdometryReadings_;
   std::deque<Reading> ready_;
   std::deque<mrpt::obs::CObservation2DRangeScan::Ptr> waiting_;  ///< for the odometry reading after them
   std::optional<mrpt::math::TPose2D> lastOdometry_;

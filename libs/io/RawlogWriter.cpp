@@ -1,63 +1,47 @@
 #include "io/RawlogWriter.h"
 
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <zlib.h>
 
 #include <cerrno>
-#include <cstring>
-#include <filesystem>
-
-#include "base/Errors.h"
 
 namespace hybrid_slam {
 namespace {
 
-InputError cannotWrite(const std::string& path, int error) {
-  return InputError("cannot write", path,
-                    std::string("expected a writable folder with room on its disk") +
-                        (error ? std::string(": ") + std::strerror(error) : std::string()));
-}
+/// What CArchive writes to. MRPT's own gzip stream would not do: it does not say whether the bytes reached
+/// the disk.
+struct GzipSink {
+  gzFile_s* file;
+  bool isWhole = true;
 
-gzFile_s* openPart(const std::string& path, const std::string& partPath) {
-  std::error_code ignored;
-  // A device or a folder must not be replaced by the renaming at the end.
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw InputError("cannot write", path, "expected the name of a file");
-  errno = 0;
-  gzFile_s* file = gzopen(partPath.c_str(), "wb1");
-  if (!file) throw cannotWrite(path, errno);
-  return file;
-}
+  size_t Write(const void* bytes, size_t count) {
+    isWhole = isWhole && gzfwrite(bytes, 1, count, file) == count;
+    return count;
+  }
+  size_t Read(void*, size_t) { return 0; }
+  std::string getStreamDescription() const { return "gzip"; }
+};
 
 }  // namespace
 
-// MRPT's own gzip stream would not do: it does not say whether the last bytes reached the disk.
-RawlogWriter::RawlogWriter(const std::string& path)
-    : path_(path), partPath_(path + ".part"), file_(openPart(path, partPath_), gzclose_w) {}
-
-RawlogWriter::~RawlogWriter() {
-  file_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(partPath_, ignored);
+RawlogWriter::RawlogWriter(const std::string& path) : file_(path), gzip_(nullptr, gzclose_w) {
+  errno = 0;
+  gzip_.reset(gzopen(file_.path().c_str(), "wb1"));
+  if (!gzip_) file_.fail(errno);
 }
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
-  mrpt::io::CMemoryStream bytes;
-  mrpt::serialization::archiveFrom(bytes) << object;
-  const auto size = static_cast<unsigned>(bytes.getTotalBytesCount());
+  GzipSink sink{gzip_.get()};
   errno = 0;
-  if (gzwrite(file_.get(), bytes.getRawBufferData(), size) != static_cast<int>(size))
-    throw cannotWrite(path_, errno);
+  mrpt::serialization::archiveFrom(sink) << object;
+  if (!sink.isWhole) file_.fail(errno);
 }
 
 void RawlogWriter::finish() {
   errno = 0;
-  if (gzclose_w(file_.release()) != Z_OK) throw cannotWrite(path_, errno);
-  std::error_code error;
-  std::filesystem::rename(partPath_, path_, error);
-  if (error) throw cannotWrite(path_, error.value());
+  if (gzclose_w(gzip_.release()) != Z_OK) file_.fail(errno);
+  file_.commit();
 }
 
 }  // namespace hybrid_slam

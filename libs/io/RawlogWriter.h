@@ -1,9 +1,11 @@
 /// @file RawlogWriter.h
-/// @brief A rawlog on disk, whole or not at all.
+/// @brief Serialised objects on disk, whole or not at all: rawlogs, and MRPT's maps.
 #pragma once
 
 #include <memory>
 #include <string>
+
+#include "io/PartialFile.h"
 
 struct gzFile_s;
 
@@ -13,15 +15,13 @@ class CSerializable;
 
 namespace hybrid_slam {
 
-/// Writes objects one after another into a gzip stream, the form that mrpt::obs::CRawlog reads. The entries
-/// go into `PATH.part` beside; only `finish` gives the file its name. Without it the part is removed.
+/// Writes objects one after another into a gzip stream, the form that mrpt::obs::CRawlog reads (and, for a
+/// single object, that of MRPT's .gridmap.gz and .simplemap.gz). Only `finish` gives the file its name;
+/// without it nothing is left.
 class RawlogWriter {
  public:
   /// @throws InputError where the folder cannot be written to, or `path` is something else than a file
   explicit RawlogWriter(const std::string& path);
-  ~RawlogWriter();
-  RawlogWriter(const RawlogWriter&) = delete;
-  RawlogWriter& operator=(const RawlogWriter&) = delete;
 
   /// @throws InputError where the disk takes no more
   void write(const mrpt::serialization::CSerializable& object);
@@ -29,8 +29,8 @@ class RawlogWriter {
   void finish();
 
  private:
-  std::string path_, partPath_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  PartialFile file_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> gzip_;
 };
 
 }  // namespace hybrid_slam

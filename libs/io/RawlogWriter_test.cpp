@@ -34,18 +34,19 @@ TEST(RawlogWriter, WritesWhatMrptReads) {
 
 TEST(RawlogWriter, HasItsNameOnlyOnceFinished) {
   const TemporaryFolder folder;
-  const std::string path = folder.write("out.rawlog", "the old one");
+  const std::string path = folder.write("out.rawlog", "the old one"),
+                    partial = folder.path(".partial.out.rawlog");
   {
     RawlogWriter writer(path);
     writer.write(odometry(1));
-    EXPECT_TRUE(fs::exists(path + ".part"));
+    EXPECT_TRUE(fs::exists(partial));
   }
-  EXPECT_FALSE(fs::exists(path + ".part"));
+  EXPECT_FALSE(fs::exists(partial));
   EXPECT_EQ(fs::file_size(path), 11u);
   RawlogWriter writer(path);
   writer.write(odometry(1));
   writer.finish();
-  EXPECT_FALSE(fs::exists(path + ".part"));
+  EXPECT_FALSE(fs::exists(partial));
   EXPECT_NE(fs::file_size(path), 11u);
 }
 

@@ -51,14 +51,16 @@ Filter makeFilter(const Configuration& configuration) {
 
 std::vector<std::string> warningsOf(const RawlogSummary& log) {
   std::vector<std::string> all;
-  const auto add = [&all](size_t count, const std::string& what, size_t first, const std::string& done) {
-    if (count > 0)
-      all.push_back(std::to_string(count) + " " + what + ": first at entry " + std::to_string(first) + "; " +
-                    done);
+  const auto add = [&all](const Oddity& odd, const std::string& what, const std::string& done) {
+    if (odd.count > 0)
+      all.push_back(std::to_string(odd.count) + " " + what + ": first at entry " + std::to_string(odd.first) +
+                    "; " + done);
   };
-  add(log.emptyScans, "scans without beams", log.firstEmpty, "left out");
-  add(log.unstampedScans, "scans without timestamp", log.firstUnstamped, "they take that of the scan before");
-  add(log.stepsBack, "timestamps step back", log.firstStepBack, "the order of the log holds");
+  add(log.empty, "scans without beams", "left out");
+  add(log.unstamped, "scans without timestamp", "they take that of the scan before");
+  add(log.repeatedStamps, "timestamps repeat that of the scan before", "kept as they are");
+  add(log.stepsBack, "timestamps step back", "the order of the log holds");
+  add(log.wrongOdometry, "odometry readings that are not numbers", "left out");
   return all;
 }
 
@@ -92,7 +94,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   RawlogSource source(run.rawlog, configuration.input, log);
   const Filter filter = makeFilter(configuration);
 
-  GrowingFile steps(folder, "steps.csv");
+  GrowingFile steps(folder.path("steps.csv"));
   writeStepsHeader(steps.stream());
   TrajectoryRecorder recorder;
   std::vector<bool> isUpdate;

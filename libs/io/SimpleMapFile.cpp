@@ -1,12 +1,11 @@
 #include "io/SimpleMapFile.h"
 
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include "io/GzipCheck.h"
+#include "io/RawlogWriter.h"
 
 namespace hybrid_slam {
 namespace {
@@ -41,14 +40,9 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
 
 void saveSimpleMap(const OutputFolder& folder, RawlogSource& source, const std::vector<bool>& isUpdate,
                    const std::vector<mrpt::math::TPose2D>& path) {
-  folder.writeFile("map.simplemap.gz", [&](const std::string& file) {
-    mrpt::io::CFileGZOutputStream out;
-    if (!out.open(file)) return false;
-    const StreamedSimpleMap map(source, isUpdate, path);
-    mrpt::serialization::archiveFrom(out) << map;
-    out.close();
-    return isWholeGzip(file);
-  });
+  RawlogWriter file(folder.path("map.simplemap.gz"));
+  file.write(StreamedSimpleMap(source, isUpdate, path));
+  file.finish();
 }
 
 }  // namespace hybrid_slam

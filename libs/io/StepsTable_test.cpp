@@ -1,0 +1,42 @@
+#include "io/StepsTable.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace hybrid_slam {
+namespace {
+
+TEST(StepsTable, HeaderIsTheDocumentedOne) {
+  std::ostringstream out;
+  writeStepsHeader(out);
+  EXPECT_EQ(
+      out.str(),
+      "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
+      "lines_seen,lines_matched,step_ms\n");
+}
+
+TEST(StepsTable, ARow) {
+  FilterStep step;
+  step.particles = 50;
+  step.ess = 0.25;
+  step.resampled = true;
+  step.stdX = 0.1, step.stdY = 0.2, step.stdPhi = 0.3, step.stdAlong = 0.4, step.stdAcross = 0.5;
+  step.gridWeight = 0.6, step.lineWeight = 0.7;
+  step.linesSeen = 4, step.linesMatched = 3;
+  std::ostringstream out;
+  writeStep(out, 1137834225.713386, step, 12.3456);
+  EXPECT_EQ(
+      out.str(),
+      "1137834225.713386,50,0.250000,1,0.100000,0.200000,0.300000,0.400000,0.500000,0.600000,0.700000,4,3,"
+      "12.346\n");
+}
+
+TEST(StepsTable, WhatAFilterDoesNotTellIsLeftEmpty) {
+  std::ostringstream out;
+  writeStep(out, 1, FilterStep(), 2);
+  EXPECT_EQ(out.str(), "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000\n");
+}
+
+}  // namespace
+}  // namespace hybrid_slam
