@@ -45,16 +45,16 @@ PenetrationModel::PenetrationModel(const GridWeightOptions& options, double reso
 
 double PenetrationModel::beamLikelihood(double originX, double originY, double dirX, double dirY,
                                         double range, TileReader& cells) const {
-  constexpr double kOpaque = 30;   // exp(-30): nothing gets through
+  constexpr double kOpaque = 30;  // exp(-30): nothing gets through
   double depth = 0, passing = -1;  // optical depth so far; exp(-depth), once it is needed
   double stoppedNearRange = 0;     // the sum of the formula
-  const double windowStart = range - window_;
+  const double windowStart = range - 2 * window_;  // exp(-18) at 6 sigma: nothing is added before
   traverseRay(originX, originY, dirX, dirY, range + window_, [&](int x, int y, double entry, double exit) {
     const double opacity = opacity_[static_cast<size_t>(cells.at(x, y) + 128)];
     if (opacity == 0) return true;
     if (exit >= windowStart && passing < 0) passing = std::exp(-depth);
     depth += opacity * (exit - entry);
-    if (exit < windowStart) return depth < kOpaque;  // too far before z to add to the sum
+    if (exit < windowStart) return depth < kOpaque;
     const double passed = std::exp(-depth);
     const double off = 0.5 * (entry + exit) - range;
     stoppedNearRange += (passing - passed) * std::exp(-off * off * halfInverseVariance_);
