@@ -17,7 +17,8 @@ OccupancyGrid randomGrid(RandomStream& random, double resolution, int n, int rea
     return static_cast<int>(random.bits() % static_cast<uint64_t>(2 * reach)) - reach;
   };
   for (int i = 0; i < n; ++i)
-    grid.tiles().set({coordinate(), coordinate()}, static_cast<int8_t>(static_cast<int>(random.bits() % 255) - 127));
+    grid.tiles().set({coordinate(), coordinate()},
+                     static_cast<int8_t>(static_cast<int>(random.bits() % 255) - 127));
   return grid;
 }
 
@@ -63,7 +64,8 @@ TEST(GridConversion, ACellIsWhereMrptLooksForIt) {
     const double rest = std::abs(std::remainder(x, 0.05)), restY = std::abs(std::remainder(y, 0.05));
     if (rest < 1e-4 || restY < 1e-4) continue;  // MRPT's origin is a float: borders are not exact
     const int cx = mrptGrid.x2idx(x), cy = mrptGrid.y2idx(y);
-    ASSERT_EQ(mrptGrid.getCell(cx, cy), mrptGrid.l2p(static_cast<int8_t>(-grid.tiles().at(grid.cellOf(x, y)))))
+    ASSERT_EQ(mrptGrid.getCell(cx, cy),
+              mrptGrid.l2p(static_cast<int8_t>(-grid.tiles().at(grid.cellOf(x, y)))))
         << x << " " << y;
     const double half = 0.025 + 1e-4;
     EXPECT_NEAR(mrptGrid.idx2x(cx), x, half);

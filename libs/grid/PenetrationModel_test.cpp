@@ -59,9 +59,8 @@ TEST(PenetrationModel, TwoWallsShareTheBeamByTheirOccupancy) {
   corridor.wall(100, 10), corridor.wall(102, 30);
   const double p1 = corridor.occupancy(100), p2 = corridor.occupancy(102);
   for (const double z : {5.025, 5.125, 4.95, 5.2}) {
-    const double expected =
-        (p1 * corridor.gaussian(100, z) + (1 - p1) * p2 * corridor.gaussian(102, z)) /
-        (1 - (1 - p1) * (1 - p2));
+    const double expected = (p1 * corridor.gaussian(100, z) + (1 - p1) * p2 * corridor.gaussian(102, z)) /
+                            (1 - (1 - p1) * (1 - p2));
     EXPECT_NEAR(corridor.likelihood(z), expected, 1e-12) << z;
   }
 }
@@ -150,8 +149,10 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
       for (int x = -100; x < 100; ++x) {
         const double what = random.uniform();
         const double level = uniform(random, 1, 127);
-        if (what < share) grid.tiles().set({x, y}, static_cast<int8_t>(level));
-        else if (what < 0.9) grid.tiles().set({x, y}, static_cast<int8_t>(-level));
+        if (what < share)
+          grid.tiles().set({x, y}, static_cast<int8_t>(level));
+        else if (what < 0.9)
+          grid.tiles().set({x, y}, static_cast<int8_t>(-level));
       }
     const PenetrationModel model(options, size);
     for (int beam = 0; beam < 50; ++beam) {

@@ -14,7 +14,7 @@ namespace hybrid_slam {
 
 /// What all particles need of one scan, prepared once.
 struct PreparedScan {
-  const mrpt::obs::CObservation2DRangeScan* observation;
+  LaserScan scan;
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< every beam_step-th, for weighing
   std::vector<LineSegment> lines;  ///< robot frame
