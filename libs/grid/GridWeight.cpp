@@ -1,5 +1,6 @@
 #include "grid/GridWeight.h"
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <algorithm>
@@ -17,19 +18,28 @@ MrptGrid::TLikelihoodMethod mrptMethod(Method method) {
   switch (method) {
     case Method::likelihoodField:
       return MrptGrid::lmLikelihoodField_Thrun;
-    case Method::likelihoodFieldII:
-      return MrptGrid::lmLikelihoodField_II;
     case Method::rayTracing:
       return MrptGrid::lmRayTracing;
-    case Method::consensus:
-      return MrptGrid::lmConsensus;
-    case Method::consensusOwa:
-      return MrptGrid::lmConsensusOWA;
-    case Method::cellsDifference:
-      return MrptGrid::lmCellsDifference;
     default:
-      return MrptGrid::lmMeanInformation;
+      return MrptGrid::lmConsensus;
   }
+}
+
+/// The scan as seen from above, with nothing but its valid beams: MRPT's methods take a reading marked as
+/// valid for one, read cells outside of the grid for its end, and give tilted scans no weight.
+mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
+  mrpt::obs::CObservation2DRangeScan out;
+  out.aperture = static_cast<float>(scan.beams.back().angle - scan.beams.front().angle);
+  out.rightToLeft = true;
+  out.maxRange = static_cast<float>(scan.maxRange);
+  out.sensorPose = mrpt::poses::CPose3D(scan.sensorPose);
+  out.resizeScan(scan.beams.size());
+  for (size_t i = 0; i < scan.beams.size(); ++i) {
+    const Beam& beam = scan.beams[i];
+    out.setScanRange(i, beam.valid ? static_cast<float>(beam.range) : 0);
+    out.setScanRangeValidity(i, beam.valid);
+  }
+  return out;
 }
 
 /// The cells within reach of the scan's longest beam.
@@ -42,18 +52,22 @@ CellBox reach(const ScanBeams& beams, const mrpt::math::TPose2D& robot, const Oc
 
 }  // namespace
 
-double GridWeight::logWeight(const ScanBeams& beams, const mrpt::obs::CObservation2DRangeScan& scan,
-                             const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) const {
+double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, const mrpt::math::TPose2D& robot,
+                             const OccupancyGrid& grid) const {
   if (options_.method == Method::penetration) return penetration_.meanLogLikelihood(beams, robot, grid);
   if (beams.rays.empty()) return 0;
 
   MrptGrid local = toMrpt(grid, reach(beams, robot, grid));
-  local.likelihoodOptions.likelihoodMethod = mrptMethod(options_.method);
-  local.likelihoodOptions.LF_stdHit = static_cast<float>(options_.sigma);
-  local.likelihoodOptions.LF_decimation = static_cast<uint32_t>(options_.beamStep);
-  local.likelihoodOptions.rayTracing_stdHit = static_cast<float>(options_.sigma);
-  const double logLikelihood = local.computeObservationLikelihood(scan, mrpt::poses::CPose3D(robot));
-  return std::min(0.0, logLikelihood / static_cast<double>(beams.rays.size()));
+  auto& options = local.likelihoodOptions;
+  options.likelihoodMethod = mrptMethod(options_.method);
+  options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
+  options.LF_decimation = static_cast<uint32_t>(options_.beamStep);
+  options.rayTracing_decimation = options.consensus_takeEachRange = options_.beamStep;
+  // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
+  const double logLikelihood =
+      local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));
+  const bool isMean = options_.method == Method::consensus;
+  return std::min(0.0, isMean ? logLikelihood : logLikelihood / static_cast<double>(beams.rays.size()));
 }
 
 }  // namespace hybrid_slam

@@ -2,8 +2,6 @@
 /// @brief w_grid of Sec. III-D: how well a scan fits a particle's grid.
 #pragma once
 
-#include <mrpt/obs/CObservation2DRangeScan.h>
-
 #include "grid/PenetrationModel.h"
 
 namespace hybrid_slam {
@@ -15,12 +13,12 @@ class GridWeight {
       : options_(options), penetration_(options, resolution) {}
 
   /// The logarithm of w_grid before tempering, at most 0. For the penetration model this is the mean
-  /// log-likelihood of a beam; MRPT's methods give the log-likelihood of the whole scan, which is divided by
-  /// the number of beams, so that one exponent serves both.
+  /// log-likelihood of a beam; where MRPT's method gives the log-likelihood of the whole scan, it is divided
+  /// by the number of beams, so that one exponent serves all.
   /// @param beams  `scan` prepared; used by the penetration model
   /// @param scan   used by MRPT's methods, on a copy of the cells within its reach
-  double logWeight(const ScanBeams& beams, const mrpt::obs::CObservation2DRangeScan& scan,
-                   const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) const;
+  double logWeight(const ScanBeams& beams, const LaserScan& scan, const mrpt::math::TPose2D& robot,
+                   const OccupancyGrid& grid) const;
 
  private:
   GridWeightOptions options_;

@@ -12,12 +12,8 @@ void GridWeightOptions::describe(OptionTable& t) {
       "method", method,
       {{Method::penetration, "penetration"},
        {Method::likelihoodField, "likelihood_field"},
-       {Method::likelihoodFieldII, "likelihood_field_ii"},
        {Method::rayTracing, "ray_tracing"},
-       {Method::consensus, "consensus"},
-       {Method::consensusOwa, "consensus_owa"},
-       {Method::cellsDifference, "cells_difference"},
-       {Method::meanInformation, "mean_information"}},
+       {Method::consensus, "consensus"}},
       "laser penetration as in the paper's [4], or one of MRPT's likelihood methods (slow: for comparison)");
   t.add("exponent", exponent, 0, 1000, "",
         "tempering: w_grid = (geometric mean of the beams' likelihoods)^exponent, as if so many beams were "
@@ -45,16 +41,16 @@ PenetrationModel::PenetrationModel(const GridWeightOptions& options, double reso
 
 double PenetrationModel::beamLikelihood(double originX, double originY, double dirX, double dirY,
                                         double range, TileReader& cells) const {
-  constexpr double kOpaque = 30;   // exp(-30): nothing gets through
-  double depth = 0, passing = -1;  // optical depth so far; exp(-depth), once it is needed
-  double stoppedNearRange = 0;     // the sum of the formula
-  const double windowStart = range - window_;
+  constexpr double kOpaque = 30;                   // exp(-30): nothing gets through
+  double depth = 0, passing = -1;                  // optical depth so far; exp(-depth), once it is needed
+  double stoppedNearRange = 0;                     // the sum of the formula
+  const double windowStart = range - 2 * window_;  // exp(-18) at 6 sigma: nothing is added before
   traverseRay(originX, originY, dirX, dirY, range + window_, [&](int x, int y, double entry, double exit) {
     const double opacity = opacity_[static_cast<size_t>(cells.at(x, y) + 128)];
     if (opacity == 0) return true;
     if (exit >= windowStart && passing < 0) passing = std::exp(-depth);
     depth += opacity * (exit - entry);
-    if (exit < windowStart) return depth < kOpaque;  // too far before z to add to the sum
+    if (exit < windowStart) return depth < kOpaque;
     const double passed = std::exp(-depth);
     const double off = 0.5 * (entry + exit) - range;
     stoppedNearRange += (passing - passed) * std::exp(-off * off * halfInverseVariance_);

@@ -10,17 +10,9 @@ namespace hybrid_slam {
 
 /// Section [grid_weight].
 struct GridWeightOptions : Options {
-  /// How a scan is scored on a particle's grid: the penetration model, or one of MRPT's methods.
-  enum class Method {
-    penetration,
-    likelihoodField,
-    likelihoodFieldII,
-    rayTracing,
-    consensus,
-    consensusOwa,
-    cellsDifference,
-    meanInformation
-  };
+  /// How a scan is scored on a particle's grid: the penetration model, or one of those MRPT
+  /// methods that find the true pose (doc/mrpt-notes.md tells of the others).
+  enum class Method { penetration, likelihoodField, rayTracing, consensus };
   Method method = Method::penetration;
   double exponent = 60;
   int beamStep = 1;

@@ -10,6 +10,7 @@ namespace hybrid_slam {
 
 /// Walks the cells that a ray crosses and calls visit(x, y, entry, exit) with the distances (in cells) from
 /// the origin at which the ray enters and leaves the cell, until `length` is reached or visit returns false.
+/// A cell that the ray only touches, at a corner or where it starts on a border, is not crossed.
 /// @param originX,originY  in cells (m / cell size), map frame
 /// @param dirX,dirY        unit vector
 /// @param length           in cells
@@ -25,7 +26,7 @@ void traverseRay(double originX, double originY, double dirX, double dirY, doubl
   double entry = 0;
   while (entry < length) {
     const double exit = std::min(std::min(nextX, nextY), length);
-    if (!visit(x, y, entry, exit)) return;
+    if (exit > entry && !visit(x, y, entry, exit)) return;
     entry = exit;
     if (nextX < nextY) {
       x += stepX;

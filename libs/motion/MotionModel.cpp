@@ -77,12 +77,12 @@ mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelO
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions out;
   out.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
   auto& g = out.gaussianModel;
-  g.a1 = static_cast<float>(std::sqrt((o.distance.varianceD + o.drift.varianceD) / 2));
-  g.a2 = static_cast<float>(std::sqrt((o.distance.varianceT + o.drift.varianceT) / 2));
-  g.a3 = static_cast<float>(std::sqrt(o.turn.varianceD));
-  g.a4 = static_cast<float>(std::sqrt(o.turn.varianceT));
-  g.minStdXY = static_cast<float>(o.minStdXY);
-  g.minStdPHI = static_cast<float>(o.minStdPhi);
+  g.a1 = std::sqrt((o.distance.varianceD + o.drift.varianceD) / 2);
+  g.a2 = std::sqrt((o.distance.varianceT + o.drift.varianceT) / 2);
+  g.a3 = std::sqrt(o.turn.varianceD);
+  g.a4 = std::sqrt(o.turn.varianceT);
+  g.minStdXY = o.minStdXY;
+  g.minStdPHI = o.minStdPhi;
   return out;
 }
 

@@ -85,8 +85,7 @@ void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
 
 PreparedScan HybridMapBuilder::prepare(const CObservation2DRangeScan& observation) const {
   const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
-  return {&observation, ScanBeams(scan, 1),
-          ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
+  return {scan, ScanBeams(scan, 1), ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
           ScanBeams(scan, static_cast<size_t>(configuration_.matcher.beamStep)),
           configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
 }

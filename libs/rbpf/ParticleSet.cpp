@@ -153,7 +153,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CA
 // Sec. III-D.
 ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose) const {
   Weight weight;
-  weight.logGrid = gridWeight_.logWeight(scan_->weighedBeams, *scan_->observation, pose, particle.grid);
+  weight.logGrid = gridWeight_.logWeight(scan_->weighedBeams, scan_->scan, pose, particle.grid);
   if (configuration_.useLines)
     weight.line = hybrid_slam::lineWeight(scan_->lines, pose.phi, *particle.lines, configuration_.lineWeight);
   return weight;

@@ -4,18 +4,15 @@
 
 #include <vector>
 
+#include "base/LaserScan.h"
 #include "grid/ScanBeams.h"
 #include "lines/LineSegment.h"
-
-namespace mrpt::obs {
-class CObservation2DRangeScan;
-}
 
 namespace hybrid_slam {
 
 /// What all particles need of one scan, prepared once.
 struct PreparedScan {
-  const mrpt::obs::CObservation2DRangeScan* observation;
+  LaserScan scan;
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< every beam_step-th of [grid_weight]
   ScanBeams matchedBeams;          ///< every beam_step-th of [scan_matcher]

@@ -1,0 +1,165 @@
+#include "grid/OccupancyGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "base/RandomStream.h"
+#include "grid/RayTraversal.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+// In log-odds of 1/16: 16 ln(0.7 / 0.3) = 13.56, 16 ln(0.4 / 0.6) = -6.49, 16 ln(0.97 / 0.03) = 55.6.
+constexpr int kHit = 14, kMiss = -6, kHighest = 56, kLowest = -56;
+
+struct Reading {
+  double angle, range;
+};
+
+ScanBeams beams(const std::vector<Reading>& readings, const TPose2D& sensor = {}) {
+  LaserScan scan;
+  scan.sensorPose = sensor;
+  for (const Reading& r : readings) scan.beams.push_back({r.angle, r.range, true});
+  return ScanBeams(scan, 1);
+}
+
+/// Cells [x0, x1] of row y.
+std::vector<int> row(const OccupancyGrid& grid, int x0, int x1, int y) {
+  std::vector<int> values;
+  for (int x = x0; x <= x1; ++x) values.push_back(grid.tiles().at({x, y}));
+  return values;
+}
+
+TEST(OccupancyGrid, OneBeamMissesTheCellsItCrossesAndHitsTheOneItEndsIn) {
+  OccupancyGrid grid(1);
+  grid.insert(beams({{0, 4.2}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(row(grid, -1, 6, 0), (std::vector<int>{0, kMiss, kMiss, kMiss, kMiss, kHit, 0, 0}));
+  EXPECT_EQ(row(grid, -1, 6, 1), std::vector<int>(8, 0));
+  EXPECT_EQ(row(grid, -1, 6, -1), std::vector<int>(8, 0));
+}
+
+TEST(OccupancyGrid, OneHitMeansPHitAndOneMissPMiss) {
+  OccupancyGrid grid(1);
+  grid.insert(beams({{0, 2}}), {0.5, 0.5, 0}, GridOptions());
+  const double step = OccupancyGrid::kLogOddsScale / 2 / 4;  // half a step of the log-odds: dp = p (1 - p) dl
+  EXPECT_NEAR(grid.occupancy({2, 0}), 0.7, step);
+  EXPECT_NEAR(grid.occupancy({1, 0}), 0.4, step);
+  EXPECT_EQ(grid.occupancy({7, 7}), 0.5);
+}
+
+TEST(OccupancyGrid, ACellHitIsHitOnceAndNotMissedByAnotherBeamOfTheScan) {
+  OccupancyGrid grid(1);
+  grid.insert(beams({{0, 3}, {0, 3}, {0, 6}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(row(grid, 0, 7, 0),
+            (std::vector<int>{3 * kMiss, 3 * kMiss, 3 * kMiss, kHit, kMiss, kMiss, kHit, 0}));
+}
+
+TEST(OccupancyGrid, TheNextScanMayMissIt) {
+  OccupancyGrid grid(1);
+  grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  grid.insert(beams({{0, 6}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(grid.tiles().at({3, 0}), kHit + kMiss);
+}
+
+TEST(OccupancyGrid, StaysBetweenPMinAndPMaxAndCanChangeItsMind) {
+  OccupancyGrid grid(1);
+  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(row(grid, 0, 4, 0), (std::vector<int>{kLowest, kLowest, kLowest, kHighest, 0}));
+  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 4}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(row(grid, 0, 5, 0), (std::vector<int>{kLowest, kLowest, kLowest, kLowest, kHighest, 0}));
+}
+
+TEST(OccupancyGrid, TheExtremeOptionsFitIntoACell) {
+  OccupancyGrid grid(1);
+  GridOptions options;
+  options.pHit = 0.99, options.pMiss = 0.01, options.pMin = 0.001, options.pMax = 0.999;
+  for (int i = 0; i < 10; ++i) grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, options);
+  EXPECT_NEAR(grid.occupancy({3, 0}), 0.999, 1e-4);
+  EXPECT_NEAR(grid.occupancy({1, 0}), 0.001, 1e-4);
+}
+
+TEST(OccupancyGrid, TheSensorsPlaceOnTheRobotCounts) {
+  // Robot at (2, 3.5) looking along y, sensor 1 m ahead and 0.5 m to the left, turned to the left: the beam
+  // starts at (1.5, 4.5) and runs 3 m along -x.
+  OccupancyGrid grid(1);
+  grid.insert(beams({{0, 3}}, {1, 0.5, M_PI / 2}), {2, 3.5, M_PI / 2}, GridOptions());
+  EXPECT_EQ(row(grid, -3, 2, 4), (std::vector<int>{0, kHit, kMiss, kMiss, kMiss, 0}));
+}
+
+TEST(OccupancyGrid, ABeamAlongTheDiagonalLeavesTheCellsThatItOnlyTouches) {
+  OccupancyGrid grid(1);
+  ScanBeams diagonal = beams({{0, 3 * M_SQRT2}});
+  diagonal.rays[0].dirX = diagonal.rays[0].dirY = M_SQRT1_2;  // equal to the last bit
+  grid.insert(diagonal, {0.5, 0.5, 0}, GridOptions());
+  for (int y = 0; y <= 4; ++y)
+    for (int x = 0; x <= 4; ++x)
+      EXPECT_EQ(grid.tiles().at({x, y}), x != y ? 0 : x < 3 ? kMiss : x == 3 ? kHit : 0) << x << " " << y;
+}
+
+TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
+  LaserScan scan;
+  scan.beams = {{0, 3, false}, {1, 0, false}};
+  OccupancyGrid grid(1);
+  grid.insert(ScanBeams(scan, 1), {}, GridOptions());
+  grid.insert(ScanBeams(LaserScan(), 1), {}, GridOptions());
+  EXPECT_TRUE(grid.tiles().bounds().empty());
+}
+
+TEST(OccupancyGrid, EveryNthBeamOfAScan) {
+  LaserScan scan;
+  for (int i = 0; i < 10; ++i) scan.beams.push_back({0, i + 1.0, i != 3});
+  const ScanBeams some(scan, 3);  // 0, 3, 6, 9, of which 3 is not valid
+  ASSERT_EQ(some.rays.size(), 3u);
+  EXPECT_EQ(some.rays[0].range, 1);
+  EXPECT_EQ(some.rays[1].range, 7);
+  EXPECT_EQ(some.rays[2].range, 10);
+}
+
+/// Random scans against the rules applied cell by cell to a plain map.
+TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
+  RandomStream random(1, 0, 0);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  const double size = 0.1;
+  OccupancyGrid grid(size);
+  std::map<std::pair<int, int>, int> reference;
+  for (int scan = 0; scan < 30; ++scan) {
+    const TPose2D robot(uniform(-5, 5), uniform(-5, 5), uniform(-M_PI, M_PI));
+    const TPose2D sensor(uniform(-0.5, 0.5), uniform(-0.5, 0.5), uniform(-M_PI, M_PI));
+    std::vector<Reading> readings;
+    for (int i = 0; i < 60; ++i) readings.push_back({uniform(-2, 2), uniform(0.1, 8)});
+    grid.insert(beams(readings, sensor), robot, GridOptions());
+
+    const TPose2D laser = robot + sensor;
+    std::set<std::pair<int, int>> hits;
+    for (const Reading& r : readings) {
+      const CellIndex end = grid.cellOf(laser.x + r.range * std::cos(laser.phi + r.angle),
+                                        laser.y + r.range * std::sin(laser.phi + r.angle));
+      hits.insert({end.x, end.y});
+    }
+    for (const auto& cell : hits) reference[cell] = std::min(reference[cell] + kHit, kHighest);
+    for (const Reading& r : readings)
+      traverseRay(laser.x / size, laser.y / size, std::cos(laser.phi + r.angle),
+                  std::sin(laser.phi + r.angle), r.range / size, [&](int x, int y, double, double) {
+                    if (!hits.count({x, y})) reference[{x, y}] = std::max(reference[{x, y}] + kMiss, kLowest);
+                    return true;
+                  });
+  }
+  for (const auto& [cell, value] : reference)
+    ASSERT_EQ(grid.tiles().at({cell.first, cell.second}), value) << cell.first << " " << cell.second;
+}
+
+TEST(OccupancyGrid, ACopyKeepsItsMap) {
+  OccupancyGrid first(1);
+  first.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  OccupancyGrid second = first;
+  second.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  EXPECT_EQ(first.tiles().at({3, 0}), kHit);
+  EXPECT_EQ(second.tiles().at({3, 0}), 2 * kHit);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
