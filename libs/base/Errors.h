@@ -19,12 +19,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(what + ": " + where + "; " + expected) {}
 };
 
-/// The message of an exception in one line. MRPT's tell their call stack too, over several lines.
-inline std::string messageOf(const std::exception& exception) {
-  const std::string text = exception.what(), head = "Message: ";
-  const size_t labelled = text.find(head), start = labelled == std::string::npos ? 0 : labelled + head.size();
-  const size_t begin = text.find_first_not_of(" \n", start);
-  return begin == std::string::npos ? "no message" : text.substr(begin, text.find('\n', begin) - begin);
-}
+/// The message of an exception in one line. MRPT's tell their place in the code and their call stack too.
+std::string messageOf(const std::exception& exception);
 
 }  // namespace hybrid_slam

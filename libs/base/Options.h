@@ -71,8 +71,8 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 size_t editDistance(const std::string& a, const std::string& b);
 
 template <class Enum>
-void OptionTable::add(const std::string& key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
-                      const std::string& why) {
+void OptionTable::add(const std::string& key, Enum& value,
+                      const std::vector<std::pair<Enum, std::string>>& names, const std::string& why) {
   std::vector<std::string> texts;
   for (const auto& entry : names) texts.push_back(entry.second);
   addName(

@@ -178,6 +178,7 @@ ScanBeams beams(const std::vector<std::pair<double, double>>& readings) {
 TEST(PenetrationModel, AScanIsTheMeanOfItsBeamsWithTheirShareOfOutliers) {
   GridWeightOptions options;
   options.outlier = 0.2;
+  options.sigma = 0.1;
   OccupancyGrid grid(0.05);
   for (int x = -200; x < 200; ++x)
     for (int y = -200; y < 200; ++y) grid.tiles().set({x, y}, x == 100 ? int8_t{50} : kFree);

@@ -71,8 +71,9 @@ TEST(LineWeight, PaperMatchesAnyLineOfTheDatabase) {
 /// By hand: residuals 0, 2 deg (1 sigma) and 45 deg.
 TEST(LineWeight, GradedByHand) {
   const LineDatabase database = databaseOf({line(20, 6)});
-  const LineWeight weight =
-      lineWeight({line(110, 2), line(22, 3), line(65, 1)}, 0, database, method(Method::dominatingDirection));
+  auto options = method(Method::dominatingDirection);
+  options.sigma = 2 * kDegree;
+  const LineWeight weight = lineWeight({line(110, 2), line(22, 3), line(65, 1)}, 0, database, options);
   EXPECT_NEAR(weight.value, (2 + 3 * std::exp(-0.5)) / 6, 1e-9);
   EXPECT_EQ(weight.seen, 3);
   EXPECT_EQ(weight.matched, 2);
@@ -80,7 +81,8 @@ TEST(LineWeight, GradedByHand) {
 
 TEST(LineWeight, MatchedIsWithinTwoSigma) {
   const LineDatabase database = databaseOf({line(0, 6)});
-  const auto options = method(Method::dominatingDirection);
+  auto options = method(Method::dominatingDirection);
+  options.sigma = 2 * kDegree;
   EXPECT_EQ(lineWeight({line(3.99, 2)}, 0, database, options).matched, 1);
   EXPECT_EQ(lineWeight({line(4.01, 2)}, 0, database, options).matched, 0);
 }
