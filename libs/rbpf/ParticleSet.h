@@ -46,7 +46,8 @@ class ParticleSet
   const FilterStep& lastStep() const { return step_; }
   std::vector<WeightedPose> poses() const;
 
-  /// Also gives all particles the same weight again, which MRPT 2.5.8 forgets (doc/mrpt-notes.md).
+  /// Also gives all particles the same weight again, which MRPT 2.5.8 forgets, and draws by itself for the
+  /// residual scheme, which is biased there (doc/mrpt-notes.md).
   void performSubstitution(const std::vector<size_t>& indices) override;
 
   /// @name What MRPT's PF_implementation asks for
@@ -77,6 +78,8 @@ class ParticleSet
     double log(double exponent) const;
   };
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose) const;
+  /// The random numbers of the step that belong to no particle.
+  RandomStream sharedRandom() const;
   void setWeight(Particle& particle, const Weight& weight) const;
   void summarise();
   template <class Body>
