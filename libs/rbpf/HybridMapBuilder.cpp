@@ -18,6 +18,10 @@ namespace {
 mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions& options) {
   using mrpt::bayes::CParticleFilter;
   using Proposal = ParticleFilterOptions::Proposal;
+  if (options.proposal != Proposal::standard && options.resampling == CParticleFilter::prResidual)
+    throw InputError("residual resampling is biased in MRPT's auxiliary filters",
+                     "section [particle_filter], keys `proposal`, `resampling`",
+                     "expected another scheme or the standard proposal");
   CParticleFilter::TParticleFilterOptions out;
   switch (options.proposal) {
     case Proposal::standard:

@@ -14,6 +14,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include <cmath>
 
 #include "base/RandomStream.h"
+#include "rbpf/Resampling.h"
 
 namespace mrpt::slam {
 /// Where a particle falls in the bins of KLD sampling; the number of particles is fixed here, but the
@@ -74,8 +75,11 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   step_ = FilterStep();
   step_.resampled = false;
   // MRPT's resampling and auxiliary filters draw from its global generator.
-  RandomStream random = stream(m_particles.size());
-  mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(random.bits()));
+  mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(sharedRandom().bits()));
+}
+
+RandomStream ParticleSet::sharedRandom() const {
+  return stream(m_particles.size());
 }
 
 RandomStream ParticleSet::stream(size_t particle) const {
@@ -181,7 +185,14 @@ void ParticleSet::summarise() {
 }
 
 void ParticleSet::performSubstitution(const std::vector<size_t>& indices) {
-  CParticleFilterDataImpl::performSubstitution(indices);
+  if (configuration_.filter.resampling == mrpt::bayes::CParticleFilter::prResidual) {
+    std::vector<double> logWeights;
+    for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
+    RandomStream random = sharedRandom();
+    CParticleFilterDataImpl::performSubstitution(residualResampling(logWeights, random));
+  } else {
+    CParticleFilterDataImpl::performSubstitution(indices);
+  }
   for (auto& particle : m_particles) particle.log_w = 0;
   step_.resampled = true;
 }

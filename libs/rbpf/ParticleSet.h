@@ -39,7 +39,8 @@ class ParticleSet
   const FilterStep& lastStep() const { return step_; }
   std::vector<WeightedPose> poses() const;
 
-  /// Also gives all particles the same weight again, which MRPT 2.5.8 forgets (doc/mrpt-notes.md).
+  /// Also gives all particles the same weight again, which MRPT 2.5.8 forgets, and draws by itself for the
+  /// residual scheme, which is biased there (doc/mrpt-notes.md).
   void performSubstitution(const std::vector<size_t>& indices) override;
 
   /// @name What MRPT's PF_implementation asks for
@@ -74,6 +75,8 @@ class ParticleSet
   };
   RandomStream stream(size_t particle) const;  ///< the random numbers of a particle in this step
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose) const;
+  /// The random numbers of the step that belong to no particle.
+  RandomStream sharedRandom() const;
   void setWeight(Particle& particle, const Weight& weight) const;
   void summarise();
   /// Steps 1 and 2 for one particle: moves it and returns by how much its log-weight grows.
