@@ -1,14 +1,23 @@
 #include "io/Configuration.h"
 
+#include <mrpt/config/config_parser.h>
+#include <mrpt/system/string_utils.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "base/Errors.h"
+#include "io/ErrorText.h"
 
 namespace hybrid_slam {
 namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::string readText(const std::string& file) {
   const std::string expected = "expected a readable INI file";
@@ -22,21 +31,39 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-/// An InputError that names the file too.
-[[noreturn]] void rethrowIn(const std::string& file, const InputError& error) {
-  std::string text = error.what();
-  const auto where = text.find(": section [");
-  if (where != std::string::npos) text.insert(where + 2, file + ", ");
-  const auto end = text.rfind("; ");
-  const auto colon = text.find(": ");
-  throw InputError(text.substr(0, colon), text.substr(colon + 2, end - colon - 2), text.substr(end + 2));
+/// What MRPT's parser makes of the text, its @define and ${...} done.
+std::string parsed(const std::string& text, const std::string& file) {
+  try {
+    return mrpt::config::config_parser(text);
+  } catch (const std::exception& e) {
+    throw InputError("cannot parse", file, oneLine(e));
+  }
 }
 
-void applySetting(mrpt::config::CConfigFileMemory& source, const std::string& setting) {
-  const auto equals = setting.find('='), dot = setting.find('.');
-  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
-    throw InputError("wrong setting `" + setting + "`", "--set", "expected SECTION.KEY=VALUE");
-  source.write(setting.substr(0, dot), setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
+/// The parser passes over a line that it does not understand, and nobody reads a key before the first
+/// section.
+void checkLines(const std::string& text, const std::string& file, const std::vector<std::string>& sections) {
+  std::istringstream in(text);
+  std::optional<std::string> section;
+  for (std::string line; std::getline(in, line);) {
+    line = mrpt::system::trim(line);
+    if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // the mark that some editors put at the start
+    if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
+    const auto end = line.find(']'), equals = line.find('=');
+    if (line.front() == '[' && end != std::string::npos)
+      section = line.substr(1, end - 1);
+    else if (!section || (equals == std::string::npos && contains(sections, *section)))
+      throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
+  }
+}
+
+/// An InputError about a section that says where the section is from.
+[[noreturn]] void rethrowIn(const std::string& where, const InputError& error) {
+  const std::string text = error.what();
+  const auto section = text.find(": section ["), end = text.rfind("; ");
+  if (section == std::string::npos) throw error;
+  throw InputError(text.substr(0, section), where + ", " + text.substr(section + 2, end - section - 2),
+                   text.substr(end + 2));
 }
 
 }  // namespace
@@ -50,31 +77,45 @@ void RunOptions::describe(OptionTable& t) {
 }
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings) {
-  source.setContent(readText(file));
-  for (const std::string& setting : settings) applySetting(source, setting);
-
   std::vector<std::string> present, ours;
-  source.getAllSections(present);
   for (const auto& [name, options] : sections()) ours.push_back(name);
-  const auto isOurs = [&ours](const std::string& s) {
-    return std::find(ours.begin(), ours.end(), s) != ours.end();
-  };
+  const std::string text = parsed(readText(file), file);
+  checkLines(text, file, ours);
+  source.setContent(text);
+  source.getAllSections(present);
+
+  const auto isOurs = [&ours](const std::string& section) { return contains(ours, section); };
   if (std::none_of(present.begin(), present.end(), isOurs) && !source.sectionExists(kStockSection))
     throw InputError("missing section", file,
                      "expected at least one of the sections in doc/configuration.md, such as [run] or "
                      "[particle_filter]");
   for (const std::string& section : present) {
     const std::string nearest = nearestName(section, ours);
-    if (!isOurs(section) && editDistance(section, nearest) <= 2)
+    if (!isOurs(section) && 3 * editDistance(section, nearest) <= nearest.size())
       throw InputError("unknown section [" + section + "]", file,
                        "the nearest known section is [" + nearest + "]");
   }
+  load(file);
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('='), dot = setting.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
+      throw InputError("wrong setting `" + setting + "`", "command line", "expected SECTION.KEY=VALUE");
+    const std::string section = setting.substr(0, dot);
+    if (!isOurs(section) && !contains(present, section))
+      throw InputError("unknown section [" + section + "]", "command line, setting `" + setting + "`",
+                       "the nearest known section is [" + nearestName(section, ours) + "]");
+    source.write(section, setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
+    load("command line");
+  }
+  filter.useLines = run.method == RunOptions::Method::hybrid;
+}
+
+void Configuration::load(const std::string& where) {
   try {
     for (const auto& [name, options] : sections()) options->loadFromConfigFile(source, name);
   } catch (const InputError& error) {
-    rethrowIn(file, error);
+    rethrowIn(where, error);
   }
-  filter.useLines = run.method == RunOptions::Method::hybrid;
 }
 
 std::vector<std::pair<std::string, Options*>> Configuration::sections() {
@@ -84,13 +125,9 @@ std::vector<std::pair<std::string, Options*>> Configuration::sections() {
 }
 
 std::string Configuration::text() {
-  std::ostringstream out;
-  for (const auto& [name, options] : sections()) {
-    out << "[" << name << "]\n";
-    for (const Option& option : options->table()) out << option.key << " = " << option.get() << "\n";
-    out << "\n";
-  }
-  return out.str();
+  mrpt::config::CConfigFileMemory all(source.getContent());  // its copies would share one content
+  for (const auto& [name, options] : sections()) options->saveToConfigFile(all, name);
+  return all.getContent();
 }
 
 std::string configurationManual() {
