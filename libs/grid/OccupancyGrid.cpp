@@ -56,7 +56,8 @@ void GridOptions::describe(OptionTable& t) {
   t.add("max_range", maxRange, 0.5, 200, "m",
         "readings at or beyond it are no readings: 20 m for an LMS-100");
   t.add("p_hit", pHit, 0.51, 0.99, "", "occupancy that one hit alone means");
-  t.add("p_miss", pMiss, 0.01, 0.49, "", "occupancy that one crossing beam alone means");
+  t.add("p_miss", pMiss, 0.01, 0.49, "",
+        "occupancy that one crossing beam alone means; near 0.5, so that what was mapped first prevails");
   t.add("p_min", pMin, 0.001, 0.49, "", "least occupancy of a cell, so that a map can change its mind");
   t.add("p_max", pMax, 0.51, 0.999, "", "greatest occupancy of a cell");
 }

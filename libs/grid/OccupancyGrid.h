@@ -14,7 +14,7 @@ namespace hybrid_slam {
 struct GridOptions : Options {
   double resolution = 0.05;
   double maxRange = 20;
-  double pHit = 0.7, pMiss = 0.4;
+  double pHit = 0.6, pMiss = 0.49;
   double pMin = 0.03, pMax = 0.97;
   void describe(OptionTable& table) override;
 };

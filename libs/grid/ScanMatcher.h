@@ -15,10 +15,10 @@ namespace hybrid_slam {
 
 /// Section [scan_matcher].
 struct ScanMatcherOptions : Options {
-  double sigma = 1;
+  double sigma = 0.5;
   int beamStep = 1;
   int iterations = 20;
-  double searchDistance = 0.1;
+  double searchDistance = 0;
   double searchAngle = 3 * M_PI / 180;
   void describe(OptionTable& table) override;
 };

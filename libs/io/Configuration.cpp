@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "base/Errors.h"
-#include "io/ErrorText.h"
 
 namespace hybrid_slam {
 namespace {
@@ -36,7 +35,7 @@ std::string parsed(const std::string& text, const std::string& file) {
   try {
     return mrpt::config::config_parser(text);
   } catch (const std::exception& e) {
-    throw InputError("cannot parse", file, oneLine(e));
+    throw InputError("cannot parse", file, messageOf(e));
   }
 }
 

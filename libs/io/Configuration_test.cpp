@@ -107,7 +107,8 @@ TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
 
 TEST_F(ConfigurationTest, MrptsSubstitutions) {
   EXPECT_EQ(load("@define N 7\n[particle_filter]\nparticles = ${N}\n").filter.filter.particles, 7);
-  EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"), StartsWith("cannot parse: " + ini + "; "));
+  EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"),
+              StartsWith("cannot parse: " + ini + "; "));
 }
 
 TEST_F(ConfigurationTest, SettingsAreStrongerThanTheFile) {
