@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3DPDFParticles.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/Errors.h"
 #include "grid/GridConversion.h"
@@ -31,6 +32,8 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
   out.sampleSize = static_cast<unsigned int>(options.particles);
   out.BETA = options.essThreshold;
   out.adaptiveSampleSize = false;
+  // MRPT would give a particle of less likelihood than this the pose of another, but leave it its own map.
+  out.max_loglikelihood_dyn_range = std::numeric_limits<double>::infinity();
   return out;
 }
 

@@ -65,8 +65,10 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   ++stepNumber_;
   step_ = FilterStep();
   step_.resampled = false;
-  // MRPT's resampling and auxiliary filters draw from its global generator.
-  mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(sharedRandom().bits()));
+  // MRPT's resampling and auxiliary filters draw from its global generator. A new one, since seeding the old
+  // one keeps the second normal number of its last pair.
+  mrpt::random::getRandomGenerator() =
+      mrpt::random::CRandomGenerator(static_cast<uint32_t>(sharedRandom().bits()));
 }
 
 RandomStream ParticleSet::sharedRandom() const {
@@ -110,6 +112,7 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
 void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::CActionCollection* action,
                                                               const mrpt::obs::CSensoryFrame* observation,
                                                               const PfOptions& PF_options) {
+  step_.resampled = ESS() < PF_options.BETA;  // by the weights of the step before
   PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
   summarise();
@@ -118,6 +121,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::C
 void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CActionCollection* action,
                                                              const mrpt::obs::CSensoryFrame* observation,
                                                              const PfOptions& PF_options) {
+  step_.resampled = ESS() < PF_options.BETA;
   PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
   summarise();
