@@ -1,6 +1,7 @@
 #include "rbpf/HybridMapBuilder.h"
 
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPose3DPDFParticles.h>
 
 #include <cmath>
@@ -91,6 +92,7 @@ void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, cons
   updates_ = 0;
   hasMap_ = false;
   scans_.clear();
+  initialMap_ = initialMap;
   particles_.reset(TPose2D());
   for (size_t i = 0; i < initialMap.size(); ++i) {
     const auto [posePdf, frame] = initialMap.getAsPair(i);
@@ -118,10 +120,10 @@ mrpt::poses::CPose3DPDF::Ptr HybridMapBuilder::getCurrentPoseEstimation() const 
 }
 
 void HybridMapBuilder::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const {
-  map.clear();
+  map = initialMap_;
   const std::vector<TPose2D> path = bestPath();
   for (size_t i = 0; i < scans_.size(); ++i)
-    map.insert(mrpt::poses::CPosePDFGaussian(mrpt::poses::CPose2D(path[i])), *scans_[i]);
+    map.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(path[i])), *scans_[i]);
 }
 
 const mrpt::maps::CMultiMetricMap* HybridMapBuilder::getCurrentlyBuiltMetricMap() const {

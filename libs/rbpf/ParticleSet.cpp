@@ -8,6 +8,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 }
 #include <mrpt/slam/PF_aux_structs.h>
 #include <mrpt/slam/PF_implementations.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -35,10 +36,20 @@ using mrpt::math::TPose2D;
 using mrpt::slam::detail::TPoseBin2D;
 using PfOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
 
+namespace {
+
+/// More threads than these TBB does not start, but complains about on stderr.
+int coresAllowed() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace
+
 ParticleSet::ParticleSet(const FilterConfiguration& configuration)
     : configuration_(configuration),
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
-      arena_(configuration.filter.threads > 0 ? configuration.filter.threads : +tbb::task_arena::automatic) {}
+      arena_(configuration.filter.threads > 0 ? std::min(configuration.filter.threads, coresAllowed())
+                                              : +tbb::task_arena::automatic) {}
 
 template <class Body>
 void ParticleSet::forEachParticle(const Body& body) {
@@ -64,6 +75,7 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   scan_ = &scan;
   ++stepNumber_;
   step_ = FilterStep();
+  step_.particles = m_particles.size();
   step_.resampled = false;
   // MRPT's resampling and auxiliary filters draw from its global generator. A new one, since seeding the old
   // one keeps the second normal number of its last pair.
@@ -146,9 +158,9 @@ void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
 }
 
 void ParticleSet::summarise() {
+  normalizeWeights();  // else ESS() underflows where all particles fit badly
   for (auto& particle : m_particles) particle.d->logWeight = particle.log_w;
   const Particle& bestParticle = best();
-  step_.particles = m_particles.size();
   step_.ess = ESS();
   step_.gridWeight = bestParticle.gridWeight;
   if (configuration_.useLines) step_.lineWeight = bestParticle.lineWeight.value;
