@@ -1,9 +1,11 @@
 #include "rbpf/HybridMapBuilder.h"
 
 #include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPose3DPDFParticles.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/Errors.h"
 #include "grid/GridConversion.h"
@@ -41,6 +43,8 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
   out.sampleSize = static_cast<unsigned int>(options.particles);
   out.BETA = options.essThreshold;
   out.adaptiveSampleSize = false;
+  // MRPT would give a particle of less likelihood than this the pose of another, but leave it its own map.
+  out.max_loglikelihood_dyn_range = std::numeric_limits<double>::infinity();
   return out;
 }
 
@@ -99,6 +103,7 @@ void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, cons
   updates_ = 0;
   hasMap_ = false;
   scans_.clear();
+  initialMap_ = initialMap;
   particles_.reset(TPose2D());
   for (size_t i = 0; i < initialMap.size(); ++i) {
     const auto [posePdf, frame] = initialMap.getAsPair(i);
@@ -126,10 +131,10 @@ mrpt::poses::CPose3DPDF::Ptr HybridMapBuilder::getCurrentPoseEstimation() const 
 }
 
 void HybridMapBuilder::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const {
-  map.clear();
+  map = initialMap_;
   const std::vector<TPose2D> path = bestPath();
   for (size_t i = 0; i < scans_.size(); ++i)
-    map.insert(mrpt::poses::CPosePDFGaussian(mrpt::poses::CPose2D(path[i])), *scans_[i]);
+    map.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(path[i])), *scans_[i]);
 }
 
 const mrpt::maps::CMultiMetricMap* HybridMapBuilder::getCurrentlyBuiltMetricMap() const {

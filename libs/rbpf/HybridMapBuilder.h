@@ -29,11 +29,14 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public FilterView
 
   /// The weighted particles, carried on by the odometry since the last update.
   mrpt::poses::CPose3DPDF::Ptr getCurrentPoseEstimation() const override;
-  /// The scans that made the filter run, at the best particle's poses; empty if they are not remembered.
+  /// The map it was initialized with, and the scans that made the filter run at the best particle's poses,
+  /// unless they are not remembered.
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const override;
   /// The best particle's grid; valid until the next call.
   const mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;
-  unsigned int getCurrentlyBuiltMapSize() override { return static_cast<unsigned int>(updates()); }
+  unsigned int getCurrentlyBuiltMapSize() override {
+    return static_cast<unsigned int>(initialMap_.size() + scans_.size());
+  }
   void saveCurrentEstimationToImage(const std::string& file, bool formatEmfBmp = true) override;
   /// The best particle's path, one pose for each update.
   void getCurrentMostLikelyPath(std::deque<mrpt::math::TPose3D>& path) const;
@@ -61,6 +64,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public FilterView
   size_t updates_ = 0;
   bool hasMap_ = false;
   bool remembersScans_ = true;
+  mrpt::maps::CSimpleMap initialMap_;
   std::vector<mrpt::obs::CSensoryFrame::Ptr> scans_;  ///< one for each update
   mutable mrpt::maps::CMultiMetricMap metricMap_;
 };

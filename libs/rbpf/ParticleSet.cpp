@@ -8,6 +8,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 }
 #include <mrpt/slam/PF_aux_structs.h>
 #include <mrpt/slam/PF_implementations.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -41,13 +42,19 @@ TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
   return action.getBestMovementEstimation()->rawOdometryIncrementReading.asTPose();
 }
 
+/// More threads than these TBB does not start, but complains about on stderr.
+int coresAllowed() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 }  // namespace
 
 ParticleSet::ParticleSet(const FilterConfiguration& configuration)
     : configuration_(configuration),
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
       improvedProposal_(configuration),
-      arena_(configuration.filter.threads > 0 ? configuration.filter.threads : +tbb::task_arena::automatic) {}
+      arena_(configuration.filter.threads > 0 ? std::min(configuration.filter.threads, coresAllowed())
+                                              : +tbb::task_arena::automatic) {}
 
 template <class Body>
 void ParticleSet::forEachParticle(const Body& body) {
@@ -73,9 +80,12 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   scan_ = &scan;
   ++stepNumber_;
   step_ = FilterStep();
+  step_.particles = m_particles.size();
   step_.resampled = false;
-  // MRPT's resampling and auxiliary filters draw from its global generator.
-  mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(sharedRandom().bits()));
+  // MRPT's resampling and auxiliary filters draw from its global generator. A new one, since seeding the old
+  // one keeps the second normal number of its last pair.
+  mrpt::random::getRandomGenerator() =
+      mrpt::random::CRandomGenerator(static_cast<uint32_t>(sharedRandom().bits()));
 }
 
 RandomStream ParticleSet::sharedRandom() const {
@@ -141,6 +151,7 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
 void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::CActionCollection* action,
                                                               const mrpt::obs::CSensoryFrame* observation,
                                                               const PfOptions& PF_options) {
+  step_.resampled = ESS() < PF_options.BETA;  // by the weights of the step before
   PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
   summarise();
@@ -149,6 +160,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::C
 void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CActionCollection* action,
                                                              const mrpt::obs::CSensoryFrame* observation,
                                                              const PfOptions& PF_options) {
+  step_.resampled = ESS() < PF_options.BETA;
   PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
   summarise();
@@ -173,9 +185,9 @@ void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
 }
 
 void ParticleSet::summarise() {
+  normalizeWeights();  // else ESS() underflows where all particles fit badly
   for (auto& particle : m_particles) particle.d->logWeight = particle.log_w;
   const Particle& bestParticle = best();
-  step_.particles = m_particles.size();
   step_.ess = ESS();
   step_.gridWeight = bestParticle.gridWeight;
   if (configuration_.useLines) step_.lineWeight = bestParticle.lineWeight.value;

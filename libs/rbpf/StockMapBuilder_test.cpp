@@ -1,0 +1,72 @@
+#include "rbpf/StockMapBuilder.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/random/RandomGenerators.h>
+
+#include "rbpf/TestRoom.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+FilterConfiguration configuration() {
+  FilterConfiguration c = roomConfiguration();
+  c.filter.particles = 5;
+  c.filter.updateDistance = 0.4;
+  c.filter.updateAngle = 25 * kDegree;
+  c.grid.resolution = 0.1;
+  return c;
+}
+
+TEST(StockMapBuilder, TakesOurSettings) {
+  FilterConfiguration c = configuration();
+  c.filter.essThreshold = 0.75;
+  c.filter.resampling = mrpt::bayes::CParticleFilter::prStratified;
+  const auto options = stockOptions(c);
+  EXPECT_EQ(options.PF_options.PF_algorithm, mrpt::bayes::CParticleFilter::pfStandardProposal);
+  EXPECT_EQ(options.PF_options.resamplingMethod, mrpt::bayes::CParticleFilter::prStratified);
+  EXPECT_EQ(options.PF_options.sampleSize, 5u);
+  EXPECT_NEAR(options.PF_options.BETA, 0.75, 1e-6);
+  EXPECT_NEAR(options.insertionLinDistance, 0.4, 1e-6);
+  EXPECT_NEAR(options.localizeLinDistance, 0.4, 1e-6);
+  EXPECT_NEAR(options.insertionAngDistance, 25 * kDegree, 1e-6);
+  EXPECT_NEAR(options.localizeAngDistance, 25 * kDegree, 1e-6);
+}
+
+TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
+  const StockMapBuilder builder(stockOptions(configuration()));
+  EXPECT_EQ(builder.updates(), 0u);
+  EXPECT_TRUE(builder.bestPath().empty());
+  EXPECT_EQ(builder.particlePoses().size(), 5u);
+  EXPECT_TRUE(builder.bestLines().empty());
+}
+
+TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
+  mrpt::random::getRandomGenerator().randomize(1);  // MRPT's filter draws from it
+  StockMapBuilder builder(stockOptions(configuration()));
+  const Replayed replayed = feed(builder, builder, drive(2));
+  const auto path = builder.bestPath();
+  ASSERT_GT(builder.updates(), 10u);
+  ASSERT_EQ(replayed.truth.size(), builder.updates());
+  ASSERT_EQ(path.size(), builder.updates());
+  EXPECT_EQ(builder.lastStep().particles, 5u);
+  EXPECT_FALSE(builder.lastStep().resampled);
+  EXPECT_GT(builder.lastStep().ess, 0);
+  EXPECT_LE(builder.lastStep().ess, 1);
+  // Half a square with odometry this bad: no farther off than its odometry, not somewhere else.
+  EXPECT_LT(rms(path, replayed.truth), 0.5);
+  for (size_t i = 1; i < path.size(); ++i)
+    EXPECT_LT(std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y), 1) << i;
+
+  const auto grid = builder.bestGrid();
+  EXPECT_NEAR(grid.getResolution(), 0.1, 1e-6);
+  EXPECT_GT(grid.getPos(3, 1), 0.5);  // free where the robot drove about
+  EXPECT_LT(grid.getXMin(), -2);      // behind the robot's start
+  size_t occupied = 0;
+  for (const auto cell : grid.getRawMap()) occupied += cell < 0;
+  EXPECT_GT(occupied, 300u);  // 39 m of walls in cells of 0.1 m
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,210 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "base/Errors.h"
+#include "rbpf/HybridMapBuilder.h"
+#include "rbpf/StockMapBuilder.h"
+#include "rbpf/TestRoom.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+using mrpt::bayes::CParticleFilter;
+using Proposal = ParticleFilterOptions::Proposal;
+
+struct Outcome {
+  std::vector<TPose2D> path;
+  double error, odometryError;
+  std::vector<DatabaseLine> lines;
+  mrpt::maps::COccupancyGridMap2D grid;
+  FilterStep last;
+  int resamplings = 0;
+};
+
+Outcome run(const FilterConfiguration& configuration, const std::vector<DriveStep>& steps) {
+  HybridMapBuilder builder(configuration);
+  Outcome result;
+  Replayed replayed;
+  TPose2D odometry;
+  for (const DriveStep& step : steps) {
+    const size_t before = builder.updates();
+    feed(builder, step);
+    odometry = odometry + step.odometry;
+    if (builder.updates() == before) continue;
+    replayed.truth.push_back(step.truth), replayed.odometry.push_back(odometry);
+    result.resamplings += builder.lastStep().resampled.value() ? 1 : 0;
+  }
+  result.path = builder.bestPath();
+  result.error = rms(result.path, replayed.truth);
+  result.odometryError = rms(replayed.odometry, replayed.truth);
+  result.lines = builder.bestLines();
+  result.grid = builder.bestGrid();
+  result.last = builder.lastStep();
+  return result;
+}
+
+void expectSame(const Outcome& a, const Outcome& b) {
+  EXPECT_EQ(a.path, b.path);  // bit for bit
+  EXPECT_TRUE(a.grid.getRawMap() == b.grid.getRawMap());
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (size_t i = 0; i < a.lines.size(); ++i) {
+    EXPECT_EQ(a.lines[i].rho, b.lines[i].rho);
+    EXPECT_EQ(a.lines[i].theta, b.lines[i].theta);
+  }
+  EXPECT_EQ(a.last.ess, b.last.ess);
+  EXPECT_EQ(a.resamplings, b.resamplings);
+}
+
+FilterConfiguration with(Proposal proposal, bool useLines) {
+  FilterConfiguration c = roomConfiguration();
+  c.filter.proposal = proposal;
+  c.useLines = useLines;
+  return c;
+}
+
+class Proposals : public testing::TestWithParam<std::pair<Proposal, bool>> {
+ protected:
+  FilterConfiguration configuration() const {
+    FilterConfiguration c = with(GetParam().first, GetParam().second);
+    if (GetParam().first == Proposal::auxiliaryOptimal) {  // weighs each particle some hundred times
+      c.filter.particles = 6;
+      c.gridWeight.beamStep = 5;
+    }
+    return c;
+  }
+};
+
+TEST_P(Proposals, TracksASquareBetterThanItsOdometry) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    FilterConfiguration c = configuration();
+    c.filter.seed = static_cast<int>(seed);
+    const Outcome result = run(c, drive(8, seed));
+    EXPECT_LT(result.error, result.odometryError / 3);
+    EXPECT_GT(result.resamplings, 0);
+    EXPECT_EQ(result.lines.empty(), !GetParam().second);
+  }
+}
+
+TEST_P(Proposals, SameSeedSameRunForAnyNumberOfThreads) {
+  const auto steps = drive(2);
+  // As many threads as are asked for, however few cores there are.
+  const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
+  FilterConfiguration c = configuration();
+  const Outcome one = run(c, steps);
+  expectSame(run(c, steps), one);
+  for (const int threads : {2, 4}) {
+    c.filter.threads = threads;
+    expectSame(run(c, steps), one);
+  }
+}
+
+TEST_P(Proposals, AnotherSeedIsAnotherRun) {
+  const auto steps = drive(1);
+  FilterConfiguration c = configuration();
+  const Outcome one = run(c, steps);
+  c.filter.seed = 2;
+  EXPECT_NE(run(c, steps).path, one.path);
+}
+
+std::string nameOf(const testing::TestParamInfo<std::pair<Proposal, bool>>& tested) {
+  const auto [proposal, useLines] = tested.param;
+  const std::string name = proposal == Proposal::standard            ? "Standard"
+                           : proposal == Proposal::auxiliaryStandard ? "AuxiliaryStandard"
+                                                                     : "AuxiliaryOptimal";
+  return name + (useLines ? "" : "WithoutLines");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Proposals,
+                         testing::Values(std::pair(Proposal::standard, true),
+                                         std::pair(Proposal::standard, false),
+                                         std::pair(Proposal::auxiliaryStandard, true),
+                                         std::pair(Proposal::auxiliaryOptimal, true)),
+                         nameOf);
+
+TEST(Tracking, LinesMakeADifference) {
+  const auto steps = drive(2);
+  const Outcome hybrid = run(with(Proposal::standard, true), steps);
+  const Outcome general = run(with(Proposal::standard, false), steps);
+  EXPECT_NE(hybrid.path, general.path);
+  EXPECT_FALSE(hybrid.lines.empty());
+  EXPECT_TRUE(hybrid.last.lineWeight);
+  EXPECT_GT(hybrid.last.linesSeen, 0);
+  EXPECT_GT(hybrid.last.linesMatched, 0);
+  EXPECT_TRUE(general.lines.empty());
+  EXPECT_FALSE(general.last.lineWeight);
+  EXPECT_EQ(general.last.linesSeen, 0);
+}
+
+TEST(Tracking, EveryResamplingSchemeTracks) {
+  for (const auto scheme : {CParticleFilter::prMultinomial, CParticleFilter::prResidual,
+                            CParticleFilter::prStratified, CParticleFilter::prSystematic}) {
+    FilterConfiguration c = roomConfiguration();
+    c.filter.resampling = scheme;
+    const Outcome result = run(c, drive(8));
+    EXPECT_LT(result.error, result.odometryError / 2);
+    EXPECT_GT(result.resamplings, 0);
+  }
+}
+
+TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
+  for (const auto proposal : {Proposal::auxiliaryStandard, Proposal::auxiliaryOptimal}) {
+    FilterConfiguration c = with(proposal, true);
+    c.filter.resampling = CParticleFilter::prResidual;
+    EXPECT_THROW(HybridMapBuilder{c}, InputError);
+  }
+}
+
+/// Without resampling every particle must go on from where it was. MRPT's auxiliary filters give a particle
+/// that fits badly the pose of another one, but leave it its own map and path.
+TEST(Tracking, AnAuxiliaryFilterLeavesEachParticleItsOwnPath) {
+  FilterConfiguration c = with(Proposal::auxiliaryStandard, true);
+  c.filter.essThreshold = 0;
+  c.gridWeight.exponent = 1000;
+  HybridMapBuilder builder(c);
+  RandomStream random(1, 0, 0);
+  feed(builder, {{}, {}, roomScan({}, random)});
+  feed(builder, {{5, 0, 0}, {}, roomScan({5, 0, 0}, random)});  // half a metre apart afterwards
+  const auto before = builder.particlePoses();
+  feed(builder, {{0.3, 0, 0}, {}, roomScan({5.3, 0, 0}, random)});
+  const auto after = builder.particlePoses();
+  const auto model = toMrpt(c.motion).gaussianModel;
+  const double sigma = model.minStdXY + 0.3 * model.a1;
+  for (size_t i = 0; i < before.size(); ++i) {
+    const TPose2D expected = before[i].pose + TPose2D(0.3, 0, 0);
+    EXPECT_LT(std::hypot(after[i].pose.x - expected.x, after[i].pose.y - expected.y), 5 * sigma) << i;
+  }
+}
+
+/// Of the residual scheme through the filter: the copies of each particle average n w (see Resampling_test).
+TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
+  // Four particles at x = 0..3 whose weights are those of Resampling_test's trap.
+  FilterConfiguration c = roomConfiguration();
+  c.filter.particles = 4;
+  c.filter.resampling = CParticleFilter::prResidual;
+  constexpr int kRepetitions = 4000;
+  double firstCopies = 0;
+  for (int seed = 1; seed <= kRepetitions; ++seed) {
+    c.filter.seed = seed;
+    ParticleSet particles(c);
+    particles.reset({});
+    const PreparedScan nothing{LaserScan(), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), {}};
+    particles.beginStep(nothing);
+    for (size_t i = 0; i < 4; ++i) {
+      particles.m_particles[i].d->path.push({static_cast<double>(i), 0, 0});
+      particles.m_particles[i].log_w = std::log(i < 3 ? 0.125 : 0.625);
+    }
+    CParticleFilter::TParticleFilterOptions options;
+    options.resamplingMethod = CParticleFilter::prResidual;
+    particles.performResampling(options);
+    for (const auto& particle : particles.poses()) {
+      firstCopies += particle.pose.x == 0 ? 1 : 0;
+      ASSERT_EQ(particle.logWeight, 0);
+    }
+  }
+  // n w = 0.5; two draws of 1/4 each have the variance 3/8.
+  EXPECT_NEAR(firstCopies / kRepetitions, 0.5, 5 * std::sqrt(0.375 / kRepetitions));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
