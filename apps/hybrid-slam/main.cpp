@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "base/Errors.h"
+#include "io/ErrorText.h"
 #include "io/Replay.h"
 
 namespace {
@@ -86,7 +87,6 @@ int main(int argc, char** argv) {
   } catch (const hybrid_slam::InputError& e) {
     return fail(2, e.what());
   } catch (const std::exception& e) {
-    const std::string message = e.what();
-    return fail(1, message.substr(0, message.find('\n')));
+    return fail(1, "run failed: " + config + "; " + hybrid_slam::oneLine(e));
   }
 }

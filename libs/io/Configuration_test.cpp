@@ -102,12 +102,14 @@ TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
   EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));
   EXPECT_THAT(errorOf("[run\nmethod = general\n[grid]\n"), StartsWith("wrong line `[run`"));
   EXPECT_EQ(errorOf("[run]\n[other]\nfree text\n"), "no error") << "other sections are left alone";
+  EXPECT_EQ(errorOf("[run]\r\n\r\nmethod = general\r\n\r\n"), "no error");
   EXPECT_EQ(errorOf("\xEF\xBB\xBF[run]\nmethod = general\n"), "no error") << "a byte order mark";
 }
 
 TEST_F(ConfigurationTest, MrptsSubstitutions) {
   EXPECT_EQ(load("@define N 7\n[particle_filter]\nparticles = ${N}\n").filter.filter.particles, 7);
-  EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"), StartsWith("cannot parse: " + ini + "; "));
+  EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"),
+              StartsWith("cannot parse: " + ini + "; "));
 }
 
 TEST_F(ConfigurationTest, SettingsAreStrongerThanTheFile) {

@@ -63,6 +63,7 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   scan_ = &scan;
   ++stepNumber_;
   step_ = FilterStep();
+  step_.particles = m_particles.size();
   step_.resampled = false;
   // MRPT's resampling and auxiliary filters draw from its global generator.
   const auto seed = static_cast<uint64_t>(configuration_.filter.seed);
@@ -141,7 +142,6 @@ void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
 void ParticleSet::summarise() {
   for (auto& particle : m_particles) particle.d->logWeight = particle.log_w;
   const Particle& bestParticle = best();
-  step_.particles = m_particles.size();
   step_.ess = ESS();
   step_.gridWeight = bestParticle.gridWeight;
   if (configuration_.useLines) step_.lineWeight = bestParticle.lineWeight.value;

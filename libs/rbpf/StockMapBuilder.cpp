@@ -70,8 +70,10 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const Filte
   const std::string s = "MappingApplication", grid = s + "_occupancyGrid_00";
   ini.write(s, "PF_algorithm", 0);
   ini.write(s, "resamplingMethod", static_cast<int>(ours.filter.resampling));
+  ini.write(s, "adaptiveSampleSize", 0);
   ini.write(s, "sampleSize", ours.filter.particles);
   ini.write(s, "BETA", ours.filter.essThreshold);
+  ini.write(s, "pfOptimalProposal_mapSelection", 0);
   ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
   ini.write(s, "insertionAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);
   ini.write(s, "localizeLinDistance", ours.filter.updateDistance);
