@@ -86,6 +86,6 @@ int main(int argc, char** argv) {
   } catch (const hybrid_slam::InputError& e) {
     return fail(2, e.what());
   } catch (const std::exception& e) {
-    return fail(1, hybrid_slam::messageOf(e));
+    return fail(1, "run failed: " + config + "; " + hybrid_slam::messageOf(e));
   }
 }

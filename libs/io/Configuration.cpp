@@ -45,7 +45,7 @@ void checkLines(const std::string& text, const std::string& file, const std::vec
   std::istringstream in(text);
   std::optional<std::string> section;
   for (std::string line; std::getline(in, line);) {
-    line = mrpt::system::trim(line);
+    line = mrpt::system::trim(line.substr(0, line.find('\r')));
     if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // the mark that some editors put at the start
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
     const auto end = line.find(']'), equals = line.find('=');

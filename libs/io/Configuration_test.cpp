@@ -102,6 +102,7 @@ TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
   EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));
   EXPECT_THAT(errorOf("[run\nmethod = general\n[grid]\n"), StartsWith("wrong line `[run`"));
   EXPECT_EQ(errorOf("[run]\n[other]\nfree text\n"), "no error") << "other sections are left alone";
+  EXPECT_EQ(errorOf("[run]\r\n\r\nmethod = general\r\n\r\n"), "no error");
   EXPECT_EQ(errorOf("\xEF\xBB\xBF[run]\nmethod = general\n"), "no error") << "a byte order mark";
 }
 

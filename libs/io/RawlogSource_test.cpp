@@ -119,7 +119,7 @@ TEST(RawlogSource, MotionIsInTheRobotsFrame) {
 }
 
 TEST(RawlogSource, ScansBeforeTheFirstOdometryHaveItsPose) {
-  for (const std::optional<double> time : {std::optional<double>(9), std::optional<double>()}) {
+  for (const double time : {9., kNoTime}) {
     const Replayed r = replayed(
         {scan(time), scan(time), odometry(10, {7, 0, 0}), scan(10), odometry(11, {8, 0, 0}), scan(11)});
     EXPECT_THAT(r.x, areNear({0, 0, 0, 1})) << "no jump from the origin to the first reading";

@@ -8,8 +8,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/Errors.h"
+#include "io/ErrorText.h"
 #include "io/MapFiles.h"
 #include "io/Progress.h"
 #include "io/SimpleMapFile.h"
@@ -33,13 +36,21 @@ struct Filter {
   FilterView* view;
 };
 
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
+  if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
+  try {
+    return stockOptions(configuration.source);
+  } catch (const std::exception& e) {
+    throw InputError("wrong settings for MRPT's filter", std::string("section [") + kStockSection + "]",
+                     oneLine(e));
+  }
+}
+
 Filter makeFilter(const Configuration& configuration) {
   if (configuration.run.method == Method::stock) {
     // MRPT's filter draws from MRPT's global generator.
     mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(configuration.filter.filter.seed));
-    auto stock = std::make_unique<StockMapBuilder>(configuration.source.sectionExists(kStockSection)
-                                                       ? stockOptions(configuration.source)
-                                                       : stockOptions(configuration.filter));
+    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration));
     FilterView* view = stock.get();
     return {std::move(stock), view};
   }
@@ -64,17 +75,22 @@ std::vector<std::string> warningsOf(const RawlogSummary& log) {
   return all;
 }
 
-struct Usage {
-  double cpuSeconds, peakMegabytes;
-};
-
-Usage usage() {
-  rusage u{};
-  getrusage(RUSAGE_SELF, &u);
+double cpuSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  return {seconds(u.ru_utime) + seconds(u.ru_stime), static_cast<double>(u.ru_maxrss) / 1024};
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// The most memory that this program has had resident; getrusage would count that of whoever started it, too.
+double peakMegabytes() {
+  std::ifstream status("/proc/self/status");
+  double kilobytes = 0;
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") status >> kilobytes;
+  return kilobytes / 1024;
 }
 
 std::string textOf(const char* format, double value) {
@@ -143,7 +159,6 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   folder.write("config.ini", [&](std::ostream& out) { out << configuration.text(); });
 
   const double wall = secondsSince(start);
-  const Usage used = usage();
   const char* const names[] = {"hybrid", "general", "stock"};
   const nlohmann::ordered_json metrics{
       {"method", names[static_cast<int>(run.method)]},
@@ -154,9 +169,9 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
       {"updates", path.size()},
       {"duration_s", log.duration},
       {"wall_s", wall},
-      {"cpu_s", used.cpuSeconds},
+      {"cpu_s", cpuSeconds()},
       {"realtime_factor", wall > 0 ? log.duration / wall : 0},
-      {"peak_rss_mb", used.peakMegabytes},
+      {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings},
       {"lines", lines.size()},
       {"distance_m", recorder.distance()},

@@ -18,7 +18,6 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,10 @@ using mrpt::obs::CObservation2DRangeScan;
 using Log = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
 constexpr double kHalfLength = 5, kHalfWidth = 3;  ///< m, of the room around the origin, along x and y
-constexpr std::nullopt_t kNoTime = std::nullopt;
+constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 
-inline mrpt::Clock::time_point stamp(std::optional<double> time) {
-  return time ? mrpt::Clock::fromDouble(*time) : INVALID_TIMESTAMP;
+inline mrpt::Clock::time_point stamp(double time) {
+  return std::isnan(time) ? INVALID_TIMESTAMP : mrpt::Clock::fromDouble(time);
 }
 
 /// Distance (m) to the room's walls from a point in it.
@@ -48,8 +47,8 @@ inline double rangeInRoom(double x, double y, double heading) {
 }
 
 /// What a laser of 180 deg at the robot's centre sees of the room.
-inline CObservation2DRangeScan::Ptr scan(std::optional<double> time, const TPose2D& pose = {},
-                                         size_t beams = 181, const std::string& label = "LASER") {
+inline CObservation2DRangeScan::Ptr scan(double time, const TPose2D& pose = {}, size_t beams = 181,
+                                         const std::string& label = "LASER") {
   auto out = CObservation2DRangeScan::Create();
   out->timestamp = stamp(time);
   out->sensorLabel = label;
@@ -66,7 +65,7 @@ inline CObservation2DRangeScan::Ptr scan(std::optional<double> time, const TPose
   return out;
 }
 
-inline mrpt::obs::CObservationOdometry::Ptr odometry(std::optional<double> time, const TPose2D& pose) {
+inline mrpt::obs::CObservationOdometry::Ptr odometry(double time, const TPose2D& pose) {
   auto out = mrpt::obs::CObservationOdometry::Create();
   out->timestamp = stamp(time);
   out->sensorLabel = "ODOMETRY";
