@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
-#include "io/ErrorText.h"
 #include "io/MapFiles.h"
 #include "io/Progress.h"
 #include "io/SimpleMapFile.h"
@@ -42,7 +41,7 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Conf
     return stockOptions(configuration.source);
   } catch (const std::exception& e) {
     throw InputError("wrong settings for MRPT's filter", std::string("section [") + kStockSection + "]",
-                     oneLine(e));
+                     messageOf(e));
   }
 }
 

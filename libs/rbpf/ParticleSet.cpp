@@ -88,9 +88,7 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
       mrpt::random::CRandomGenerator(static_cast<uint32_t>(sharedRandom().bits()));
 }
 
-RandomStream ParticleSet::sharedRandom() const {
-  return stream(m_particles.size());
-}
+RandomStream ParticleSet::sharedRandom() const { return stream(m_particles.size()); }
 
 RandomStream ParticleSet::stream(size_t particle) const {
   return RandomStream(static_cast<uint64_t>(configuration_.filter.seed), stepNumber_, particle);

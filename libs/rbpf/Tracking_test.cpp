@@ -188,7 +188,8 @@ TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
     c.filter.seed = seed;
     ParticleSet particles(c);
     particles.reset({});
-    const PreparedScan nothing{LaserScan(), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), {}};
+    const PreparedScan nothing{
+        LaserScan(), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), {}};
     particles.beginStep(nothing);
     for (size_t i = 0; i < 4; ++i) {
       particles.m_particles[i].d->path.push({static_cast<double>(i), 0, 0});
