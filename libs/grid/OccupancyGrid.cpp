@@ -72,7 +72,8 @@ CellIndex OccupancyGrid::cellOf(double x, double y) const {
 
 void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot,
                            const GridOptions& options) {
-  const int hit = logOdds(options.pHit), miss = logOdds(options.pMiss);
+  // A probability nearer to 0.5 than the smallest step still counts as one.
+  const int hit = std::max(logOdds(options.pHit), 1), miss = std::min(logOdds(options.pMiss), -1);
   const int lowest = logOdds(options.pMin), highest = logOdds(options.pMax);
   const GridPose pose(robot, scan, resolution_);
 

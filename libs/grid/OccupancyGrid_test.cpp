@@ -16,6 +16,13 @@ using mrpt::math::TPose2D;
 // In log-odds of 1/16: 16 ln(0.7 / 0.3) = 13.56, 16 ln(0.4 / 0.6) = -6.49, 16 ln(0.97 / 0.03) = 55.6.
 constexpr int kHit = 14, kMiss = -6, kHighest = 56, kLowest = -56;
 
+/// The update that the figures above belong to.
+GridOptions update() {
+  GridOptions options;
+  options.pHit = 0.7, options.pMiss = 0.4;
+  return options;
+}
+
 struct Reading {
   double angle, range;
 };
@@ -36,7 +43,7 @@ std::vector<int> row(const OccupancyGrid& grid, int x0, int x1, int y) {
 
 TEST(OccupancyGrid, OneBeamMissesTheCellsItCrossesAndHitsTheOneItEndsIn) {
   OccupancyGrid grid(1);
-  grid.insert(beams({{0, 4.2}}), {0.5, 0.5, 0}, GridOptions());
+  grid.insert(beams({{0, 4.2}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(row(grid, -1, 6, 0), (std::vector<int>{0, kMiss, kMiss, kMiss, kMiss, kHit, 0, 0}));
   EXPECT_EQ(row(grid, -1, 6, 1), std::vector<int>(8, 0));
   EXPECT_EQ(row(grid, -1, 6, -1), std::vector<int>(8, 0));
@@ -44,7 +51,7 @@ TEST(OccupancyGrid, OneBeamMissesTheCellsItCrossesAndHitsTheOneItEndsIn) {
 
 TEST(OccupancyGrid, OneHitMeansPHitAndOneMissPMiss) {
   OccupancyGrid grid(1);
-  grid.insert(beams({{0, 2}}), {0.5, 0.5, 0}, GridOptions());
+  grid.insert(beams({{0, 2}}), {0.5, 0.5, 0}, update());
   const double step = OccupancyGrid::kLogOddsScale / 2 / 4;  // half a step of the log-odds: dp = p (1 - p) dl
   EXPECT_NEAR(grid.occupancy({2, 0}), 0.7, step);
   EXPECT_NEAR(grid.occupancy({1, 0}), 0.4, step);
@@ -53,23 +60,23 @@ TEST(OccupancyGrid, OneHitMeansPHitAndOneMissPMiss) {
 
 TEST(OccupancyGrid, ACellHitIsHitOnceAndNotMissedByAnotherBeamOfTheScan) {
   OccupancyGrid grid(1);
-  grid.insert(beams({{0, 3}, {0, 3}, {0, 6}}), {0.5, 0.5, 0}, GridOptions());
+  grid.insert(beams({{0, 3}, {0, 3}, {0, 6}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(row(grid, 0, 7, 0),
             (std::vector<int>{3 * kMiss, 3 * kMiss, 3 * kMiss, kHit, kMiss, kMiss, kHit, 0}));
 }
 
 TEST(OccupancyGrid, TheNextScanMayMissIt) {
   OccupancyGrid grid(1);
-  grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
-  grid.insert(beams({{0, 6}}), {0.5, 0.5, 0}, GridOptions());
+  grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, update());
+  grid.insert(beams({{0, 6}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(grid.tiles().at({3, 0}), kHit + kMiss);
 }
 
 TEST(OccupancyGrid, StaysBetweenPMinAndPMaxAndCanChangeItsMind) {
   OccupancyGrid grid(1);
-  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(row(grid, 0, 4, 0), (std::vector<int>{kLowest, kLowest, kLowest, kHighest, 0}));
-  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 4}}), {0.5, 0.5, 0}, GridOptions());
+  for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 4}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(row(grid, 0, 5, 0), (std::vector<int>{kLowest, kLowest, kLowest, kLowest, kHighest, 0}));
 }
 
@@ -86,7 +93,7 @@ TEST(OccupancyGrid, TheSensorsPlaceOnTheRobotCounts) {
   // Robot at (2, 3.5) looking along y, sensor 1 m ahead and 0.5 m to the left, turned to the left: the beam
   // starts at (1.5, 4.5) and runs 3 m along -x.
   OccupancyGrid grid(1);
-  grid.insert(beams({{0, 3}}, {1, 0.5, M_PI / 2}), {2, 3.5, M_PI / 2}, GridOptions());
+  grid.insert(beams({{0, 3}}, {1, 0.5, M_PI / 2}), {2, 3.5, M_PI / 2}, update());
   EXPECT_EQ(row(grid, -3, 2, 4), (std::vector<int>{0, kHit, kMiss, kMiss, kMiss, 0}));
 }
 
@@ -94,7 +101,7 @@ TEST(OccupancyGrid, ABeamAlongTheDiagonalLeavesTheCellsThatItOnlyTouches) {
   OccupancyGrid grid(1);
   ScanBeams diagonal = beams({{0, 3 * M_SQRT2}});
   diagonal.rays[0].dirX = diagonal.rays[0].dirY = M_SQRT1_2;  // equal to the last bit
-  grid.insert(diagonal, {0.5, 0.5, 0}, GridOptions());
+  grid.insert(diagonal, {0.5, 0.5, 0}, update());
   for (int y = 0; y <= 4; ++y)
     for (int x = 0; x <= 4; ++x)
       EXPECT_EQ(grid.tiles().at({x, y}), x != y ? 0 : x < 3 ? kMiss : x == 3 ? kHit : 0) << x << " " << y;
@@ -104,8 +111,8 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   LaserScan scan;
   scan.beams = {{0, 3, false}, {1, 0, false}};
   OccupancyGrid grid(1);
-  grid.insert(ScanBeams(scan, 1), {}, GridOptions());
-  grid.insert(ScanBeams(LaserScan(), 1), {}, GridOptions());
+  grid.insert(ScanBeams(scan, 1), {}, update());
+  grid.insert(ScanBeams(LaserScan(), 1), {}, update());
   EXPECT_TRUE(grid.tiles().bounds().empty());
 }
 
@@ -131,7 +138,7 @@ TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
     const TPose2D sensor(uniform(-0.5, 0.5), uniform(-0.5, 0.5), uniform(-M_PI, M_PI));
     std::vector<Reading> readings;
     for (int i = 0; i < 60; ++i) readings.push_back({uniform(-2, 2), uniform(0.1, 8)});
-    grid.insert(beams(readings, sensor), robot, GridOptions());
+    grid.insert(beams(readings, sensor), robot, update());
 
     const TPose2D laser = robot + sensor;
     std::set<std::pair<int, int>> hits;
@@ -154,9 +161,9 @@ TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
 
 TEST(OccupancyGrid, ACopyKeepsItsMap) {
   OccupancyGrid first(1);
-  first.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  first.insert(beams({{0, 3}}), {0.5, 0.5, 0}, update());
   OccupancyGrid second = first;
-  second.insert(beams({{0, 3}}), {0.5, 0.5, 0}, GridOptions());
+  second.insert(beams({{0, 3}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(first.tiles().at({3, 0}), kHit);
   EXPECT_EQ(second.tiles().at({3, 0}), 2 * kHit);
 }
