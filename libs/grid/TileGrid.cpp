@@ -32,15 +32,15 @@ void TileGrid::forEachTile(const std::function<void(int, int, const Tile&)>& vis
       if (!block) continue;
       for (int i = 0; i < kBlockSize * kBlockSize; ++i)
         if (const Tile* tile = block->tiles[static_cast<size_t>(i)].get())
-          visit(((firstX_ + column) << kBlockBits) + (i & (kBlockSize - 1)),
-                ((firstY_ + row) << kBlockBits) + (i >> kBlockBits), *tile);
+          visit((firstX_ + column) * kBlockSize + (i & (kBlockSize - 1)),
+                (firstY_ + row) * kBlockSize + (i >> kBlockBits), *tile);
     }
 }
 
 CellBox TileGrid::bounds() const {
   CellBox box;
   forEachTile([&box](int tx, int ty, const Tile&) {
-    const CellIndex low{tx << kTileBits, ty << kTileBits};
+    const CellIndex low{tx * kTileSize, ty * kTileSize};
     const CellIndex high{low.x + kTileSize - 1, low.y + kTileSize - 1};
     if (box.empty()) {
       box = {low, high};

@@ -147,6 +147,20 @@ TEST(Tracking, EveryResamplingSchemeTracks) {
   }
 }
 
+TEST(Tracking, MrptsLikelihoodsTakeThreads) {
+  const auto steps = drive(1);
+  const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
+  for (const auto method : {GridWeightOptions::Method::likelihoodField, GridWeightOptions::Method::rayTracing,
+                            GridWeightOptions::Method::consensus}) {
+    FilterConfiguration c = roomConfiguration();
+    c.gridWeight.method = method;
+    const Outcome one = run(c, steps);
+    c.filter.threads = 4;
+    expectSame(run(c, steps), one);
+    EXPECT_LT(one.error, 0.3);
+  }
+}
+
 TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
   for (const auto proposal : {Proposal::auxiliaryStandard, Proposal::auxiliaryOptimal}) {
     FilterConfiguration c = with(proposal, true);
