@@ -42,14 +42,17 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("-o,--output", line.output, "folder for runs, tables and report; made if it is missing")
       ->required()
       ->type_name("DIR");
-  app.add_option("-m,--methods", line.methods, "of hybrid, general, stock; the first is what others are tested against")
+  app.add_option("-m,--methods", line.methods,
+                 "of hybrid, general, stock; the first is what others are tested against")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("-n,--particles", line.particles, "particle counts (default: the INI file's)")->delimiter(',');
+  app.add_option("-n,--particles", line.particles, "particle counts (default: the INI file's)")
+      ->delimiter(',');
   app.add_option("--seeds", line.seeds, "runs of each group")->capture_default_str();
   app.add_option("--first-seed", line.firstSeed, "the seeds count up from here")->capture_default_str();
   app.add_option("--variant", line.variants,
-                 "named settings on top of the INI file, run beside it; only with METHOD if one is named; @FILE takes "
+                 "named settings on top of the INI file, run beside it; only with METHOD if one is named; "
+                 "@FILE takes "
                  "another INI file; repeatable")
       ->type_name("[METHOD/]NAME:SECTION.KEY=VALUE[,...]")
       ->allow_extra_args(false);
@@ -59,9 +62,12 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("-j,--jobs", line.jobs, "runs at a time; 0: one for each core")->capture_default_str();
   app.add_option("--reference", line.reference, "true poses, TUM file: ATE, return error, success");
   app.add_option("--relations", line.relations, "relations file: relations metric");
-  app.add_option("--odometry", line.odometry, "file `t x y theta` that carries poses to the relations' times");
-  app.add_option("--floorplan", line.floorplan, "walls in the reference's frame: occupied cells against them");
-  app.add_option("--success-trans", line.criterion.returnTrans, "success: position error at the return below, m")
+  app.add_option("--odometry", line.odometry,
+                 "file `t x y theta` that carries poses to the relations' times");
+  app.add_option("--floorplan", line.floorplan,
+                 "walls in the reference's frame: occupied cells against them");
+  app.add_option("--success-trans", line.criterion.returnTrans,
+                 "success: position error at the return below, m")
       ->capture_default_str();
   app.add_option("--success-rot", line.criterion.returnRot, "success: heading error at the return below, deg")
       ->capture_default_str();
@@ -70,7 +76,8 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
   app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors");
   app.footer(
-      "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, summary.json,\n"
+      "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
+      "summary.json,\n"
       "report.html. Finished runs are not run again: after Ctrl-C the same call goes on.\n"
       "Exit: 0 done, 1 interrupted or a run failed, 2 wrong command line or input.");
 }
@@ -189,7 +196,8 @@ class FolderLock {
   explicit FolderLock(const OutputFolder& folder)
       : file_(open(folder.path(".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
-      throw InputError("another slam-compare is at work", "folder " + folder.path(""), "expected a folder of its own");
+      throw InputError("another slam-compare is at work", "folder " + folder.path(""),
+                       "expected a folder of its own");
   }
   ~FolderLock() {
     if (file_ >= 0) close(file_);
@@ -206,7 +214,8 @@ std::string quoted(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) {
     std::string argument = i == 0 ? fs::path(argv[0]).filename().string() : argv[i];
     if (argument.empty() || argument.find_first_of(" \t\"'\\$`&;<>()|*?[]#~") != std::string::npos) {
-      for (size_t at = 0; (at = argument.find('\'', at)) != std::string::npos; at += 4) argument.replace(at, 1, "'\\''");
+      for (size_t at = 0; (at = argument.find('\'', at)) != std::string::npos; at += 4)
+        argument.replace(at, 1, "'\\''");
       argument = "'" + argument + "'";
     }
     command += (i == 0 ? "" : " ") + argument;
@@ -240,27 +249,38 @@ int run(const CommandLine& line, const std::string& command) {
   const auto tell = [&](const ComparisonRun& r, const std::string& error) {
     ++ended;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    const auto left = static_cast<int>(elapsed.count() / static_cast<double>(ended) * static_cast<double>(todo - ended));
+    const auto left =
+        static_cast<int>(elapsed.count() / static_cast<double>(ended) * static_cast<double>(todo - ended));
     if (!error.empty())
       std::cerr << "slam-compare: run failed: " << r.folder.path().string() << ": " << error << std::endl;
     if (!line.isQuiet)
-      std::cerr << ended << " of " << todo << ": " << r.folder.path().filename().string() << ", about " << left / 60
-                << ":" << (left % 60 < 10 ? "0" : "") << left % 60 << " left" << std::endl;
+      std::cerr << ended << " of " << todo << ": " << r.folder.path().filename().string() << ", about "
+                << left / 60 << ":" << (left % 60 < 10 ? "0" : "") << left % 60 << " left" << std::endl;
   };
   SweepOutcome outcome;
   if (line.isReportOnly) {
     for (const ComparisonRun& r : sweep)
       if (r.folder.isFinished()) r.folder.expect(r.identity);
   } else {
-    const size_t jobs = line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
+    const size_t jobs =
+        line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
     outcome = runSweep(sweep, jobs, stop, tell);
   }
   if (outcome.isInterrupted)
-    return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) + " of " +
-                       std::to_string(sweep.size()) + " runs are finished; the same call goes on");
+    return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
+                       " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
 
-  ReportInput report{command, HYBRID_SLAM_VERSION, line.config, line.log, log.duration, line.settings, groups,
-                     {},      {},                  truth,       fs::path(line.output) / "runs"};
+  ReportInput report{command,
+                     HYBRID_SLAM_VERSION,
+                     line.config,
+                     line.log,
+                     log.duration,
+                     line.settings,
+                     groups,
+                     {},
+                     {},
+                     truth,
+                     fs::path(line.output) / "runs"};
   for (const ComparisonRun& r : sweep) {
     report.results.push_back(evaluateRun(r.run, r.folder, truth));
     if (r.folder.isFinished()) r.folder.dropLargeFiles();

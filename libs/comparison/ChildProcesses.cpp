@@ -19,7 +19,8 @@ namespace {
 pid_t start(const Command& command) {
   // All that allocates comes before fork: the child of a program with threads may not.
   std::vector<char*> arguments;
-  for (const std::string& argument : command.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : command.arguments)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   const std::string messages = command.messages.string();
   const pid_t parent = getpid(), child = fork();
@@ -29,7 +30,8 @@ pid_t start(const Command& command) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
-  const int nowhere = open("/dev/null", O_RDWR), errors = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const int nowhere = open("/dev/null", O_RDWR),
+            errors = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(errors < 0 ? nowhere : errors, STDERR_FILENO);

@@ -8,7 +8,7 @@ namespace hybrid_slam {
 const std::array<FigureName, kFigures> kFigureNames{{
     {Figure::transMean, "trans_mean_m", "relations: mean translation error", "m", true},
     {Figure::rotMean, "rot_mean_deg", "relations: mean rotation error", "deg", true},
-    {Figure::ate, "ate_rmse_m", "absolute trajectory error (rmse)", "m", true},
+    {Figure::ate, "ate_rmse_m", "absolute trajectory error, rmse", "m", true},
     {Figure::returnTrans, "return_trans_m", "position error at the return", "m", true},
     {Figure::returnRot, "return_rot_deg", "heading error at the return", "deg", true},
     {Figure::wallMean, "wall_mean_m", "occupied cells to the walls: mean", "m", true},
@@ -38,14 +38,15 @@ std::string cell(const std::optional<double>& value) {
   return text;
 }
 
-void writeResults(const std::vector<Group>& groups, const std::vector<RunResult>& results, std::ostream& out) {
+void writeResults(const std::vector<Group>& groups, const std::vector<RunResult>& results,
+                  std::ostream& out) {
   out << "method,variant,particles,seed,status";
   for (const FigureName& name : kFigureNames) out << ',' << name.column;
   out << '\n';
   for (const RunResult& result : results) {
     const Group& group = groups[result.run.group];
-    out << group.method << ',' << group.variant.name << ',' << group.particles << ',' << result.run.seed << ','
-        << statusName(result.status);
+    out << group.method << ',' << group.variant.name << ',' << group.particles << ',' << result.run.seed
+        << ',' << statusName(result.status);
     for (const auto& value : result.figures) out << ',' << cell(value);
     out << '\n';
   }

@@ -12,21 +12,21 @@
 namespace hybrid_slam {
 
 enum class Figure {
-  transMean,       ///< relations metric, translation
-  rotMean,         ///< relations metric, rotation
-  ate,             ///< after rigid alignment, root of the mean square
-  returnTrans,     ///< from the first scan's pose to the last one's
+  transMean,    ///< relations metric, translation
+  rotMean,      ///< relations metric, rotation
+  ate,          ///< after rigid alignment, root of the mean square
+  returnTrans,  ///< from the first scan's pose to the last one's
   returnRot,
-  wallMean,        ///< occupied cells to the nearest wall
+  wallMean,  ///< occupied cells to the nearest wall
   wallP95,
-  doubledShare,    ///< of the walls shown, that are drawn twice
-  success,         ///< 1 or 0
-  wallTime,        ///< of the clock
+  doubledShare,  ///< of the walls shown, that are drawn twice
+  success,       ///< 1 or 0
+  wallTime,      ///< of the clock
   cpuTime,
   peakMemory,
   realtimeFactor,
-  lines,           ///< in the best particle's database
-  stdAlong,        ///< particle spread: mean over the filter's updates
+  lines,     ///< in the best particle's database
+  stdAlong,  ///< particle spread: mean over the filter's updates
   stdAcross,
   stdPhi
 };

@@ -32,8 +32,9 @@ void checkSetting(const std::string& setting, const std::string& where) {
   const std::string section = lower(setting.substr(0, dot)), key = lower(setting.substr(0, equals));
   if (section == "run" || key == "particle_filter.particles" || key == "particle_filter.seed" ||
       key == "particle_filter.threads")
-    throw InputError("setting of `" + setting.substr(0, equals) + "`", where,
-                     "expected one that the comparison does not vary itself (--methods, --particles, --seeds)");
+    throw InputError(
+        "setting of `" + setting.substr(0, equals) + "`", where,
+        "expected one that the comparison does not vary itself (--methods, --particles, --seeds)");
 }
 
 Variant parseVariant(const std::string& text) {
@@ -52,10 +53,13 @@ Variant parseVariant(const std::string& text) {
     variant.name.erase(0, slash + 1);
     checkMethod(variant.method, where + " `" + text + "`");
   }
-  const auto isWordCharacter = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.' || c == '+'; };
+  const auto isWordCharacter = [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '.' || c == '+';
+  };
   if (variant.name.empty() || variant.name[0] == '.' ||
       !std::all_of(variant.name.begin(), variant.name.end(), isWordCharacter))
-    throw InputError("wrong variant name `" + variant.name + "`", where, "expected letters, digits, `_`, `.`, `+`");
+    throw InputError("wrong variant name `" + variant.name + "`", where,
+                     "expected letters, digits, `_`, `.`, `+`");
 
   std::istringstream items(text.substr(colon + 1));
   for (std::string item; std::getline(items, item, ',');) {
@@ -77,7 +81,8 @@ std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std
   for (const std::string& method : methods) checkMethod(method, "option --methods");
   for (const int n : particles)
     if (n < 1)
-      throw InputError("wrong particle count " + std::to_string(n), "option --particles", "expected 1 or more");
+      throw InputError("wrong particle count " + std::to_string(n), "option --particles",
+                       "expected 1 or more");
   for (const Variant& variant : variants)
     if (!variant.method.empty() && std::find(methods.begin(), methods.end(), variant.method) == methods.end())
       throw InputError("variant `" + variant.name + "` of the method `" + variant.method + "`",

@@ -25,11 +25,13 @@ std::string plotAgainstParticles(const FigureName& name, const std::vector<Group
 
 /// Median over the seeds (line) and quartiles (band) of one spread against time, a line for each group.
 /// @param bands  one for each group; groups without runs have no times
-std::string plotSpread(size_t spread, const std::vector<Group>& groups, const std::vector<SpreadBands>& bands);
+std::string plotSpread(size_t spread, const std::vector<Group>& groups,
+                       const std::vector<SpreadBands>& bands);
 
 /// All trajectories of a group in the reference's frame, over it and over the floor plan's walls.
 /// @param plan  may be null; @param reference  may be empty
-std::string plotTrajectories(size_t group, const std::string& title, const std::vector<Trajectory>& trajectories,
-                             const Trajectory& reference, const FloorPlan* plan);
+std::string plotTrajectories(size_t group, const std::vector<Group>& groups,
+                             const std::vector<Trajectory>& trajectories, const Trajectory& reference,
+                             const FloorPlan* plan);
 
 }  // namespace hybrid_slam

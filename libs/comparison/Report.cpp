@@ -27,8 +27,8 @@ p.note { color: #555; font-size: 14px; max-width: 860px; }
 pre { background: #f4f4f4; padding: 10px 12px; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px; }
 table { border-collapse: collapse; font-size: 13.5px; margin: 10px 0; }
 th { background: #f0f0f0; font-weight: 600; vertical-align: bottom; max-width: 130px; }
-th, td { border: 1px solid #d5d5d5; padding: 4px 9px; text-align: right; }
-td:first-child, th:first-child, .left2 td:nth-child(2), td.text { text-align: left; }
+th, td { border: 1px solid #d5d5d5; padding: 4px 7px; text-align: right; }
+td:first-child, th:first-child, td.text { text-align: left; }
 td small { color: #666; display: block; white-space: nowrap; }
 div.wide { overflow-x: auto; }
 div.plots { display: flex; flex-wrap: wrap; gap: 18px 26px; align-items: flex-start; }
@@ -41,7 +41,8 @@ figcaption { font-size: 13px; color: #444; }
 <body>
 )";
 
-void section(std::ostream& out, const std::string& title, const std::string& note, const std::string& content) {
+void section(std::ostream& out, const std::string& title, const std::string& note,
+             const std::string& content) {
   if (content.empty()) return;
   out << "<h2>" << escapeXml(title) << "</h2>\n<p class=\"note\">" << escapeXml(note) << "</p>\n" << content;
 }
@@ -64,14 +65,14 @@ std::vector<const RunResult*> finishedRuns(const ReportInput& input, size_t grou
 void writeIntroduction(const ReportInput& input, std::ostream& out) {
   size_t done = 0, failed = 0;
   for (const GroupSummary& s : input.summaries) done += s.done, failed += s.failed;
-  out << "<h1>slam-compare: " << escapeXml(std::filesystem::path(input.log).filename().string()) << "</h1>\n<p>"
-      << done << " finished runs";
+  out << "<h1>slam-compare: " << escapeXml(std::filesystem::path(input.log).filename().string())
+      << "</h1>\n<p>" << done << " finished runs";
   if (failed) out << ", " << failed << " failed";
   if (input.results.size() > done + failed) out << ", " << input.results.size() - done - failed << " missing";
   out << ": " << input.groups.size() << " groups of " << input.results.size() / input.groups.size()
       << " seeds each, on a log of " << shortNumber(input.logDuration) << " s. hybrid-slam "
-      << escapeXml(input.version) << ".</p>\n<pre>" << escapeXml(input.command) << "</pre>\n<p class=\"note\">Settings: "
-      << escapeXml(input.config);
+      << escapeXml(input.version) << ".</p>\n<pre>" << escapeXml(input.command)
+      << "</pre>\n<p class=\"note\">Settings: " << escapeXml(input.config);
   for (const std::string& setting : input.settings) out << ", " << escapeXml(setting);
   for (const Group& group : input.groups) {
     if (group.variant.name.empty() || group.particles != input.groups[0].particles) continue;
@@ -85,7 +86,8 @@ void writeIntroduction(const ReportInput& input, std::ostream& out) {
 std::string criterionNote(const GroundTruth& truth) {
   const SuccessCriterion& c = truth.criterion;
   std::string note =
-      "Success: from the first scan to the last the estimated motion differs from the reference's by less than " +
+      "Success: from the first scan to the last the estimated motion differs from the reference's by less "
+      "than " +
       shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg";
   note += truth.plan ? ", and less than " + shortNumber(100 * c.doubledShare) +
                            " % of the free-standing wall that the map shows is drawn twice."
@@ -119,7 +121,7 @@ std::string trajectoryPlots(const ReportInput& input) {
       for (StampedPose& p : trajectories.back()) p.pose = alignment + p.pose;
     }
     if (!trajectories.empty())
-      all += plotTrajectories(g, input.groups[g].name(), trajectories, reference,
+      all += plotTrajectories(g, input.groups, trajectories, reference,
                               input.truth.plan ? &*input.truth.plan : nullptr);
   }
   return plots(all);
@@ -137,8 +139,8 @@ std::string mapPicture(const ReportInput& input, const RunResult& r, const std::
   std::ifstream in(folderOf(input, r).file("map.png"), std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   if (bytes.empty()) return {};
-  const std::string text = escapeXml(input.groups[r.run.group].name() + ", seed " + std::to_string(r.run.seed) +
-                                     ": " + caption);
+  const std::string text =
+      escapeXml(input.groups[r.run.group].name() + ", seed " + std::to_string(r.run.seed) + ": " + caption);
   return "<figure><img alt=\"map of " + text + "\" src=\"data:image/png;base64," + base64(bytes) +
          "\"/><figcaption>" + text + "</figcaption></figure>\n";
 }
@@ -158,7 +160,8 @@ std::string mapPictures(const ReportInput& input) {
     });
     const FigureName& name = kFigureNames[static_cast<size_t>(*ranking)];
     const auto caption = [&](const char* which, const RunResult& r) {
-      return std::string(which) + " run, " + name.title + " " + shortNumber(r[*ranking].value_or(0), 3) + " " + name.unit;
+      return std::string(which) + " run, " + name.title + " " + shortNumber(r[*ranking].value_or(0), 3) +
+             " " + name.unit;
     };
     const RunResult& median = *runs[(runs.size() - 1) / 2];
     all += mapPicture(input, median, caption("median", median));
@@ -176,7 +179,8 @@ std::string base64(const std::string& bytes) {
   std::string out;
   for (size_t i = 0; i < bytes.size(); i += 3) {
     unsigned group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
     for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return out;
@@ -186,46 +190,60 @@ void writeReport(const ReportInput& input, std::ostream& out) {
   const auto& [groups, results, summaries] = std::tie(input.groups, input.results, input.summaries);
   out << kHead;
   writeIntroduction(input, out);
-  section(out, "Failed runs", "They count as runs without success and have no figures.", failureTable(groups, results));
+  section(out, "Failed runs", "They count as runs without success and have no figures.",
+          failureTable(groups, results));
 
   section(out, "Accuracy",
           std::string("Median over the seeds, below it the quartiles. ") +
               (input.truth.reference.empty() ? "" : criterionNote(input.truth)),
           summaryTable(groups, summaries,
-                       {Figure::ate, Figure::returnTrans, Figure::returnRot, Figure::transMean, Figure::rotMean,
-                        Figure::wallMean, Figure::wallP95, Figure::doubledShare},
+                       {Figure::ate, Figure::returnTrans, Figure::returnRot, Figure::transMean,
+                        Figure::rotMean, Figure::wallMean, Figure::wallP95, Figure::doubledShare},
                        true));
   section(out, "Success rates", "Share of the seeds that closed the loop.", plotSuccess(groups, summaries));
   std::string errors;
   for (const FigureName& name : kFigureNames)
     if (name.isError && name.figure < Figure::stdAlong) errors += plotFigure(name, groups, results);
-  section(out, "Errors", "A dot is a run; the box reaches from the lower to the upper quartile, the bar is the median.",
+  section(out, "Errors",
+          "A dot is a run; the box reaches from the lower to the upper quartile, the bar is the median.",
           plots(errors));
   section(out, "Each group against the first",
-          "Over the seeds that both have finished. Below 1 the group is better than the first. The ratio's interval is "
-          "the 95 % percentile bootstrap over seeds; the p are two-sided and exact, for each test by itself (no "
-          "correction for their number).",
+          "Median of the group / median of " + groups[0].name() +
+              " over the seeds that both have finished: below 1 the group is better. Below it the 95 % "
+              "interval (percentile "
+              "bootstrap over seeds), then p of Wilcoxon's signed-rank test and of the sign test over the "
+              "seeds: two-sided, "
+              "exact, each for itself (not corrected for their number).",
           pairedTable(groups, summaries));
 
   section(out, "Particle spread",
-          "Weighted standard deviation of the particles before resampling; mean over the updates of a run, then median "
+          "Weighted standard deviation of the particles before resampling; mean over the updates of a run, "
+          "then median "
           "and quartiles over the seeds.",
           summaryTable(groups, summaries, {Figure::stdAlong, Figure::stdAcross, Figure::stdPhi}, false));
-  section(out, "Particle spread over time", "Line: median over the seeds; band: quartiles.", spreadPlots(input));
+  section(out, "Particle spread over time",
+          "Line: median over the seeds; band: quartiles. Colours stand for method and variant, dashes for "
+          "the particles.",
+          spreadPlots(input));
 
-  section(out, "Time and memory", "Each run is a process of its own with one thread.",
-          summaryTable(groups, summaries,
-                       {Figure::wallTime, Figure::cpuTime, Figure::realtimeFactor, Figure::peakMemory, Figure::lines},
-                       false) +
-              plots(plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::cpuTime)], groups, summaries) +
-                    plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::peakMemory)], groups, summaries)));
+  section(
+      out, "Time and memory", "Each run is a process of its own with one thread.",
+      summaryTable(
+          groups, summaries,
+          {Figure::wallTime, Figure::cpuTime, Figure::realtimeFactor, Figure::peakMemory, Figure::lines},
+          false) +
+          plots(plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::cpuTime)], groups, summaries) +
+                plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::peakMemory)], groups,
+                                     summaries)));
 
   section(out, "Trajectories",
-          input.truth.reference.empty() ? "All seeds of a group, from their common start."
-                                        : "All seeds of a group, each rigidly aligned to the reference (black, dashed).",
+          input.truth.reference.empty()
+              ? "All seeds of a group, from their common start."
+              : "All seeds of a group, each rigidly aligned to the reference (black, dashed).",
           trajectoryPlots(input));
   section(out, "Maps",
-          "Black: occupied; red: path; green: line database; light blue: the robot at the end. Each map is in its own "
+          "Black: occupied; red: path; green: line database; light blue: the robot at the end. Each map is "
+          "in its own "
           "frame, that of the robot's first pose.",
           mapPictures(input));
   out << "</body>\n</html>\n";

@@ -7,6 +7,8 @@
 namespace hybrid_slam {
 namespace {
 
+const char* const kNothing = "&#8211;";
+
 std::string td(const std::string& text) { return "<td>" + text + "</td>"; }
 std::string th(const std::string& text) { return "<th>" + text + "</th>"; }
 
@@ -16,7 +18,7 @@ std::string range(double low, double high) {
 
 std::string percent(double share) { return shortNumber(std::round(1000 * share) / 10, 4); }
 
-std::string pValue(double p) { return p < 0.001 ? "&lt;&#160;0.001" : shortNumber(p, 2); }
+std::string pValue(double p) { return p < 0.001 ? "&lt;0.001" : shortNumber(p, 2); }
 
 const FigureName& nameOf(Figure figure) { return kFigureNames[static_cast<size_t>(figure)]; }
 
@@ -48,12 +50,12 @@ std::string summaryTable(const std::vector<Group>& groups, const std::vector<Gro
     table += "<tr>" + td(escapeXml(groups[g].label())) + td(std::to_string(groups[g].particles)) +
              td(std::to_string(s.done) + (s.failed ? ", " + std::to_string(s.failed) + "&#160;failed" : ""));
     if (withSuccess)
-      table += td(s.ended() == 0 ? std::string("&#8211;")
+      table += td(s.ended() == 0 ? std::string(kNothing)
                                  : percent(s.successRate) + " <small>" + percent(s.successInterval.low) +
                                        "&#160;&#8211;&#160;" + percent(s.successInterval.high) + "</small>");
     for (const Figure figure : shown) {
       const auto& q = s.figures[static_cast<size_t>(figure)].quartiles;
-      table += td(q ? shortNumber(q->median, 3) + range(q->lower, q->upper) : std::string("&#8211;"));
+      table += td(q ? shortNumber(q->median, 3) + range(q->lower, q->upper) : std::string(kNothing));
     }
     table += "</tr>\n";
   }
@@ -61,27 +63,39 @@ std::string summaryTable(const std::vector<Group>& groups, const std::vector<Gro
 }
 
 std::string pairedTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries) {
-  std::string rows;
+  std::vector<const FigureName*> shown;
+  for (const FigureName& name : kFigureNames)
+    for (const GroupSummary& s : summaries)
+      if (s.paired[static_cast<size_t>(name.figure)]) {
+        shown.push_back(&name);
+        break;
+      }
+  if (shown.empty()) return {};
+  const bool withSuccess = summaries[0].successes.has_value();
+  std::string table = "<div class=\"wide\"><table>\n<tr>" + th("group") + th("seeds in both");
+  if (withSuccess) table += th("success");
+  for (const FigureName* name : shown) table += th(escapeXml(name->title));
+  table += "</tr>\n";
   for (size_t g = 1; g < groups.size(); ++g) {
-    bool isFirst = true;
-    for (const FigureName& name : kFigureNames) {
-      const auto& p = summaries[g].paired[static_cast<size_t>(name.figure)];
-      if (!p || p->pairs == 0) continue;
-      rows += "<tr>" + td(isFirst ? "<b>" + escapeXml(groups[g].name()) + "</b>" : std::string()) +
-              td(heading(name.figure)) + td(std::to_string(p->pairs)) +
-              td(p->ratio ? shortNumber(p->ratio->ratio, 3) + range(p->ratio->interval.low, p->ratio->interval.high)
-                          : std::string("&#8211;")) +
-              td(pValue(p->wilcoxonP)) + td(pValue(p->signP)) + "</tr>\n";
-      isFirst = false;
+    const auto& firstShown = summaries[g].paired[static_cast<size_t>(shown[0]->figure)];
+    table +=
+        "<tr>" + td(escapeXml(groups[g].name())) + td(std::to_string(firstShown ? firstShown->pairs : 0));
+    if (withSuccess) table += td("<small>sign&#160;p&#160;" + pValue(summaries[g].successSignP) + "</small>");
+    for (const FigureName* name : shown) {
+      const auto& p = summaries[g].paired[static_cast<size_t>(name->figure)];
+      if (!p || p->pairs == 0) {
+        table += td(kNothing);
+        continue;
+      }
+      table += td(
+          (p->ratio ? shortNumber(p->ratio->ratio, 3) + range(p->ratio->interval.low, p->ratio->interval.high)
+                    : std::string(kNothing)) +
+          "<small>p&#160;" + pValue(p->wilcoxonP) + "</small><small>sign&#160;p&#160;" + pValue(p->signP) +
+          "</small>");
     }
-    if (summaries[g].successes && summaries[g].ended() > 0)
-      rows += "<tr>" + td("") + td("success") + td("") + td("") + td("") + td(pValue(summaries[g].successSignP)) +
-              "</tr>\n";
+    table += "</tr>\n";
   }
-  if (rows.empty()) return {};
-  return "<div class=\"wide\"><table class=\"left2\">\n<tr>" + th("group") + th("figure") + th("seeds in both") +
-         th("median / median of " + escapeXml(groups[0].name())) + th("Wilcoxon p") + th("sign test p") + "</tr>\n" +
-         rows + "</table></div>\n";
+  return table + "</table></div>\n";
 }
 
 std::string failureTable(const std::vector<Group>& groups, const std::vector<RunResult>& results) {

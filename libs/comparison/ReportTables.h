@@ -13,7 +13,8 @@ namespace hybrid_slam {
 std::string summaryTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                          const std::vector<Figure>& figures, bool withSuccess);
 
-/// Each group against the first: median ratio with its interval, and the tests' p. Empty for one group.
+/// A row for each group but the first: median ratios with their intervals, and the tests' p. Empty for one
+/// group.
 std::string pairedTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries);
 
 /// Failed runs with their errors; empty if there are none.

@@ -67,13 +67,14 @@ RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth
   }
   if (truth.reference.empty()) return result;
 
-  const AteErrors ate = absoluteTrajectoryError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
+  const AteErrors ate =
+      absoluteTrajectoryError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
   const ReturnError back = returnError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
   result[Figure::ate] = ate.translation.rmse;
   result[Figure::returnTrans] = back.translation;
   result[Figure::returnRot] = back.rotation * kRadToDeg;
-  bool success = back.translation < truth.criterion.returnTrans &&
-                 back.rotation * kRadToDeg < truth.criterion.returnRot;
+  bool success =
+      back.translation < truth.criterion.returnTrans && back.rotation * kRadToDeg < truth.criterion.returnRot;
   if (truth.plan) {
     const WallErrors walls =
         wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);

@@ -57,9 +57,11 @@ void RunFolder::expect(const RunIdentity& identity) const {
   for (const char* place : {"[run] rawlog", "[run] output"}) found.erase(place), expected.erase(place);
   for (const auto& [key, value] : expected)
     if (found.count(key) == 0 || found[key] != value)
-      differs(folder_, "config.ini: " + key + " = " + (found.count(key) ? found[key] : "(nothing)") + ", now " + value);
+      differs(folder_, "config.ini: " + key + " = " + (found.count(key) ? found[key] : "(nothing)") +
+                           ", now " + value);
   for (const auto& [key, value] : found)
-    if (expected.count(key) == 0) differs(folder_, "config.ini: " + key + " = " + value + ", now no such key");
+    if (expected.count(key) == 0)
+      differs(folder_, "config.ini: " + key + " = " + value + ", now no such key");
 
   std::ifstream originFile(file(kOrigin));
   if (!originFile) return;

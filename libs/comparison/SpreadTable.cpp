@@ -56,7 +56,8 @@ SpreadBands spreadBands(const std::vector<std::vector<SpreadStep>>& runs, size_t
   SpreadBands out;
   double first = INFINITY, last = -INFINITY;
   for (const auto& run : runs)
-    for (const SpreadStep& step : run) first = std::min(first, step.timestamp), last = std::max(last, step.timestamp);
+    for (const SpreadStep& step : run)
+      first = std::min(first, step.timestamp), last = std::max(last, step.timestamp);
   if (first > last) return out;
   for (size_t i = 0; i < times; ++i) {
     const double time = first + (last - first) * static_cast<double>(i) / static_cast<double>(times - 1);

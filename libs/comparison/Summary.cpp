@@ -75,7 +75,8 @@ std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>&
         continue;
       }
       summary.figures[f] = summariseFigure(values);
-      if (g > 0 && name.isError && !values.empty() && !first.empty()) summary.paired[f] = compare(values, first);
+      if (g > 0 && name.isError && !values.empty() && !first.empty())
+        summary.paired[f] = compare(values, first);
     }
   }
   return summaries;
@@ -83,39 +84,47 @@ std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>&
 
 void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                   std::ostream& out) {
-  out << "method,variant,particles,done,failed,successes,success_rate,success_low,success_high,success_sign_p,"
+  out << "method,variant,particles,done,failed,successes,success_rate,success_low,success_high,success_sign_"
+         "p,"
          "figure,runs,q1,median,q3,pairs,median_ratio,ratio_low,ratio_high,wilcoxon_p,sign_p\n";
+  const auto row = [&out](const std::vector<std::string>& cells) {
+    for (size_t i = 0; i < cells.size(); ++i) out << (i == 0 ? "" : ",") << cells[i];
+  };
   for (size_t g = 0; g < groups.size(); ++g) {
     const GroupSummary& s = summaries[g];
+    std::vector<std::string> group{groups[g].method, groups[g].variant.name,
+                                   std::to_string(groups[g].particles), std::to_string(s.done),
+                                   std::to_string(s.failed)};
+    if (s.successes && s.ended() > 0)
+      group.insert(group.end(),
+                   {std::to_string(*s.successes), cell(s.successRate), cell(s.successInterval.low),
+                    cell(s.successInterval.high), g > 0 ? cell(s.successSignP) : ""});
+    else
+      group.insert(group.end(), 5, "");
+    if (s.done == 0) {  // without figures, but not without a row
+      row(group);
+      out << std::string(11, ',') << '\n';
+    }
     for (const FigureName& name : kFigureNames) {
       const auto f = static_cast<size_t>(name.figure);
       const auto& q = s.figures[f].quartiles;
       if (!q) continue;
-      out << groups[g].method << ',' << groups[g].variant.name << ',' << groups[g].particles << ',' << s.done
-          << ',' << s.failed << ',';
-      if (s.successes)
-        out << *s.successes << ',' << cell(s.successRate) << ',' << cell(s.successInterval.low) << ','
-            << cell(s.successInterval.high) << ',' << (g > 0 ? cell(s.successSignP) : "");
-      else
-        out << ",,,,";
-      out << ',' << name.column << ',' << s.figures[f].runs << ',' << cell(q->lower) << ',' << cell(q->median)
-          << ',' << cell(q->upper) << ',';
-      if (const auto& p = s.paired[f]) {
-        out << p->pairs << ',';
-        if (p->ratio)
-          out << cell(p->ratio->ratio) << ',' << cell(p->ratio->interval.low) << ','
-              << cell(p->ratio->interval.high);
-        else
-          out << ",,";
-        out << ',' << cell(p->wilcoxonP) << ',' << cell(p->signP) << '\n';
-      } else {
-        out << ",,,,,\n";
-      }
+      row(group);
+      out << ',';
+      row({name.column, std::to_string(s.figures[f].runs), cell(q->lower), cell(q->median), cell(q->upper)});
+      const auto& p = s.paired[f];
+      const bool hasRatio = p && p->ratio;
+      out << ',';
+      row({p ? std::to_string(p->pairs) : "", hasRatio ? cell(p->ratio->ratio) : "",
+           hasRatio ? cell(p->ratio->interval.low) : "", hasRatio ? cell(p->ratio->interval.high) : "",
+           p ? cell(p->wilcoxonP) : "", p ? cell(p->signP) : ""});
+      out << '\n';
     }
   }
 }
 
-nlohmann::ordered_json summaryJson(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries) {
+nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,
+                                   const std::vector<GroupSummary>& summaries) {
   using Json = nlohmann::ordered_json;
   Json all = Json::array();
   for (size_t g = 0; g < groups.size(); ++g) {

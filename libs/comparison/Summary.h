@@ -43,7 +43,9 @@ struct GroupSummary {
 std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>& results);
 
 /// One row for each group and figure.
-void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries, std::ostream& out);
-nlohmann::ordered_json summaryJson(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries);
+void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
+                  std::ostream& out);
+nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,
+                                   const std::vector<GroupSummary>& summaries);
 
 }  // namespace hybrid_slam

@@ -94,14 +94,14 @@ void Svg::upwardsText(Point p, const std::string& text) {
 
 std::string Svg::str(const std::string& description) const {
   const std::string width = pixels(width_), height = pixels(height_), label = escapeXml(description);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"" + label + "\" width=\"" + width +
-         "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"" + label + "\" width=\"" +
+         width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
          "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#333\">\n" + body_ + "</svg>\n";
 }
 
-Axis::Axis(double low, double high, bool isLogarithmic, double from, double to)
-    : low_(low), high_(high), isLogarithmic_(isLogarithmic), from_(from), to_(to) {
-  if (isLogarithmic_) {
+Axis::Axis(double low, double high, Kind kind, double from, double to)
+    : low_(low), high_(high), kind_(kind), from_(from), to_(to) {
+  if (kind_ == Kind::logarithmic) {
     const double margin = std::pow(high_ / low_, 0.05);
     low_ /= margin, high_ *= margin;
     const bool isWide = high_ / low_ > 100;
@@ -109,21 +109,22 @@ Axis::Axis(double low, double high, bool isLogarithmic, double from, double to)
       for (const double factor : {1.0, 2.0, 5.0})
         if ((factor == 1 || !isWide) && decade * factor >= low_ && decade * factor <= high_)
           ticks_.push_back(decade * factor);
-    if (ticks_.size() >= 2) return;
-    isLogarithmic_ = false;  // too narrow to need it
-    ticks_.clear();
+    return;
   }
   if (high_ <= low_) high_ = low_ + (low_ == 0 ? 1 : std::abs(low_));
-  const double step = niceStep(high_ - low_, 5);
-  low_ = step * std::floor(low_ / step + 1e-9);
-  high_ = step * std::ceil(high_ / step - 1e-9);
-  for (double i = 0; low_ + i * step <= high_ + step / 2; ++i)
-    ticks_.push_back(std::abs(low_ + i * step) < step * 1e-9 ? 0 : low_ + i * step);
+  const double step = niceStep(high_ - low_, 5), hair = 1e-9;
+  if (kind_ == Kind::linear) {
+    low_ = step * std::floor(low_ / step + hair);
+    high_ = step * std::ceil(high_ / step - hair);
+  }
+  for (double i = std::ceil(low_ / step - hair); i * step <= high_ + step * hair; ++i)
+    ticks_.push_back(i * step);
 }
 
 double Axis::pixel(double value) const {
-  const double share = isLogarithmic_ ? std::log(std::max(value, low_) / low_) / std::log(high_ / low_)
-                                      : (value - low_) / (high_ - low_);
+  const double share = kind_ == Kind::logarithmic
+                           ? std::log(std::max(value, low_) / low_) / std::log(high_ / low_)
+                           : (value - low_) / (high_ - low_);
   return from_ + share * (to_ - from_);
 }
 
@@ -152,15 +153,16 @@ void drawXAxis(Svg& svg, const Frame& f, const Axis& axis, const std::string& ti
   svg.text({(f.left + f.right) / 2, f.bottom + 34}, title, Anchor::middle);
 }
 
-std::string groupColour(size_t group) {
+std::string plotColour(size_t number) {
   static const std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                   "#e69f00", "#56b4e9", "#555555"};
-  return colours[group % colours.size()];
+  return colours[number % colours.size()];
 }
 
-std::string groupDash(size_t group) {
-  const size_t round = group / 7;
-  return round == 0 ? "" : round == 1 ? "stroke-dasharray:7 3;" : "stroke-dasharray:2 3;";
+std::string plotDash(size_t number) {
+  static const std::array<const char*, 4> dashes{"", "stroke-dasharray:6 3;", "stroke-dasharray:2 2;",
+                                                 "stroke-dasharray:8 3 2 3;"};
+  return dashes[number % dashes.size()];
 }
 
 }  // namespace hybrid_slam

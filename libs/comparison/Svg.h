@@ -48,8 +48,13 @@ class Svg {
 /// Values to pixels along one axis, linear or logarithmic.
 class Axis {
  public:
-  /// Rounded outwards to ticks. @param from,to  pixels of low and high
-  Axis(double low, double high, bool isLogarithmic, double from, double to);
+  enum class Kind {
+    linear,       ///< from tick to tick
+    tight,        ///< linear, from low to high exactly
+    logarithmic,  ///< a little wider than low and high
+  };
+  /// @param from,to  pixels of low and high
+  Axis(double low, double high, Kind kind, double from, double to);
 
   double pixel(double value) const;
   const std::vector<double>& ticks() const { return ticks_; }
@@ -58,7 +63,7 @@ class Axis {
 
  private:
   double low_, high_;
-  bool isLogarithmic_;
+  Kind kind_;
   double from_, to_;
   std::vector<double> ticks_;
 };
@@ -72,8 +77,9 @@ struct Frame {
 void drawYAxis(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title);
 void drawXAxis(Svg& svg, const Frame& frame, const Axis& axis, const std::string& title);
 
-/// Okabe & Ito's colours, which the colour-blind can tell apart, and dashes beyond their number.
-std::string groupColour(size_t group);
-std::string groupDash(size_t group);
+/// Okabe & Ito's colours, which the colour-blind can tell apart.
+std::string plotColour(size_t number);
+/// An SVG style that tells lines of the same colour apart; empty for the first.
+std::string plotDash(size_t number);
 
 }  // namespace hybrid_slam

@@ -18,10 +18,10 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr float kOccupied = 0.65f;
-constexpr double kSampleStep = 0.1;   // m, along a wall
-constexpr double kReach = 1;          // m, to both sides of it
-constexpr double kClearReach = 1.5;   // m: what the reach may take in of a map that is bent
-constexpr double kClearance = 0.5;    // m
+constexpr double kSampleStep = 0.1;     // m, along a wall
+constexpr double kReach = 1;            // m, to both sides of it
+constexpr double kClearReach = 1.5;     // m: what the reach may take in of a map that is bent
+constexpr double kClearance = 0.5;      // m
 constexpr double kLargestSpread = 0.2;  // m: wider than a wall that was drawn once, noise and all
 constexpr size_t kLeastInARow = 3;
 
