@@ -32,7 +32,7 @@ struct CommandLine {
   std::vector<int> particles;
   int seeds = 30, firstSeed = 1, jobs = 0;
   SuccessCriterion criterion;
-  bool isReportOnly = false, isQuiet = false;
+  bool isReportOnly = false, isListOnly = false, isQuiet = false;
 };
 
 void describe(CLI::App& app, CommandLine& line) {
@@ -74,6 +74,8 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--success-doubled", line.criterion.doubledShare, "success: share of doubled wall below")
       ->capture_default_str();
   app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
+  app.add_flag("--list", line.isListOnly,
+               "starts no run: prints each one's name, a tab, and its command but for the `-o FOLDER`");
   app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors");
   app.footer(
       "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
@@ -209,16 +211,16 @@ class FolderLock {
   int file_;
 };
 
-std::string quoted(int argc, char** argv) {
+/// A command as a shell takes it.
+std::string quoted(const std::vector<std::string>& arguments) {
   std::string command;
-  for (int i = 0; i < argc; ++i) {
-    std::string argument = i == 0 ? fs::path(argv[0]).filename().string() : argv[i];
+  for (std::string argument : arguments) {
     if (argument.empty() || argument.find_first_of(" \t\"'\\$`&;<>()|*?[]#~") != std::string::npos) {
       for (size_t at = 0; (at = argument.find('\'', at)) != std::string::npos; at += 4)
         argument.replace(at, 1, "'\\''");
       argument = "'" + argument + "'";
     }
-    command += (i == 0 ? "" : " ") + argument;
+    command += (command.empty() ? "" : " ") + argument;
   }
   return command;
 }
@@ -239,6 +241,11 @@ int run(const CommandLine& line, const std::string& command) {
   const std::vector<ComparisonRun> sweep = makeSweep(line, groups);
   const LogSpan log = readLog(line, setupOf(line, groups[0], line.firstSeed));
   truth.expectOverlap(log.deadReckoning);
+  if (line.isListOnly) {
+    for (const ComparisonRun& r : sweep)
+      std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
+    return 0;
+  }
   const OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
@@ -320,7 +327,9 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   try {
-    return run(line, quoted(argc, argv));
+    std::vector<std::string> command{"slam-compare"};
+    command.insert(command.end(), argv + 1, argv + argc);
+    return run(line, quoted(command));
   } catch (const InputError& error) {
     return fail(2, error.what());
   } catch (const std::exception& error) {

@@ -107,10 +107,14 @@ WallErrors wallErrors(const COccupancyGridMap2D& map, const FloorPlan& plan, con
 }
 
 COccupancyGridMap2D loadGridMap(const std::string& file) {
-  mrpt::io::CFileGZInputStream in;
-  if (!in.open(file)) throw std::runtime_error("cannot read: " + file);
   COccupancyGridMap2D map;
-  mrpt::serialization::archiveFrom(in) >> map;
+  try {
+    mrpt::io::CFileGZInputStream in;
+    if (!in.open(file)) throw std::runtime_error("cannot be opened");
+    mrpt::serialization::archiveFrom(in) >> map;
+  } catch (const std::exception&) {  // MRPT's texts run over many lines
+    throw std::runtime_error("no grid map can be read: " + file);
+  }
   return map;
 }
 
