@@ -1,0 +1,338 @@
+/// @file main.cpp
+/// @brief slam-compare: methods side by side over seeds, tables, plots, report (doc/slam-compare.md).
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/Errors.h"
+#include "comparison/Comparison.h"
+#include "comparison/Report.h"
+#include "io/Configuration.h"
+#include "io/OutputFolder.h"
+#include "io/RawlogSource.h"
+#include "io/TrajectoryRecorder.h"
+
+namespace {
+
+using namespace hybrid_slam;
+namespace fs = std::filesystem;
+
+std::atomic<bool> stop{false};
+
+struct CommandLine {
+  std::string config, log, output, reference, relations, odometry, floorplan;
+  std::vector<std::string> methods{"hybrid", "general"}, variants, settings;
+  std::vector<int> particles;
+  int seeds = 30, firstSeed = 1, jobs = 0;
+  SuccessCriterion criterion;
+  bool isReportOnly = false, isListOnly = false, isQuiet = false;
+};
+
+void describe(CLI::App& app, CommandLine& line) {
+  app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
+  app.add_option("config", line.config, "INI file, as for hybrid-slam")->required();
+  app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
+  app.add_option("-o,--output", line.output, "folder for runs, tables and report; made if it is missing")
+      ->required()
+      ->type_name("DIR");
+  app.add_option("-m,--methods", line.methods,
+                 "of hybrid, general, stock; the first is what others are tested against")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("-n,--particles", line.particles, "particle counts (default: the INI file's)")
+      ->delimiter(',');
+  app.add_option("--seeds", line.seeds, "runs of each group")->capture_default_str();
+  app.add_option("--first-seed", line.firstSeed, "the seeds count up from here")->capture_default_str();
+  app.add_option("--variant", line.variants,
+                 "named settings on top of the INI file, run beside it; only with METHOD if one is named; "
+                 "@FILE takes "
+                 "another INI file; repeatable")
+      ->type_name("[METHOD/]NAME:SECTION.KEY=VALUE[,...]")
+      ->allow_extra_args(false);
+  app.add_option("--set", line.settings, "sets a key of the INI file for all runs; repeatable")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("-j,--jobs", line.jobs, "runs at a time; 0: one for each core")->capture_default_str();
+  app.add_option("--reference", line.reference, "true poses, TUM file: ATE, return error, success");
+  app.add_option("--relations", line.relations, "relations file: relations metric");
+  app.add_option("--odometry", line.odometry,
+                 "file `t x y theta` that carries poses to the relations' times");
+  app.add_option("--floorplan", line.floorplan,
+                 "walls in the reference's frame: occupied cells against them");
+  app.add_option("--success-trans", line.criterion.returnTrans,
+                 "success: position error at the return below, m")
+      ->capture_default_str();
+  app.add_option("--success-rot", line.criterion.returnRot, "success: heading error at the return below, deg")
+      ->capture_default_str();
+  app.add_option("--success-doubled", line.criterion.doubledShare, "success: share of doubled wall below")
+      ->capture_default_str();
+  app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
+  app.add_flag("--list", line.isListOnly,
+               "starts no run: prints each one's name, a tab, and its command but for the `-o FOLDER`");
+  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors");
+  app.footer(
+      "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
+      "summary.json,\n"
+      "report.html. Finished runs are not run again: after Ctrl-C the same call goes on.\n"
+      "Exit: 0 done, 1 interrupted or a run failed, 2 wrong command line or input.");
+}
+
+void check(const CommandLine& line) {
+  const auto expect = [](bool isRight, const std::string& option, const std::string& expected) {
+    if (!isRight) throw InputError("wrong value", "option " + option, expected);
+  };
+  expect(line.seeds >= 1 && line.seeds <= 1000, "--seeds", "expected 1..1000");
+  expect(line.firstSeed >= 0, "--first-seed", "expected 0 or more");
+  expect(line.jobs >= 0, "--jobs", "expected 0 or more");
+  expect(line.criterion.returnTrans > 0, "--success-trans", "expected a number of metres above 0");
+  expect(line.criterion.returnRot > 0, "--success-rot", "expected a number of degrees above 0");
+  expect(line.criterion.doubledShare > 0, "--success-doubled", "expected a share above 0");
+  for (const std::string& setting : line.settings) checkSetting(setting, "option --set");
+  if (!line.odometry.empty() && line.relations.empty())
+    throw InputError("odometry without relations", "option --odometry", "expected --relations beside it");
+  if (!line.floorplan.empty() && line.reference.empty())
+    throw InputError("floor plan without reference", "option --floorplan",
+                     "expected --reference beside it, which places the maps in the plan");
+}
+
+GroundTruth loadTruth(const CommandLine& line) {
+  GroundTruth truth;
+  truth.criterion = line.criterion;
+  if (!line.reference.empty()) truth.reference = loadTum(line.reference);
+  if (!line.relations.empty()) truth.relations = loadRelations(line.relations);
+  if (!line.odometry.empty()) truth.odometry = loadOdometry(line.odometry);
+  if (!line.floorplan.empty()) truth.plan = FloorPlan::load(line.floorplan);
+  return truth;
+}
+
+/// The INI file that a group's runs read, and what is set on top of it.
+struct Setup {
+  std::string config;
+  std::vector<std::string> settings;
+};
+
+Setup setupOf(const CommandLine& line, const Group& group, int seed) {
+  Setup setup{group.variant.iniFile.empty() ? line.config : group.variant.iniFile, line.settings};
+  const auto set = [&setup](const std::string& key, const std::string& value) {
+    setup.settings.push_back(key + "=" + value);
+  };
+  setup.settings.insert(setup.settings.end(), group.variant.settings.begin(), group.variant.settings.end());
+  const std::string particles = std::to_string(group.particles);
+  set("run.rawlog", fs::weakly_canonical(fs::absolute(line.log)).string());
+  set("run.method", group.method);
+  set("particle_filter.particles", particles);
+  set("particle_filter.seed", std::to_string(seed));
+  set("particle_filter.threads", "1");
+  // MRPT's own filter reads its own section where there is one, with its own name for the particles.
+  if (group.method == "stock" &&
+      Configuration(setup.config, setup.settings).source.sectionExists(kStockSection))
+    set(std::string(kStockSection) + ".sampleSize", particles);
+  return setup;
+}
+
+/// MRPT's sections, which are not in config.ini.
+std::string otherSections(Configuration& configuration) {
+  std::vector<std::string> sections, keys;
+  configuration.source.getAllSections(sections);
+  std::string text;
+  for (const std::string& section : sections) {
+    if (section.rfind(kStockSection, 0) != 0) continue;
+    text += "[" + section + "]\n";
+    configuration.source.getAllKeys(section, keys);
+    for (const std::string& key : keys)
+      text += key + " = " + configuration.source.read_string(section, key, "") + "\n";
+  }
+  return text;
+}
+
+std::string besideThisProgram(const std::string& program) {
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / program;
+  return fs::exists(beside, error) ? beside.string() : program;
+}
+
+std::vector<ComparisonRun> makeSweep(const CommandLine& line, const std::vector<Group>& groups) {
+  const std::string program = besideThisProgram("hybrid-slam");
+  RunIdentity log;
+  noteLog(log, line.log);
+  std::vector<ComparisonRun> sweep;
+  for (const Run& run : makeRuns(groups.size(), line.firstSeed, line.seeds)) {
+    const Group& group = groups[run.group];
+    const Setup setup = setupOf(line, group, run.seed);
+    Configuration configuration(setup.config, setup.settings);
+    RunIdentity identity = log;
+    identity.configuration = configuration.text();
+    if (group.method == "stock") identity.otherSections = otherSections(configuration);
+    std::vector<std::string> command{program, "-q", setup.config};
+    for (const std::string& setting : setup.settings) command.insert(command.end(), {"--set", setting});
+    sweep.push_back({run, {fs::path(line.output) / "runs", runName(group, run.seed)}, identity, command});
+  }
+  return sweep;
+}
+
+struct LogSpan {
+  Trajectory deadReckoning;
+  double duration = 0;  ///< s
+};
+
+/// One pass over the log, which finds what is wrong with it before any run starts.
+LogSpan readLog(const CommandLine& line, const Setup& setup) {
+  const InputOptions input = Configuration(setup.config, setup.settings).input;
+  const RawlogSummary summary = summarise(line.log, input);
+  RawlogSource source(line.log, input, summary);
+  TrajectoryRecorder recorder;
+  while (const auto reading = source.next()) recorder.add(reading->timestamp, reading->motion, 0);
+  return {recorder.trajectory({}), summary.duration};
+}
+
+/// One comparison at a time works in a folder.
+class FolderLock {
+ public:
+  explicit FolderLock(const OutputFolder& folder)
+      : file_(open(folder.path(".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
+      throw InputError("another slam-compare is at work", "folder " + folder.path(""),
+                       "expected a folder of its own");
+  }
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_;
+};
+
+/// A command as a shell takes it.
+std::string quoted(const std::vector<std::string>& arguments) {
+  std::string command;
+  for (std::string argument : arguments) {
+    if (argument.empty() || argument.find_first_of(" \t\"'\\$`&;<>()|*?[]#~") != std::string::npos) {
+      for (size_t at = 0; (at = argument.find('\'', at)) != std::string::npos; at += 4)
+        argument.replace(at, 1, "'\\''");
+      argument = "'" + argument + "'";
+    }
+    command += (command.empty() ? "" : " ") + argument;
+  }
+  return command;
+}
+
+int fail(int code, const std::string& text) {
+  std::cerr << "slam-compare: error: " << text.substr(0, text.find('\n')) << std::endl;
+  return code;
+}
+
+int run(const CommandLine& line, const std::string& command) {
+  check(line);
+  std::vector<Variant> variants;
+  for (const std::string& text : line.variants) variants.push_back(parseVariant(text));
+  std::vector<int> particles = line.particles;
+  if (particles.empty()) particles = {Configuration(line.config, line.settings).filter.filter.particles};
+  const std::vector<Group> groups = makeGroups(line.methods, variants, particles);
+  const GroundTruth truth = loadTruth(line);
+  const std::vector<ComparisonRun> sweep = makeSweep(line, groups);
+  const LogSpan log = readLog(line, setupOf(line, groups[0], line.firstSeed));
+  truth.expectOverlap(log.deadReckoning);
+  if (line.isListOnly) {
+    for (const ComparisonRun& r : sweep)
+      std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
+    return 0;
+  }
+  const OutputFolder folder(line.output);
+  const FolderLock lock(folder);
+
+  size_t ended = 0;
+  const auto start = std::chrono::steady_clock::now();
+  size_t todo = 0;
+  for (const ComparisonRun& r : sweep) todo += !r.folder.isFinished();
+  const auto tell = [&](const ComparisonRun& r, const std::string& error) {
+    ++ended;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const auto left =
+        static_cast<int>(elapsed.count() / static_cast<double>(ended) * static_cast<double>(todo - ended));
+    if (!error.empty())
+      std::cerr << "slam-compare: run failed: " << r.folder.path().string() << ": " << error << std::endl;
+    if (!line.isQuiet)
+      std::cerr << ended << " of " << todo << ": " << r.folder.path().filename().string() << ", about "
+                << left / 60 << ":" << (left % 60 < 10 ? "0" : "") << left % 60 << " left" << std::endl;
+  };
+  SweepOutcome outcome;
+  if (line.isReportOnly) {
+    for (const ComparisonRun& r : sweep)
+      if (r.folder.isFinished()) r.folder.expect(r.identity);
+  } else {
+    const size_t jobs =
+        line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
+    outcome = runSweep(sweep, jobs, stop, tell);
+  }
+  if (outcome.isInterrupted)
+    return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
+                       " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
+
+  ReportInput report{command,
+                     HYBRID_SLAM_VERSION,
+                     line.config,
+                     line.log,
+                     log.duration,
+                     line.settings,
+                     groups,
+                     {},
+                     {},
+                     truth,
+                     fs::path(line.output) / "runs"};
+  for (const ComparisonRun& r : sweep) {
+    report.results.push_back(evaluateRun(r.run, r.folder, truth));
+    if (r.folder.isFinished()) r.folder.dropLargeFiles();
+  }
+  report.summaries = summarise(groups.size(), report.results);
+  folder.write("results.csv", [&](std::ostream& out) { writeResults(groups, report.results, out); });
+  folder.write("summary.csv", [&](std::ostream& out) { writeSummary(groups, report.summaries, out); });
+  folder.write("summary.json",
+               [&](std::ostream& out) { out << summaryJson(groups, report.summaries).dump(2) << '\n'; });
+  folder.write("report.html", [&](std::ostream& out) { writeReport(report, out); });
+  if (!line.isQuiet) std::cout << folder.path("report.html") << std::endl;
+
+  size_t failed = 0;
+  for (const RunResult& r : report.results) failed += r.status == RunResult::Status::failed;
+  if (failed > 0)
+    return fail(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) + " runs failed: folder " +
+                       line.output + "; see report.html");
+  return 0;
+}
+
+void onSignal(int) { stop = true; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Methods side by side over seeds: tables, plots, report. Documentation: doc/slam-compare.md.",
+               "slam-compare");
+  CommandLine line;
+  describe(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    return fail(2, std::string(error.what()) + ": command line; see slam-compare --help");
+  }
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  try {
+    std::vector<std::string> command{"slam-compare"};
+    command.insert(command.end(), argv + 1, argv + argc);
+    return run(line, quoted(command));
+  } catch (const InputError& error) {
+    return fail(2, error.what());
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}

@@ -1,0 +1,252 @@
+#include "comparison/Report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <tuple>
+
+#include "comparison/Plots.h"
+#include "comparison/ReportTables.h"
+#include "comparison/Svg.h"
+#include "evaluation/AbsoluteTrajectoryError.h"
+
+namespace hybrid_slam {
+namespace {
+
+const char* const kHead = R"(<!DOCTYPE html>
+<html xmlns="http://www.w3.org/1999/xhtml" lang="en">
+<head>
+<meta charset="UTF-8"/>
+<meta name="viewport" content="width=device-width, initial-scale=1"/>
+<title>slam-compare</title>
+<style>
+body { font-family: sans-serif; color: #222; line-height: 1.45; max-width: 1180px; margin: 24px auto; padding: 0 20px; }
+h1 { font-size: 26px; margin-bottom: 4px; }
+h2 { font-size: 19px; margin-top: 38px; border-bottom: 1px solid #ccc; padding-bottom: 4px; }
+p.note { color: #555; font-size: 14px; max-width: 860px; }
+pre { background: #f4f4f4; padding: 10px 12px; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px; }
+table { border-collapse: collapse; font-size: 13.5px; margin: 10px 0; }
+th { background: #f0f0f0; font-weight: 600; vertical-align: bottom; max-width: 130px; }
+th, td { border: 1px solid #d5d5d5; padding: 4px 7px; text-align: right; }
+td:first-child, th:first-child, td.text { text-align: left; }
+td small { color: #666; display: block; white-space: nowrap; }
+div.wide { overflow-x: auto; }
+div.plots { display: flex; flex-wrap: wrap; gap: 18px 26px; align-items: flex-start; }
+svg { max-width: 100%; height: auto; }
+figure { margin: 0; max-width: 540px; }
+figure img { max-width: 100%; border: 1px solid #ccc; }
+figcaption { font-size: 13px; color: #444; }
+</style>
+</head>
+<body>
+)";
+
+void section(std::ostream& out, const std::string& title, const std::string& note,
+             const std::string& content) {
+  if (content.empty()) return;
+  out << "<h2>" << escapeXml(title) << "</h2>\n<p class=\"note\">" << escapeXml(note) << "</p>\n" << content;
+}
+
+std::string plots(const std::string& content) {
+  return content.empty() ? content : "<div class=\"plots\">\n" + content + "</div>\n";
+}
+
+RunFolder folderOf(const ReportInput& input, const RunResult& r) {
+  return {input.runs, runName(input.groups[r.run.group], r.run.seed)};
+}
+
+std::vector<const RunResult*> finishedRuns(const ReportInput& input, size_t group) {
+  std::vector<const RunResult*> runs;
+  for (const RunResult& r : input.results)
+    if (r.run.group == group && r.status == RunResult::Status::done) runs.push_back(&r);
+  return runs;
+}
+
+void writeIntroduction(const ReportInput& input, std::ostream& out) {
+  size_t done = 0, failed = 0;
+  for (const GroupSummary& s : input.summaries) done += s.done, failed += s.failed;
+  out << "<h1>slam-compare: " << escapeXml(std::filesystem::path(input.log).filename().string())
+      << "</h1>\n<p>" << done << " finished runs";
+  if (failed) out << ", " << failed << " failed";
+  if (input.results.size() > done + failed) out << ", " << input.results.size() - done - failed << " missing";
+  out << ": " << input.groups.size() << " groups of " << input.results.size() / input.groups.size()
+      << " seeds each, on a log of " << shortNumber(input.logDuration) << " s. hybrid-slam "
+      << escapeXml(input.version) << ".</p>\n<pre>" << escapeXml(input.command)
+      << "</pre>\n<p class=\"note\">Settings: " << escapeXml(input.config);
+  for (const std::string& setting : input.settings) out << ", " << escapeXml(setting);
+  for (const Group& group : input.groups) {
+    if (group.variant.name.empty() || group.particles != input.groups[0].particles) continue;
+    out << "; <b>" << escapeXml(group.label()) << "</b>: ";
+    if (!group.variant.iniFile.empty()) out << escapeXml(group.variant.iniFile) << " ";
+    for (const std::string& setting : group.variant.settings) out << escapeXml(setting) << " ";
+  }
+  out << ". The number behind a name is that of the particles.</p>\n";
+}
+
+std::string criterionNote(const GroundTruth& truth) {
+  const SuccessCriterion& c = truth.criterion;
+  std::string note =
+      "Success: from the first scan to the last the estimated motion differs from the reference's by less "
+      "than " +
+      shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg";
+  note += truth.plan ? ", and less than " + shortNumber(100 * c.doubledShare) +
+                           " % of the free-standing wall that the map shows is drawn twice."
+                     : ". Without a floor plan nothing is asked of the walls.";
+  return note + " A run that fails has no success. The interval is Wilson's, 95 %.";
+}
+
+std::string spreadPlots(const ReportInput& input) {
+  std::vector<SpreadBands> bands;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    std::vector<std::vector<SpreadStep>> runs;
+    for (const RunResult* r : finishedRuns(input, g))
+      runs.push_back(loadSpread(folderOf(input, *r).file("steps.csv").string()));
+    bands.push_back(spreadBands(runs, 300));
+  }
+  std::string all;
+  for (size_t s = 0; s < kSpreads; ++s) all += plotSpread(s, input.groups, bands);
+  return plots(all);
+}
+
+std::string trajectoryPlots(const ReportInput& input) {
+  const Trajectory& reference = input.truth.reference;
+  std::string all;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    std::vector<Trajectory> trajectories;
+    for (const RunResult* r : finishedRuns(input, g)) {
+      trajectories.push_back(loadTum(folderOf(input, *r).file("trajectory.tum").string()));
+      if (reference.empty()) continue;
+      const auto alignment =
+          absoluteTrajectoryError(trajectories.back(), reference, GroundTruth::kReferenceTolerance).alignment;
+      for (StampedPose& p : trajectories.back()) p.pose = alignment + p.pose;
+    }
+    if (!trajectories.empty())
+      all += plotTrajectories(g, input.groups, trajectories, reference,
+                              input.truth.plan ? &*input.truth.plan : nullptr);
+  }
+  return plots(all);
+}
+
+/// The figure that says which run of a group is its median and which its worst; nothing without a reference.
+std::optional<Figure> rankingFigure(const ReportInput& input) {
+  for (const Figure figure : {Figure::ate, Figure::transMean})
+    for (const RunResult& r : input.results)
+      if (r[figure]) return figure;
+  return std::nullopt;
+}
+
+std::string mapPicture(const ReportInput& input, const RunResult& r, const std::string& caption) {
+  std::ifstream in(folderOf(input, r).file("map.png"), std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  if (bytes.empty()) return {};
+  const std::string text =
+      escapeXml(input.groups[r.run.group].name() + ", seed " + std::to_string(r.run.seed) + ": " + caption);
+  return "<figure><img alt=\"map of " + text + "\" src=\"data:image/png;base64," + base64(bytes) +
+         "\"/><figcaption>" + text + "</figcaption></figure>\n";
+}
+
+std::string mapPictures(const ReportInput& input) {
+  const auto ranking = rankingFigure(input);
+  std::string all;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    auto runs = finishedRuns(input, g);
+    if (runs.empty()) continue;
+    if (!ranking) {
+      all += mapPicture(input, *runs[0], "the first");
+      continue;
+    }
+    std::stable_sort(runs.begin(), runs.end(), [&](const RunResult* a, const RunResult* b) {
+      return (*a)[*ranking].value_or(0) < (*b)[*ranking].value_or(0);
+    });
+    const FigureName& name = kFigureNames[static_cast<size_t>(*ranking)];
+    const auto caption = [&](const char* which, const RunResult& r) {
+      return std::string(which) + " run, " + name.title + " " + shortNumber(r[*ranking].value_or(0), 3) +
+             " " + name.unit;
+    };
+    const RunResult& median = *runs[(runs.size() - 1) / 2];
+    all += mapPicture(input, median, caption("median", median));
+    if (runs.size() > 1) all += mapPicture(input, *runs.back(), caption("worst", *runs.back()));
+  }
+  return plots(all);
+}
+
+}  // namespace
+
+std::string runName(const Group& group, int seed) { return group.name() + "-" + std::to_string(seed); }
+
+std::string base64(const std::string& bytes) {
+  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+void writeReport(const ReportInput& input, std::ostream& out) {
+  const auto& [groups, results, summaries] = std::tie(input.groups, input.results, input.summaries);
+  out << kHead;
+  writeIntroduction(input, out);
+  section(out, "Failed runs", "They count as runs without success and have no figures.",
+          failureTable(groups, results));
+
+  section(out, "Accuracy",
+          std::string("Median over the seeds, below it the quartiles. ") +
+              (input.truth.reference.empty() ? "" : criterionNote(input.truth)),
+          summaryTable(groups, summaries,
+                       {Figure::ate, Figure::returnTrans, Figure::returnRot, Figure::transMean,
+                        Figure::rotMean, Figure::wallMean, Figure::wallP95, Figure::doubledShare},
+                       true));
+  section(out, "Success rates", "Share of the seeds that closed the loop.", plotSuccess(groups, summaries));
+  std::string errors;
+  for (const FigureName& name : kFigureNames)
+    if (name.isError && name.figure < Figure::stdAlong) errors += plotFigure(name, groups, results);
+  section(out, "Errors",
+          "A dot is a run; the box reaches from the lower to the upper quartile, the bar is the median.",
+          plots(errors));
+  section(out, "Each group against the first",
+          "Median of the group / median of " + groups[0].name() +
+              " over the seeds that both have finished: below 1 the group is better. Below it the 95 % "
+              "interval (percentile "
+              "bootstrap over seeds), then p of Wilcoxon's signed-rank test and of the sign test over the "
+              "seeds: two-sided, "
+              "exact, each for itself (not corrected for their number).",
+          pairedTable(groups, summaries));
+
+  section(out, "Particle spread",
+          "Weighted standard deviation of the particles before resampling; mean over the updates of a run, "
+          "then median "
+          "and quartiles over the seeds.",
+          summaryTable(groups, summaries, {Figure::stdAlong, Figure::stdAcross, Figure::stdPhi}, false));
+  section(out, "Particle spread over time",
+          "Line: median over the seeds; band: quartiles. Colours stand for method and variant, dashes for "
+          "the particles.",
+          spreadPlots(input));
+
+  section(
+      out, "Time and memory", "Each run is a process of its own with one thread.",
+      summaryTable(
+          groups, summaries,
+          {Figure::wallTime, Figure::cpuTime, Figure::realtimeFactor, Figure::peakMemory, Figure::lines},
+          false) +
+          plots(plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::cpuTime)], groups, summaries) +
+                plotAgainstParticles(kFigureNames[static_cast<size_t>(Figure::peakMemory)], groups,
+                                     summaries)));
+
+  section(out, "Trajectories",
+          input.truth.reference.empty()
+              ? "All seeds of a group, from their common start."
+              : "All seeds of a group, each rigidly aligned to the reference (black, dashed).",
+          trajectoryPlots(input));
+  section(out, "Maps",
+          "Black: occupied; red: path; green: line database; light blue: the robot at the end. Each map is "
+          "in its own "
+          "frame, that of the robot's first pose.",
+          mapPictures(input));
+  out << "</body>\n</html>\n";
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,90 @@
+#include "comparison/RunEvaluation.h"
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "comparison/ReturnError.h"
+#include "comparison/SpreadTable.h"
+#include "comparison/WallErrors.h"
+#include "evaluation/AbsoluteTrajectoryError.h"
+
+namespace hybrid_slam {
+namespace {
+
+constexpr double kRadToDeg = 180 / M_PI;
+
+RelationErrors relationErrors(const Trajectory& trajectory, const GroundTruth& truth) {
+  return evaluateRelations(trajectory, truth.relations, truth.odometry.empty() ? nullptr : &truth.odometry,
+                           GroundTruth::kRelationTolerance);
+}
+
+void takeMetrics(RunResult& result, const std::string& file) {
+  std::ifstream in(file);
+  const auto metrics = nlohmann::json::parse(in, nullptr, false);
+  const auto take = [&](Figure figure, const char* key) {
+    if (!metrics.is_object() || !metrics.contains(key) || !metrics[key].is_number())
+      throw std::runtime_error("broken file: " + file + "; no number `" + key + "`");
+    result[figure] = metrics[key].get<double>();
+  };
+  take(Figure::wallTime, "wall_s");
+  take(Figure::cpuTime, "cpu_s");
+  take(Figure::peakMemory, "peak_rss_mb");
+  take(Figure::realtimeFactor, "realtime_factor");
+  take(Figure::lines, "lines");
+}
+
+}  // namespace
+
+void GroundTruth::expectOverlap(const Trajectory& trajectory) const {
+  if (!reference.empty()) absoluteTrajectoryError(trajectory, reference, kReferenceTolerance);
+  if (!relations.empty()) relationErrors(trajectory, *this);
+}
+
+RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth) {
+  RunResult result;
+  result.run = run;
+  result.error = folder.error();
+  if (!folder.isFinished()) {
+    if (!result.error.empty()) result.status = RunResult::Status::failed;
+    return result;
+  }
+  result.status = RunResult::Status::done;
+  takeMetrics(result, folder.file("metrics.json").string());
+  const Spread spread = meanSpread(loadSpread(folder.file("steps.csv").string()));
+  result[Figure::stdAlong] = spread[0];
+  result[Figure::stdAcross] = spread[1];
+  result[Figure::stdPhi] = spread[2];
+
+  const Trajectory trajectory = loadTum(folder.file("trajectory.tum").string());
+  if (!truth.relations.empty()) {
+    const RelationErrors errors = relationErrors(trajectory, truth);
+    result[Figure::transMean] = errors.translation.mean;
+    result[Figure::rotMean] = errors.rotation.mean * kRadToDeg;
+  }
+  if (truth.reference.empty()) return result;
+
+  const AteErrors ate =
+      absoluteTrajectoryError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
+  const ReturnError back = returnError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
+  result[Figure::ate] = ate.translation.rmse;
+  result[Figure::returnTrans] = back.translation;
+  result[Figure::returnRot] = back.rotation * kRadToDeg;
+  bool success =
+      back.translation < truth.criterion.returnTrans && back.rotation * kRadToDeg < truth.criterion.returnRot;
+  if (truth.plan) {
+    const WallErrors walls =
+        wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
+    result[Figure::wallMean] = walls.mean;
+    result[Figure::wallP95] = walls.p95;
+    result[Figure::doubledShare] = walls.doubledShare;
+    success = success && walls.doubledShare < truth.criterion.doubledShare;
+  }
+  result[Figure::success] = success;
+  return result;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,46 @@
+/// @file RunEvaluation.h
+/// @brief A finished run against what is known of the truth.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "comparison/Figures.h"
+#include "comparison/RunFolder.h"
+#include "evaluation/RelationErrors.h"
+#include "evaluation/Trajectory.h"
+#include "simulation/FloorPlan.h"
+
+namespace hybrid_slam {
+
+/// What a run must keep below to have closed the loop, the paper's Fig. 4 in figures.
+struct SuccessCriterion {
+  double returnTrans = 0.5;    ///< m
+  double returnRot = 2;        ///< deg
+  double doubledShare = 0.02;  ///< of the free-standing wall that the map shows
+};
+
+/// What is known of the truth; each part may be missing.
+struct GroundTruth {
+  Trajectory reference;             ///< may be empty
+  std::vector<Relation> relations;  ///< may be empty
+  Trajectory odometry;              ///< that carries poses to the relations' times; may be empty
+  std::optional<FloorPlan> plan;    ///< in the reference's frame
+  SuccessCriterion criterion;
+
+  /// s; between a pose and its reference pose
+  static constexpr double kReferenceTolerance = 0.02;
+  /// s; between a relation's time and a pose or odometry row
+  static constexpr double kRelationTolerance = 0.006;
+
+  /// @throws InputError if the reference does not overlap `trajectory` in time, or none of the relations can
+  ///         be used with it
+  void expectOverlap(const Trajectory& trajectory) const;
+};
+
+/// Fills status and figures from the run's folder. Success needs the reference; without a floor plan it does
+/// not ask for walls.
+/// @throws InputError, std::runtime_error for result files that cannot be read
+RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth);
+
+}  // namespace hybrid_slam

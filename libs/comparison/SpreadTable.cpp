@@ -1,0 +1,78 @@
+#include "comparison/SpreadTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace hybrid_slam {
+namespace {
+
+std::vector<std::string> splitAtCommas(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+}  // namespace
+
+std::vector<SpreadStep> loadSpread(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  std::map<std::string, size_t> columns;
+  for (const std::string& name : splitAtCommas(line)) columns.emplace(name, columns.size());
+
+  std::vector<SpreadStep> steps;
+  try {
+    const size_t timestamp = columns.at("timestamp"), particles = columns.at("particles");
+    const std::array<size_t, kSpreads> spreads{columns.at("std_along"), columns.at("std_across"),
+                                               columns.at("std_phi")};
+    while (std::getline(in, line)) {
+      const std::vector<std::string> fields = splitAtCommas(line);
+      if (std::stoul(fields.at(particles)) == 0) continue;  // the first scan: nothing was sampled yet
+      SpreadStep step{std::stod(fields.at(timestamp)), {}};
+      for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = std::stod(fields.at(spreads[s]));
+      step.spread[2] *= 180 / M_PI;
+      steps.push_back(step);
+    }
+  } catch (const std::logic_error&) {  // no such column, no such field, no number
+    throw std::runtime_error("broken table: " + file);
+  }
+  return steps;
+}
+
+Spread meanSpread(const std::vector<SpreadStep>& steps) {
+  Spread mean{};
+  for (const SpreadStep& step : steps)
+    for (size_t s = 0; s < kSpreads; ++s) mean[s] += step.spread[s] / static_cast<double>(steps.size());
+  return mean;
+}
+
+SpreadBands spreadBands(const std::vector<std::vector<SpreadStep>>& runs, size_t times) {
+  SpreadBands out;
+  double first = INFINITY, last = -INFINITY;
+  for (const auto& run : runs)
+    for (const SpreadStep& step : run)
+      first = std::min(first, step.timestamp), last = std::max(last, step.timestamp);
+  if (first > last) return out;
+  for (size_t i = 0; i < times; ++i) {
+    const double time = first + (last - first) * static_cast<double>(i) / static_cast<double>(times - 1);
+    std::array<std::vector<double>, kSpreads> values;
+    for (const auto& run : runs) {
+      const SpreadStep* before = nullptr;
+      for (const SpreadStep& step : run)
+        if (step.timestamp <= time) before = &step;
+      for (size_t s = 0; before && s < kSpreads; ++s) values[s].push_back(before->spread[s]);
+    }
+    if (values[0].empty()) continue;
+    out.times.push_back(time - first);
+    for (size_t s = 0; s < kSpreads; ++s) out.bands[s].push_back(quartiles(values[s]));
+  }
+  return out;
+}
+
+}  // namespace hybrid_slam

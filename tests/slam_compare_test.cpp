@@ -1,0 +1,351 @@
+/// slam-compare as its users call it: a whole comparison, interrupted and resumed, failing runs, every bad
+/// input.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "comparison/XmlCheck.h"
+#include "evaluation/Trajectory.h"
+#include "io/TemporaryFolder.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+
+const std::string kCsie = SOURCE_DIR "/datasets/csie/";
+const std::string kLog = kCsie + "csie-corridor.rawlog";
+const std::string kTruth = " --reference " + kCsie + "csie-corridor.tum --floorplan " + kCsie + "csie.plan";
+const std::string kSmall = " --methods hybrid,general --particles 4 --seeds 2 -q";
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+struct SlamCompare : testing::Test {
+  TemporaryFolder folder;
+  std::string config = folder.write("small.ini", "[particle_filter]\nparticles = 3\nupdate_distance = 1\n");
+
+  Outcome shell(const std::string& command) const {
+    const int status = std::system(("cd '" + folder.path("") + "' && " + command + " >.out 2>.err").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path(".out")),
+            contents(folder.path(".err"))};
+  }
+  std::string call(const std::string& arguments) const {
+    return std::string("'") + SLAM_COMPARE + "' " + config + " " + kLog + " -o out " + arguments;
+  }
+  Outcome run(const std::string& arguments) const { return shell(call(arguments)); }
+  /// Exit 2, nothing on standard output, no run started; the one line on standard error.
+  std::string errorLine(const Outcome& o) const {
+    EXPECT_EQ(o.status, 2) << o.err;
+    EXPECT_EQ(o.out, "");
+    EXPECT_THAT(o.err, StartsWith("slam-compare: error: "));
+    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
+    return o.err;
+  }
+  std::vector<std::string> runs() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path("out/runs")))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+  std::vector<std::map<std::string, std::string>> table(const std::string& name) const {
+    std::ifstream in(folder.path("out/" + name));
+    std::vector<std::map<std::string, std::string>> rows;
+    std::vector<std::string> columns;
+    for (std::string line; std::getline(in, line);) {
+      std::vector<std::string> cells;
+      std::istringstream fields(line + ",");
+      for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
+      if (columns.empty()) {
+        columns = cells;
+        continue;
+      }
+      EXPECT_EQ(cells.size(), columns.size()) << line;
+      rows.emplace_back();
+      for (size_t i = 0; i < std::min(cells.size(), columns.size()); ++i) rows.back()[columns[i]] = cells[i];
+    }
+    return rows;
+  }
+  /// results.csv without what a clock says.
+  std::string untimedTable() const {
+    std::string text;
+    for (auto& row : table("results.csv"))
+      for (const auto& [column, cell] : row)
+        if (column != "wall_s" && column != "cpu_s" && column != "peak_rss_mb" && column != "realtime_factor")
+          text += column + "=" + cell + " ";
+    return text;
+  }
+};
+
+TEST_F(SlamCompare, HelpAndVersion) {
+  const Outcome help = shell(std::string("'") + SLAM_COMPARE + "' --help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out, HasSubstr("Usage: slam-compare"));
+  const Outcome version = shell(std::string("'") + SLAM_COMPARE + "' --version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "slam-compare " HYBRID_SLAM_VERSION "\n");
+}
+
+TEST_F(SlamCompare, AWholeComparison) {
+  const Outcome o = run(kSmall + " --variant hybrid/eq9:line_weight.method=paper" + kTruth);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  EXPECT_THAT(runs(), UnorderedElementsAre("hybrid-4-1", "hybrid-4-2", "hybrid-eq9-4-1", "hybrid-eq9-4-2",
+                                           "general-4-1", "general-4-2"));
+  const fs::path one = folder.path("out/runs/hybrid-eq9-4-2");
+  for (const char* name : {"metrics.json", "config.ini", "trajectory.tum", "steps.csv", "lines.csv",
+                           "map.png", "map.gridmap.gz", "origin.json"})
+    EXPECT_TRUE(fs::exists(one / name)) << name;
+  for (const char* name : {"map.simplemap.gz", "map.pgm", "map.yaml"})
+    EXPECT_FALSE(fs::exists(one / name)) << name;
+  EXPECT_THAT(contents(one / "config.ini"), HasSubstr("seed = 2"));
+  EXPECT_THAT(contents(one / "config.ini"), HasSubstr("method = paper"));
+
+  const auto rows = table("results.csv");
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[2].at("variant"), "eq9");
+  EXPECT_EQ(rows[5].at("method"), "general");
+  EXPECT_EQ(rows[5].at("lines"), "0");
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("status"), "done");
+    EXPECT_EQ(row.at("particles"), "4");
+    EXPECT_EQ(row.at("trans_mean_m"), "");  // no relations
+    EXPECT_GT(std::stod(row.at("ate_rmse_m")), 0);
+    EXPECT_LT(std::stod(row.at("ate_rmse_m")), 3);
+    EXPECT_GT(std::stod(row.at("wall_mean_m")), 0);
+    EXPECT_GT(std::stod(row.at("peak_rss_mb")), 1);
+    EXPECT_THAT((std::vector<std::string>{"0", "1"}), testing::Contains(row.at("success")));
+  }
+  const auto json = nlohmann::json::parse(contents(folder.path("out/summary.json")));
+  EXPECT_EQ(json.at("groups").size(), 3u);
+  EXPECT_GT(table("summary.csv").size(), 20u);
+}
+
+TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
+  ASSERT_EQ(run(kSmall + kTruth).status, 0);
+  const std::string report = contents(folder.path("out/report.html"));
+  EXPECT_EQ(xmlDefect(report), "");
+  for (const char* part :
+       {"--methods hybrid,general --particles 4 --seeds 2", "Success rates",
+        "absolute trajectory error, rmse (m)", "heading error at the return (deg)", "share of doubled wall",
+        "Each group against the first", "spread of the heading (deg)", "processor time (s)",
+        "peak memory (MB)", "trajectories of general-4", "median run", "worst run",
+        "data:image/png;base64,iVBORw0KGgo"})
+    EXPECT_THAT(report, HasSubstr(part));
+  EXPECT_THAT(report, Not(HasSubstr("<script")));
+  const std::regex address("(src|href)=\"(?!data:)");
+  EXPECT_FALSE(std::regex_search(report, address));
+}
+
+TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
+  const Outcome o = run("--methods general --seeds 2 -q");  // particles from the INI file
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(runs(), UnorderedElementsAre("general-3-1", "general-3-2"));
+  for (const auto& row : table("results.csv")) {
+    EXPECT_EQ(row.at("ate_rmse_m"), "");
+    EXPECT_EQ(row.at("success"), "");
+    EXPECT_GT(std::stod(row.at("std_phi_deg")), 0);
+  }
+  const std::string report = contents(folder.path("out/report.html"));
+  EXPECT_EQ(xmlDefect(report), "");
+  EXPECT_THAT(report, Not(HasSubstr("Success rates")));
+}
+
+TEST_F(SlamCompare, TheRelationsMetricIsSlamEvals) {
+  const Trajectory truth = loadTum(kCsie + "csie-corridor.tum");
+  std::ostringstream relations;
+  relations.precision(15);
+  for (size_t i = 0; i + 60 < truth.size(); i += 20) {
+    const auto motion = truth[i + 60].pose - truth[i].pose;
+    relations << std::fixed << truth[i].timestamp << ' ' << truth[i + 60].timestamp << ' ' << motion.x << ' '
+              << motion.y << " 0 0 0 " << motion.phi << '\n';
+  }
+  folder.write("truth.relations", relations.str());
+  ASSERT_EQ(run("--methods general --seeds 1 -q --relations truth.relations").status, 0);
+  const Outcome eval =
+      shell(std::string("'") + SLAM_EVAL +
+            "' relations --trajectory out/runs/general-3-1/trajectory.tum --relations truth.relations");
+  ASSERT_EQ(eval.status, 0) << eval.err;
+  const auto json = nlohmann::json::parse(eval.out);
+  const auto row = table("results.csv").at(0);
+  EXPECT_NEAR(std::stod(row.at("trans_mean_m")), json.at("trans_mean_m"),
+              1e-5 * json.at("trans_mean_m").get<double>());
+  EXPECT_NEAR(std::stod(row.at("rot_mean_deg")), json.at("rot_mean_deg"),
+              1e-5 * json.at("rot_mean_deg").get<double>());
+}
+
+TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
+  ASSERT_EQ(run(kSmall + kTruth).status, 0);
+  const std::string whole = untimedTable();
+  fs::remove_all(folder.path("out"));
+
+  const Outcome stopped =
+      shell("{ " + call(kSmall + kTruth + " -j 1") +
+            " & pid=$!; until ls out/runs/*/metrics.json; do sleep 0.02; done; kill -INT $pid; "
+            "wait $pid; }");
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_THAT(stopped.err, HasSubstr("slam-compare: error: interrupted: "));
+  EXPECT_THAT(stopped.err, HasSubstr("of 4 runs are finished; the same call goes on"));
+  EXPECT_FALSE(fs::exists(folder.path("out/report.html")));
+  const auto left = runs();
+  EXPECT_GE(left.size(), 1u);
+  EXPECT_LT(left.size(), 4u);
+  std::map<std::string, fs::file_time_type> finished;
+  for (const std::string& name : left) {
+    EXPECT_THAT(name, Not(StartsWith(".")));
+    finished[name] = fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json"));
+  }
+
+  EXPECT_EQ(run(kSmall + kTruth).status, 0);
+  EXPECT_EQ(untimedTable(), whole);
+  for (const auto& [name, time] : finished)
+    EXPECT_EQ(fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json")), time) << name;
+}
+
+TEST_F(SlamCompare, MoreSeedsKeepTheRunsThatAreThere) {
+  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
+  const auto before = fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json"));
+  ASSERT_EQ(run("--methods general --seeds 2 -q").status, 0);
+  EXPECT_EQ(table("results.csv").size(), 2u);
+  EXPECT_EQ(fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json")), before);
+}
+
+TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
+  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
+  const std::string error = errorLine(run("--methods general --seeds 1 -q --set grid.resolution=0.1"));
+  EXPECT_THAT(error, HasSubstr("out/runs/general-3-1"));
+  EXPECT_THAT(error, HasSubstr("[grid] resolution = 0.05, now 0.1"));
+
+  fs::copy(kLog, folder.path("copy.rawlog"));
+  const std::string withCopy =
+      std::string("'") + SLAM_COMPARE + "' " + config + " copy.rawlog -o out2 --methods general --seeds 1 -q";
+  ASSERT_EQ(shell(withCopy).status, 0);
+  fs::last_write_time(folder.path("copy.rawlog"), fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_THAT(errorLine(shell(withCopy)), HasSubstr("out2/runs/general-3-1"));
+}
+
+TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersGoOn) {
+  const Outcome o = run("--methods general --seeds 2 -q --variant broken:input.sensor_label=NONE" + kTruth);
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.err, HasSubstr("run failed: out/runs/general-broken-3-2: no scans of the laser `NONE`"));
+  EXPECT_THAT(o.err, HasSubstr("slam-compare: error: 2 of 4 runs failed"));
+  const auto rows = table("results.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].at("status"), "done");
+  EXPECT_EQ(rows[3].at("status"), "failed");
+  EXPECT_EQ(rows[3].at("ate_rmse_m"), "");
+  const std::string report = contents(folder.path("out/report.html"));
+  EXPECT_EQ(xmlDefect(report), "");
+  EXPECT_THAT(report, HasSubstr("no scans of the laser `NONE`"));
+  const auto json = nlohmann::json::parse(contents(folder.path("out/summary.json")));
+  EXPECT_EQ(json["groups"][1]["success"]["successes"], 0);
+}
+
+TEST_F(SlamCompare, ReportOnlyStartsNothing) {
+  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
+  const Outcome o = run("--methods general --seeds 3 -q --report-only");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(runs(), ElementsAre("general-3-1"));
+  const auto rows = table("results.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("status"), "done");
+  EXPECT_EQ(rows[2].at("status"), "missing");
+  EXPECT_EQ(xmlDefect(contents(folder.path("out/report.html"))), "");
+}
+
+TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
+  const Outcome list = run("--methods general --seeds 1 --list --set 'input.sensor_label='");
+  ASSERT_EQ(list.status, 0) << list.err;
+  ASSERT_THAT(list.out, StartsWith("general-3-1\t"));
+  EXPECT_FALSE(fs::exists(folder.path("out")));
+  const std::string command =
+      list.out.substr(list.out.find('\t') + 1, list.out.find('\n') - list.out.find('\t') - 1);
+  ASSERT_EQ(shell(command + " -o out/runs/general-3-1").status, 0);
+  EXPECT_EQ(run("--methods general --seeds 1 -q --report-only").status, 0);
+  EXPECT_EQ(table("results.csv").at(0).at("status"), "done");
+}
+
+TEST_F(SlamCompare, TwoAtOnceInOneFolderIsAnError) {
+  fs::create_directories(folder.path("out"));
+  EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),
+              HasSubstr("another slam-compare is at work"));
+}
+
+TEST_F(SlamCompare, EveryBadInputIsOneLineAndStartsNoRun) {
+  folder.write("far.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  folder.write("broken.relations", "1287388800.0 1287388801.0 1 0 0 0 0 0\n1287388800.0 oops\n");
+  folder.write("far.relations", "1 2 1 0 0 0 0 0\n");
+  folder.write("broken.plan", "wall 0 0\n");
+  folder.write("wrong.ini", "[particle_filter]\nparticels = 3\n");
+  folder.write("text.rawlog", "not a rawlog\n");
+  const std::string reference = " --reference " + kCsie + "csie-corridor.tum";
+  const std::pair<std::string, std::string> cases[] = {
+      {"--methods gmapping", "unknown method `gmapping`"},
+      {"--methods hybrid --seeds 0", "--seeds"},
+      {"--seeds many", "--seeds"},
+      {"--first-seed -1", "--first-seed"},
+      {"--jobs -1", "--jobs"},
+      {"--particles 20,0", "--particles"},
+      {"--particles x", "--particles"},
+      {"--variant nothing", "--variant"},
+      {"--variant x:run.method=stock", "run.method"},
+      {"--variant x:grid.resolutoin=1", "resolution"},
+      {"--variant x:@none.ini", "none.ini"},
+      {"--set grid.resolution=-1", "grid"},
+      {"--set particle_filter.seed=3", "particle_filter.seed"},
+      {"--reference none.tum", "none.tum"},
+      {"--reference far.tum", "reference"},
+      {"--relations none.relations", "none.relations"},
+      {"--relations broken.relations", "line 2"},
+      {"--relations far.relations", "relation"},
+      {"--odometry broken.relations", "--relations"},
+      {"--floorplan " + kCsie + "csie.plan", "--reference"},
+      {reference + " --floorplan none.plan", "none.plan"},
+      {reference + " --floorplan broken.plan", "line 1"},
+      {"--success-trans 0", "--success-trans"},
+      {"--success-rot nan", "--success-rot"},
+      {"--success-doubled -1", "--success-doubled"},
+      {"--unknown", "--unknown"},
+  };
+  for (const auto& [arguments, named] : cases)
+    EXPECT_THAT(errorLine(run(arguments + " -q")), HasSubstr(named)) << arguments;
+  const std::string program = std::string("'") + SLAM_COMPARE + "' ";
+  const std::pair<std::string, std::string> calls[] = {
+      {"", "config"},
+      {config, "dataset"},
+      {config + " " + kLog, "--output"},
+      {"none.ini " + kLog + " -o out", "none.ini"},
+      {"wrong.ini " + kLog + " -o out", "particels"},
+      {config + " none.rawlog -o out", "none.rawlog"},
+      {config + " text.rawlog -o out", "text.rawlog"},
+      {config + " " + kLog + " -o small.ini/out", "small.ini/out"},
+  };
+  for (const auto& [arguments, named] : calls)
+    EXPECT_THAT(errorLine(shell(program + arguments)), HasSubstr(named)) << arguments;
+  EXPECT_FALSE(fs::exists(folder.path("out/runs")));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
