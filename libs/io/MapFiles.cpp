@@ -84,7 +84,8 @@ void savePicture(const OutputFolder& folder, const COccupancyGridMap2D& grid, co
 }
 
 void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  constexpr double kOccupied = 0.65, kFree = 0.196;
+  // Some ten beams through a cell make it free; the YAML's thresholds are those of the grey values.
+  constexpr double kOccupied = 0.65, kFree = 0.35;
   const Window window = knownWindow(grid);
   folder.write("map.pgm", [&](std::ostream& out) {
     out << "P5\n" << window.width() << " " << window.height() << "\n255\n";
@@ -99,7 +100,7 @@ void saveRosMap(const OutputFolder& folder, const COccupancyGridMap2D& grid) {
   folder.write("map.yaml", [&](std::ostream& out) {
     out << std::setprecision(10) << "image: map.pgm\nresolution: " << rounded(cell) << "\norigin: ["
         << rounded(grid.getXMin() + window.x0 * cell) << ", " << rounded(grid.getYMin() + window.y0 * cell)
-        << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupied << "\nfree_thresh: " << kFree << "\n";
+        << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupied << "\nfree_thresh: 0.196\n";
   });
 }
 
