@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -188,8 +189,8 @@ TEST_F(HybridSlam, QuietSaysNothing) {
 TEST_F(HybridSlam, AllMethodsAndProposals) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string options :
-       {"-m hybrid", "-m general", "-m stock", "-p standard", "-p auxiliary_standard", "-p auxiliary_optimal",
-        "-m general -p auxiliary_optimal"}) {
+       {"-m hybrid", "-m general", "-m stock", "-p standard", "-p improved", "-p auxiliary_standard",
+        "-p auxiliary_optimal", "-m general -p auxiliary_optimal"}) {
     SCOPED_TRACE(options);
     fs::remove_all(output);
     expectDone(replay(log, options));
@@ -387,8 +388,33 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
 TEST_F(HybridSlam, ScansWithoutBeamsAreLeftOut) {
   Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
-  expectDone(replay(log), "1 scans without beams: first at entry 4; left out");
+  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; left out");
   EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 9u);
+}
+
+TEST_F(HybridSlam, AnyNumberOfBeams) {
+  for (const size_t beams : {1u, 2u, 3u, 5000u}) {
+    SCOPED_TRACE(beams);
+    expectDone(replay(test::laps(10, 80, beams)));
+  }
+}
+
+/// 10 scans, the last five with the odometry `jump` m farther on.
+Log withJump(double jump) {
+  Log log = test::laps(10);
+  for (size_t i = 10; i < 20; i += 2)
+    std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[i])->odometry.x_incr(jump);
+  return log;
+}
+
+TEST_F(HybridSlam, OdometryThatJumps) {
+  expectDone(replay(withJump(99)));
+  expectDone(replay(withJump(60), "--set particle_filter.update_distance=100"));
+  fs::remove_all(output);
+  for (const double jump : {101., 1e5, 1e9, 1e300}) {
+    SCOPED_TRACE(jump);
+    expectError(replay(withJump(jump)), "odometry jumps: entry 12 of " + folder.path("log.rawlog"));
+  }
 }
 
 TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
@@ -474,16 +500,20 @@ TEST_F(HybridSlam, DiskFull) {
 
 // ---- processes
 
-/// Starts the program without a shell between; gives its process.
-pid_t start(const std::vector<std::string>& arguments, const std::string& errorFile) {
+std::vector<char*> pointersTo(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
+  return argv;
+}
+
+/// Starts the program without a shell between; gives its process.
+pid_t start(const std::vector<std::string>& arguments, const std::string& errorFile) {
   const pid_t child = fork();
   if (child == 0) {
     const int file = open(errorFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDERR_FILENO);
-    execv(HYBRID_SLAM, argv.data());
+    execv(HYBRID_SLAM, pointersTo(arguments).data());
     _exit(127);
   }
   return child;
@@ -493,6 +523,39 @@ int exitCodeOf(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// What the program writes on a terminal, and its exit code.
+std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments) {
+  int terminal = 0;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execv(HYBRID_SLAM, pointersTo(arguments).data());
+    _exit(127);
+  }
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<size_t>(n));
+  close(terminal);
+  return {text, exitCodeOf(child)};
+}
+
+TEST_F(HybridSlam, ATerminalGetsABarWithTheTimeLeft) {
+  Log log = test::laps(100);
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const auto [text, code] = onTerminal({"hybrid-slam", "-o", output, ini, path});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(text, HasSubstr("\r[##############################] 100 %  0:00 left  spread "));
+  EXPECT_THAT(text, HasSubstr("\n100 scans, ")) << "the bar's line is ended";
+
+  std::dynamic_pointer_cast<test::CObservation2DRangeScan>(log.back())->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  ini = folder.write("every.ini", "[particle_filter]\nupdate_distance = 0\nparticles = 300\n");
+  const auto [error, errorCode] =
+      onTerminal({"hybrid-slam", "-o", output, ini, test::writeGzipped(path, log)});
+  EXPECT_EQ(errorCode, 2);
+  EXPECT_THAT(error, HasSubstr("\nhybrid-slam: error: the laser's scan plane is tilted"))
+      << "also by an error";
 }
 
 TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {

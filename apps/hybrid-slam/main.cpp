@@ -12,7 +12,11 @@ namespace {
 
 std::atomic<bool> stop{false};
 
-void onSignal(int) { stop = true; }
+/// The first asks for the results so far, the second ends the program at once.
+void onSignal(int signal) {
+  stop = true;
+  std::signal(signal, SIG_DFL);
+}
 
 int fail(int code, const std::string& message) {
   std::cerr << "hybrid-slam: error: " << message << "\n";

@@ -12,6 +12,10 @@ namespace hybrid_slam {
 class Progress {
  public:
   Progress(size_t total, bool isQuiet);
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
   /// @param done  of `total`; @param note  what to say beside it, such as the particles' spread
   void update(size_t done, const std::string& note);
   /// Ends the bar's line.

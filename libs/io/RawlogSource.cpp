@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "base/Errors.h"
@@ -31,18 +30,19 @@ void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, c
     for (const auto& observation : *frame) visit(observation);
 }
 
-/// The increment of an action, NaN if it says none; nothing for an object that is no action, or an empty one.
+/// The increment of an action; nothing for an object that is none, or an empty one.
 std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object) {
   const auto action = std::dynamic_pointer_cast<CActionCollection>(object);
   if (!action || action->size() == 0) return std::nullopt;
-  try {
-    return odometryIncrement(*action);
-  } catch (const InputError&) {
-    return TPose2D(std::numeric_limits<double>::quiet_NaN(), 0, 0);
-  }
+  return odometryIncrement(*action);
 }
 
 bool isFinite(const TPose2D& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.phi); }
+
+bool hasBeams(const CObservation2DRangeScan& scan) {
+  return scan.getScanSize() > 0 && std::isfinite(scan.aperture) &&
+         isFinite(TPose2D(scan.sensorPose.asTPose()));
+}
 
 void note(Oddity& oddity, size_t entry) {
   if (oddity.count++ == 0) oddity.first = entry;
@@ -56,6 +56,9 @@ void markInvalidBeams(CObservation2DRangeScan& scan) {
       scan.setScanRangeValidity(i, false);
   }
 }
+
+/// m between two scans; farther apart are two logs in one file, or odometry that was set back.
+constexpr double kMaxStep = 100;
 
 bool isStamped(const CObservation2DRangeScan& scan) { return scan.timestamp != INVALID_TIMESTAMP; }
 double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
@@ -92,7 +95,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
     if (labels.empty() && options.sensorLabel.empty()) summary.sensorLabel = scan.sensorLabel;
     labels.insert(scan.sensorLabel);
     if (scan.sensorLabel != summary.sensorLabel) return;
-    if (scan.getScanSize() == 0) return note(summary.empty, reader.entry());
+    if (!hasBeams(scan)) return note(summary.empty, reader.entry());
     ++summary.scans;
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
@@ -133,7 +136,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
 }
 
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
-    : reader_(file),
+    : file_(file),
+      reader_(file),
       maxOdometryGap_(options.maxOdometryGap),
       sensorLabel_(summary.sensorLabel),
       hasOdometryReadings_(summary.hasOdometryReadings) {}
@@ -161,7 +165,7 @@ void RawlogSource::take(const mrpt::serialization::CSerializable::Ptr& object) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
       if (isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
-      if (scan->sensorLabel == sensorLabel_ && scan->getScanSize() > 0) takeScan(scan);
+      if (scan->sensorLabel == sensorLabel_ && hasBeams(*scan)) takeScan(scan);
     }
   });
 }
@@ -205,6 +209,9 @@ void RawlogSource::finish(const CObservation2DRangeScan::Ptr& scan, const TPose2
   if (isStamped(*scan)) lastTimestamp_ = seconds(scan->timestamp);
   reading.timestamp = lastTimestamp_;
   if (!first_) reading.motion = odometry - atLastScan_;
+  if (reading.motion.norm() > kMaxStep)
+    throw InputError("odometry jumps", "entry " + std::to_string(reader_.entry()) + " of " + file_,
+                     "expected at most 100 m between two scans");
   first_ = false;
   atLastScan_ = odometry;
   ready_.push_back(reading);

@@ -54,13 +54,15 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options);
 /// Reads a log of action-observation pairs, or one of observations only, where odometry and scans interleave:
 /// there the odometry at a scan's own time is interpolated between the readings around it; where timestamps
 /// step back or the readings are too far apart, the reading before it in the log's order holds, and the first
-/// one for the scans before it. Scans without beams and odometry that is not a number are left out; beams
+/// one for the scans before it. Scans without beams and whatever is placed at no number are left out; beams
 /// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
 class RawlogSource {
  public:
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
 
-  std::optional<Reading> next();  ///< nothing at the end of the log
+  /// Nothing at the end of the log.
+  /// @throws InputError where the odometry jumps by more than 100 m between two scans
+  std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
 
  private:
@@ -70,6 +72,7 @@ class RawlogSource {
   void finishWaiting(const mrpt::math::TPose2D& odometry);
   void finish(const mrpt::obs::CObservation2DRangeScan::Ptr& scan, const mrpt::math::TPose2D& odometry);
 
+  std::string file_;
   RawlogReader reader_;
   double maxOdometryGap_;
   std::string sensorLabel_;

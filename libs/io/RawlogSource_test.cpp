@@ -276,6 +276,15 @@ TEST(RawlogSource, OdometryThatIsNotANumberIsLeftOut) {
               areNear({0, 0}));
 }
 
+TEST(RawlogSource, ScansPlacedAtNoNumberAreLeftOut) {
+  const auto noAperture = scan(1), noPlace = scan(2);
+  noAperture->aperture = static_cast<float>(kNaN);
+  noPlace->sensorPose.x(kNaN);
+  const Replayed r = replayed({action({}), frame({noAperture}), frame({noPlace}), frame({scan(3)})});
+  EXPECT_THAT(r.times, areNear({3}));
+  EXPECT_EQ(r.summary.empty.count, 2u);
+}
+
 TEST(RawlogSource, NoLaser) {
   EXPECT_THAT(replayed({odometry(1, {}), odometry(2, {})}).error, HasSubstr("no laser scans"));
 }

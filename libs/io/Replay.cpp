@@ -66,7 +66,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log) {
       all.push_back(std::to_string(odd.count) + " " + what + ": first at entry " + std::to_string(odd.first) +
                     "; " + done);
   };
-  add(log.empty, "scans without beams", "left out");
+  add(log.empty, "scans without beams (or aperture or sensor pose)", "left out");
   add(log.unstamped, "scans without timestamp", "they take that of the scan before");
   add(log.repeatedStamps, "timestamps repeat that of the scan before", "kept as they are");
   add(log.stepsBack, "timestamps step back", "the order of the log holds");

@@ -166,7 +166,9 @@ std::vector<DatabaseLine> HybridMapBuilder::bestLines() const {
 }
 
 TPose2D odometryIncrement(const mrpt::obs::CActionCollection& action) {
-  if (const auto flat = action.getBestMovementEstimation()) {
+  auto flat = action.getBestMovementEstimation();
+  if (!flat) flat = action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();  // of great uncertainty
+  if (flat) {
     if (flat->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry)
       return flat->rawOdometryIncrementReading.asTPose();
     return flat->poseChange->getMeanVal().asTPose();

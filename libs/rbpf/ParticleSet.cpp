@@ -38,8 +38,10 @@ using PfOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
 
 namespace {
 
+/// Of the one movement in an action. getBestMovementEstimation would find none of great uncertainty, such as
+/// of a step of 60 m.
 TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
-  return action.getBestMovementEstimation()->rawOdometryIncrementReading.asTPose();
+  return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>()->rawOdometryIncrementReading.asTPose();
 }
 
 /// More threads than these TBB does not start, but complains about on stderr.
