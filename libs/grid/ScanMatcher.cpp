@@ -5,23 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/CubicSpline.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 
 namespace {
-
-/// The four weights of a cubic B-spline at the fraction t in [0, 1) between the two middle samples, and their
-/// derivatives.
-struct SplineWeights {
-  explicit SplineWeights(double t) {
-    const double u = 1 - t;
-    value = {u * u * u / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * u * u + 3 * u * u * u) / 6,
-             t * t * t / 6};
-    slope = {-u * u / 2, (3 * t * t - 4 * t) / 2, (4 * u - 3 * u * u) / 2, t * t / 2};
-  }
-  std::array<double, 4> value, slope;
-};
 
 /// m and its gradient (per cell) at a place given in cells.
 struct MapSample {
@@ -49,6 +39,19 @@ MapSample sampleMap(TileReader& cells, const std::array<float, 256>& occupied, d
     sample.dy += wy.slope[r] * value;
   }
   return sample;
+}
+
+/// Calls visit(x, y, sample) with the end of each beam, in cells, and the map there.
+template <class Visit>
+void forEachEnd(const ScanBeams& scan, const TPose2D& pose, const OccupancyGrid& grid,
+                const std::array<float, 256>& occupied, const Visit& visit) {
+  const GridPose frame(pose, scan, grid.resolution());
+  TileReader cells(grid.tiles());
+  for (const auto& ray : scan.rays) {
+    const double range = ray.range / grid.resolution();
+    const double x = frame.originX + range * frame.dirX(ray), y = frame.originY + range * frame.dirY(ray);
+    visit(x, y, sampleMap(cells, occupied, x, y));
+  }
 }
 
 TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
@@ -85,23 +88,18 @@ ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) 
 LogDensity ScanMatcher::logLikelihood(const ScanBeams& scan, const TPose2D& pose,
                                       const OccupancyGrid& grid) const {
   const double perCell = 1 / grid.resolution();
-  const GridPose frame(pose, scan, grid.resolution());
   const double robotX = pose.x * perCell, robotY = pose.y * perCell;
-  TileReader cells(grid.tiles());
   LogDensity density;
-  for (const auto& ray : scan.rays) {
-    const double range = ray.range * perCell;
-    const double x = frame.originX + range * frame.dirX(ray), y = frame.originY + range * frame.dirY(ray);
-    const MapSample sample = sampleMap(cells, occupied_, x, y);
+  forEachEnd(scan, pose, grid, occupied_, [&](double x, double y, const MapSample& sample) {
     const double residual = 1 - sample.m;
     density.value -= residual * residual;
-    if (sample.dx == 0 && sample.dy == 0) continue;
+    if (sample.dx == 0 && sample.dy == 0) return;
     // Turning the robot moves the end of the beam at a right angle to its arm.
     const Eigen::Vector3d slope(sample.dx * perCell, sample.dy * perCell,
                                 -sample.dx * (y - robotY) + sample.dy * (x - robotX));
     density.gradient += residual * slope;
     density.information.noalias() += slope * slope.transpose();
-  }
+  });
   const double weight = 1 / (options_.sigma * options_.sigma);
   density.value *= 0.5 * weight;
   density.gradient *= weight;
@@ -111,16 +109,9 @@ LogDensity ScanMatcher::logLikelihood(const ScanBeams& scan, const TPose2D& pose
 
 double ScanMatcher::logLikelihoodValue(const ScanBeams& scan, const TPose2D& pose,
                                        const OccupancyGrid& grid) const {
-  const GridPose frame(pose, scan, grid.resolution());
-  TileReader cells(grid.tiles());
   double sum = 0;
-  for (const auto& ray : scan.rays) {
-    const double range = ray.range / grid.resolution();
-    const double m = sampleMap(cells, occupied_, frame.originX + range * frame.dirX(ray),
-                               frame.originY + range * frame.dirY(ray))
-                         .m;
-    sum += (1 - m) * (1 - m);
-  }
+  forEachEnd(scan, pose, grid, occupied_,
+             [&](double, double, const MapSample& sample) { sum += (1 - sample.m) * (1 - sample.m); });
   return -0.5 * sum / (options_.sigma * options_.sigma);
 }
 
@@ -180,14 +171,8 @@ ScanMatch ScanMatcher::search(const ScanBeams& scan, const TPose2D& start, const
     const ScanMatch second = climb(scan, top, grid, prior);
     if (second.logPosterior > best.logPosterior) best = second;
   }
-  const GridPose frame(best.pose, scan, grid.resolution());
-  TileReader cells(grid.tiles());
-  for (const auto& ray : scan.rays) {
-    const double range = ray.range / grid.resolution();
-    best.fit += sampleMap(cells, occupied_, frame.originX + range * frame.dirX(ray),
-                          frame.originY + range * frame.dirY(ray))
-                    .m;
-  }
+  forEachEnd(scan, best.pose, grid, occupied_,
+             [&](double, double, const MapSample& sample) { best.fit += sample.m; });
   if (!scan.rays.empty()) best.fit /= static_cast<double>(scan.rays.size());
   return best;
 }
