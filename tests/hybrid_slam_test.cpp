@@ -209,8 +209,9 @@ TEST_F(HybridSlam, AllMethodsAndProposals) {
 
 TEST_F(HybridSlam, SameSeedSameBytesForAnyNumberOfThreads) {
   if (!fs::exists(kMalaga)) GTEST_SKIP() << kMalaga << " is missing: package mrpt-common";
+  ini = SOURCE_DIR "/config-ini/malaga.ini";
   const auto trajectoryOf = [this](const std::string& options) {
-    EXPECT_EQ(replay(kMalaga, "-q -n 10 --set grid.max_range=30 " + options), 0) << err;
+    EXPECT_EQ(replay(kMalaga, "-q -n 10 " + options), 0) << err;
     return result("trajectory.tum");
   };
   const std::string first = trajectoryOf("-s 1 -j 1");
@@ -270,6 +271,19 @@ TEST_F(HybridSlam, WrongCommandLine) {
 }
 
 // ---- INI file
+
+TEST_F(HybridSlam, ShippedInisRun) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
+  size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(SOURCE_DIR "/config-ini")) {
+    ini = entry.path().string();
+    if (contentOf(ini).find("hybrid-slam config-ini/") == std::string::npos) continue;  // another program's
+    SCOPED_TRACE(ini);
+    expectDone(replay(log, "-n 2"));
+    ++count;
+  }
+  EXPECT_GE(count, 2u);
+}
 
 TEST_F(HybridSlam, WrongIni) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
