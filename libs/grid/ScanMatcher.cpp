@@ -115,6 +115,21 @@ double ScanMatcher::logLikelihoodValue(const ScanBeams& scan, const TPose2D& pos
   return -0.5 * sum / (options_.sigma * options_.sigma);
 }
 
+Eigen::Matrix3d ScanMatcher::curvature(const ScanBeams& scan, const TPose2D& pose,
+                                       const OccupancyGrid& grid) const {
+  const Eigen::Vector3d reach(1.5 * grid.resolution(), 1.5 * grid.resolution(), 0.75 * M_PI / 180);
+  Eigen::Matrix3d bend;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);
+    bend.col(k) = (logLikelihood(scan, moved(pose, -step), grid).gradient -
+                   logLikelihood(scan, moved(pose, step), grid).gradient) /
+                  (2 * reach[k]);
+  }
+  // What bends upwards holds no information.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
+}
+
 ScanMatch ScanMatcher::climb(const ScanBeams& scan, TPose2D pose, const OccupancyGrid& grid,
                              const Prior& prior) const {
   constexpr double kSmallStep = 1e-4;  // m or rad
@@ -142,7 +157,6 @@ ScanMatch ScanMatcher::climb(const ScanBeams& scan, TPose2D pose, const Occupanc
   ScanMatch match;
   match.pose = pose;
   match.logPosterior = here.value;
-  match.information = here.information;
   return match;
 }
 
@@ -171,6 +185,7 @@ ScanMatch ScanMatcher::search(const ScanBeams& scan, const TPose2D& start, const
     const ScanMatch second = climb(scan, top, grid, prior);
     if (second.logPosterior > best.logPosterior) best = second;
   }
+  best.information = curvature(scan, best.pose, grid) + prior(best.pose).information;
   forEachEnd(scan, best.pose, grid, occupied_,
              [&](double, double, const MapSample& sample) { best.fit += sample.m; });
   if (!scan.rays.empty()) best.fit /= static_cast<double>(scan.rays.size());

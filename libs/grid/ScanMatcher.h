@@ -56,8 +56,9 @@ struct ScanMatch {
 /// The map is m(x, y) = max(0, 2 p - 1), p the occupancy, smoothed by a cubic B-spline over the cells:
 /// nothing at unknown and free cells, twice continuously differentiable, blurred by 0.58 cells. A beam that
 /// ends at (x, y) has the residual 1 - m, and a scan the log-likelihood - sum (1 - m)^2 / (2 sigma^2), as of
-/// so many measurements with the deviation sigma. Gauss-Newton climbs from the predicted pose; the quadratic
-/// form at the top is the information that the scan holds, which is nil along a featureless corridor.
+/// so many measurements with the deviation sigma. Gauss-Newton climbs from the predicted pose; how the
+/// likelihood bends at the top is the information that the scan holds, which is little along a featureless
+/// corridor.
 ///
 /// Basin of convergence, measured in a made room of 8 m x 6 m without a prior, 400 random poses each: all
 /// climbs from 5 cm and up to 10 deg away reach the true pose (within 2 cm and 0.5 deg), 98 % of those from
@@ -83,6 +84,12 @@ class ScanMatcher {
  private:
   ScanMatch climb(const ScanBeams& scan, mrpt::math::TPose2D pose, const OccupancyGrid& grid,
                   const Prior& prior) const;
+
+  /// Minus the second derivative of ln p(scan | pose, grid), without its negative part: differences of the
+  /// gradient 1.5 cells (3/4 deg) to either side. The sum of squared slopes that Gauss-Newton climbs by takes
+  /// the roughness of a sparsely hit wall for information along it, and has none on the ridge of a wall.
+  Eigen::Matrix3d curvature(const ScanBeams& scan, const mrpt::math::TPose2D& pose,
+                            const OccupancyGrid& grid) const;
 
   ScanMatcherOptions options_;
   std::array<float, 256> occupied_;  ///< m of a cell by its value + 128

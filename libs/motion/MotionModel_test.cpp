@@ -127,6 +127,39 @@ TEST(MotionModel, DistanceDriftAndTurnAreDrawnIndependently) {
   EXPECT_NEAR(correlation(all.drift, all.turn), 0, bound);
 }
 
+/// The linear part, so good to second order: |D| sigma_T^2 / 8 in the place, and as much times the deviation
+/// in the covariance; the rest is the error of the samples' own mean and covariance.
+TEST(MotionModel, TheDistributionIsThatOfTheSamples) {
+  for (const MotionModelOptions& options : {MotionModelOptions(), biased()})
+    for (const double heading : {0.0, 1.2, -2.5, 3.1})
+      for (const TPose2D& odometry : {TPose2D(0.5, 0, 0), TPose2D(0.4, 0.05, 0.3), TPose2D(0, 0, 0.8),
+                                      TPose2D(0.3, -0.02, -0.9), TPose2D(0, 0, 0)}) {
+        SCOPED_TRACE(odometry.asString() + " from " + std::to_string(heading));
+        const TPose2D start(3, -2, heading);
+        const MotionDistribution normal = motionDistribution(start, odometry, options);
+        RandomStream random(4, 0, 0);
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < kDraws; ++i) {
+          const TPose2D pose = start + sampleMotion(odometry, options, random);
+          const Eigen::Vector3d off(pose.x - normal.mean.x, pose.y - normal.mean.y,
+                                    mrpt::math::wrapToPi(pose.phi - normal.mean.phi));
+          sum += off, squares += off * off.transpose();
+        }
+        const Eigen::Vector3d mean = sum / kDraws, sigma = normal.covariance.diagonal().cwiseSqrt();
+        const Eigen::Matrix3d covariance = squares / kDraws - mean * mean.transpose();
+        const double bend = sigma.z() * sigma.z() / 8 * (odometry.norm() + 5 * sigma.head<2>().norm());
+        for (int i = 0; i < 3; ++i) {
+          EXPECT_NEAR(mean[i], 0, kErrors * sigma[i] / std::sqrt(kDraws) + (i < 2 ? bend : 0)) << i;
+          for (int j = 0; j < 3; ++j)
+            EXPECT_NEAR(
+                covariance(i, j), normal.covariance(i, j),
+                kErrors * sigma[i] * sigma[j] * std::sqrt(2.0 / kDraws) + 2 * bend * (sigma[i] + sigma[j]))
+                << i << j;
+        }
+      }
+}
+
 TEST(MotionModel, MrptsGaussianModelGetsTheDeviations) {
   MotionModelOptions o;
   o.distance = {1, 0, 0.04, 0.0016};

@@ -27,7 +27,8 @@ ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
 
 Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odometry,
                                    const PreparedScan& scan, RandomStream& random) const {
-  const MotionDistribution motion = motionDistribution(particle.path.back(), odometry, configuration_.motion);
+  MotionDistribution motion = motionDistribution(particle.path.back(), odometry, configuration_.motion);
+  motion.covariance.diagonal().array() += 1e-8;  // (0.1 mm, 0.1 mrad)^2: a model without noise has no inverse
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
@@ -36,6 +37,22 @@ Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odom
     return density;
   };
   const ScanMatch match = matcher_.match(scan.matchedBeams, motion.mean, particle.grid, prior);
+
+  const auto lineWeightAt = [&](const TPose2D& pose) {
+    return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
+  };
+  Proposed proposed;
+  proposed.fit = match.fit;
+  proposed.isMatched = match.fit >= configuration_.improved.minFit;
+  if (!proposed.isMatched) {
+    proposed.pose = particle.path.back() + sampleMotion(odometry, configuration_.motion, random);
+    proposed.logWeight = matcher_.logLikelihoodValue(scan.matchedBeams, proposed.pose, particle.grid);
+    if (configuration_.useLines) {
+      proposed.lineWeight = lineWeightAt(proposed.pose);
+      proposed.logWeight += std::log(proposed.lineWeight.value);
+    }
+    return proposed;
+  }
 
   // The normal distribution around the top, and its factor for drawing: covariance = root root^T.
   const Eigen::LLT<Eigen::Matrix3d> factor(match.information);
@@ -65,9 +82,8 @@ Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odom
   for (size_t k = 0; k < samples; ++k)
     covariance += logRatios[k] / sum * (offsets[k] - mean) * (offsets[k] - mean).transpose();
 
-  Proposed proposed;
-  proposed.fit = match.fit;
-  proposed.logWeight = highest + std::log(sum / static_cast<double>(samples));
+  proposed.logWeight = highest + std::log(sum / static_cast<double>(samples)) -
+                       0.5 * std::log(motion.covariance.determinant());
   // The covariance of few samples may be flat in one direction; the root of a semi-definite matrix is not
   // unique, LDLT gives one.
   const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
@@ -76,9 +92,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odom
       spread.transpositionsP().transpose() *
       Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
   proposed.pose = displaced(match.pose, mean + drawn);
-  if (configuration_.useLines)
-    proposed.lineWeight =
-        lineWeight(scan.lines, proposed.pose.phi, *particle.lines, configuration_.lineWeight);
+  if (configuration_.useLines) proposed.lineWeight = lineWeightAt(proposed.pose);
   return proposed;
 }
 

@@ -110,6 +110,7 @@ TEST_P(Proposals, AnotherSeedIsAnotherRun) {
 std::string nameOf(const testing::TestParamInfo<std::pair<Proposal, bool>>& tested) {
   const auto [proposal, useLines] = tested.param;
   const std::string name = proposal == Proposal::standard            ? "Standard"
+                           : proposal == Proposal::improved          ? "Improved"
                            : proposal == Proposal::auxiliaryStandard ? "AuxiliaryStandard"
                                                                      : "AuxiliaryOptimal";
   return name + (useLines ? "" : "WithoutLines");
@@ -118,9 +119,25 @@ std::string nameOf(const testing::TestParamInfo<std::pair<Proposal, bool>>& test
 INSTANTIATE_TEST_SUITE_P(All, Proposals,
                          testing::Values(std::pair(Proposal::standard, true),
                                          std::pair(Proposal::standard, false),
+                                         std::pair(Proposal::improved, true),
+                                         std::pair(Proposal::improved, false),
                                          std::pair(Proposal::auxiliaryStandard, true),
                                          std::pair(Proposal::auxiliaryOptimal, true)),
                          nameOf);
+
+TEST(Tracking, TheImprovedProposalTracksBetterThanTheStandardOne) {
+  for (const bool useLines : {true, false}) {
+    double improved = 0, standard = 0;
+    for (uint64_t seed = 1; seed <= 3; ++seed)
+      for (auto [proposal, sum] :
+           {std::pair(Proposal::improved, &improved), std::pair(Proposal::standard, &standard)}) {
+        FilterConfiguration c = with(proposal, useLines);
+        c.filter.seed = static_cast<int>(seed);
+        *sum += run(c, drive(8, seed)).error;
+      }
+    EXPECT_LT(improved, standard) << useLines;
+  }
+}
 
 TEST(Tracking, LinesMakeADifference) {
   const auto steps = drive(2);
