@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -179,6 +180,27 @@ TEST_F(HybridSlam, ConfigIniGivesTheSameRunAgain) {
   EXPECT_EQ(contentOf(folder.path("again/trajectory.tum")), trajectory);
   EXPECT_THAT(contentOf(folder.path("again/config.ini")),
               AllOf(HasSubstr("particles = 6"), HasSubstr("resolution = 0.2")));
+}
+
+// Weighing the particles by hand gives the spreads of steps.csv.
+TEST_F(HybridSlam, ParticlesOfEveryNthUpdate) {
+  ASSERT_EQ(replay(test::laps(40), "-q --set run.particles_every=3"), 0) << err;
+  const auto steps = csv(result("steps.csv")), particles = csv(result("particles.csv"));
+  ASSERT_EQ(particles[0], (std::vector<std::string>{"timestamp", "x", "y", "phi", "log_weight"}));
+  size_t row = 1, updates = 0;
+  for (size_t update = 3; update < steps.size(); update += 3, ++updates) {
+    double sum = 0, x = 0, xx = 0;
+    for (int i = 0; i < 5; ++i, ++row) {
+      ASSERT_LT(row, particles.size());
+      ASSERT_EQ(particles[row].size(), 5u);
+      EXPECT_EQ(particles[row][0], steps[update][0]);
+      const double weight = std::exp(std::stod(particles[row][4])), at = std::stod(particles[row][1]);
+      sum += weight, x += weight * at, xx += weight * at * at;
+    }
+    EXPECT_NEAR(std::sqrt(std::max(0.0, xx / sum - std::pow(x / sum, 2))), std::stod(steps[update][4]), 1e-4);
+  }
+  EXPECT_GE(updates, 3u);
+  EXPECT_EQ(row, particles.size());
 }
 
 TEST_F(HybridSlam, QuietSaysNothing) {

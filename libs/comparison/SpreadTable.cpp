@@ -28,16 +28,19 @@ std::vector<SpreadStep> loadSpread(const std::string& file) {
 
   std::vector<SpreadStep> steps;
   try {
-    const size_t timestamp = columns.at("timestamp"), particles = columns.at("particles");
+    const size_t timestamp = columns.at("timestamp");
     const std::array<size_t, kSpreads> spreads{columns.at("std_along"), columns.at("std_across"),
                                                columns.at("std_phi")};
+    bool isFirst = true;
     while (std::getline(in, line)) {
       const std::vector<std::string> fields = splitAtCommas(line);
-      if (std::stoul(fields.at(particles)) == 0) continue;  // the first scan: nothing was sampled yet
       SpreadStep step{std::stod(fields.at(timestamp)), {}};
       for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = std::stod(fields.at(spreads[s]));
       step.spread[2] *= 180 / M_PI;
-      steps.push_back(step);
+      if (isFirst)
+        isFirst = false;
+      else
+        steps.push_back(step);
     }
   } catch (const std::logic_error&) {  // no such column, no such field, no number
     throw std::runtime_error("broken table: " + file);

@@ -19,7 +19,7 @@ struct SpreadStep {
   Spread spread{};
 };
 
-/// The updates in a steps.csv at which there were particles to spread.
+/// The updates in a steps.csv, but for the first, which only begins the map: there is no spread yet.
 /// @throws std::runtime_error for a file that lacks a column or holds what is not a number
 std::vector<SpreadStep> loadSpread(const std::string& file);
 

@@ -16,7 +16,7 @@ const char* const kHeader =
 TEST(SpreadTable, TakesItsColumnsByNameAndLeavesTheFirstScanOut) {
   const TemporaryFolder folder;
   const auto file = folder.write("steps.csv", std::string(kHeader) +
-                                                  "10.5,0,1,0,0,0,0,0,0,,,0,0,7\n"
+                                                  "10.5,20,1,0,0,0,0,0,0,,,0,0,7\n"
                                                   "11.5,20,0.5,1,0.1,0.2,0.0174532925,0.3,0.4,0.7,,5,4,9\n"
                                                   "12.5,20,0.5,,0.1,0.2,0,0.5,0.2,0.7,,5,4,9\n");
   const auto steps = loadSpread(file);

@@ -73,6 +73,8 @@ void RunOptions::describe(OptionTable& t) {
         "hybrid: the paper's; general: the same filter without lines; stock: MRPT's CMetricMapBuilderRBPF");
   t.add("rawlog", rawlog, "log to replay, where the command line names none");
   t.add("output", output, "folder for the results, where the command line names none");
+  t.add("particles_every", particlesEvery, 0, 1000000,
+        "particles.csv takes all particles of each update whose number this divides; 0: no particles.csv");
 }
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings) {

@@ -20,6 +20,7 @@ struct RunOptions : Options {
   Method method = Method::hybrid;
   std::string rawlog;
   std::string output = "out";
+  int particlesEvery = 0;
   void describe(OptionTable& table) override;
 };
 

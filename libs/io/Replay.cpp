@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/Errors.h"
 #include "io/MapFiles.h"
@@ -111,6 +112,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
 
   GrowingFile steps(folder.path("steps.csv"));
   writeStepsHeader(steps.stream());
+  std::optional<GrowingFile> particles;
+  if (run.particlesEvery > 0) writeParticlesHeader(particles.emplace(folder.path("particles.csv")).stream());
   TrajectoryRecorder recorder;
   std::vector<bool> isUpdate;
   size_t resamplings = 0;
@@ -130,6 +133,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     const FilterStep& step = filter.view->lastStep();
     resamplings += step.resampled.value_or(false) ? 1 : 0;
     writeStep(steps.stream(), reading->timestamp, step, 1000 * secondsSince(stepStart));
+    if (particles && filter.view->updates() % static_cast<size_t>(run.particlesEvery) == 0)
+      writeParticles(particles->stream(), reading->timestamp, step);
     progress.update(isUpdate.size(), textOf("spread %.2f m", std::hypot(step.stdX, step.stdY)));
   }
   progress.finish();
@@ -155,6 +160,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   saveSimpleMap(folder, again, isUpdate, path);
   saveLines(folder, lines);
   steps.finish();
+  if (particles) particles->finish();
   folder.write("config.ini", [&](std::ostream& out) { out << configuration.text(); });
 
   const double wall = secondsSince(start);

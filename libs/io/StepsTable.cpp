@@ -32,4 +32,15 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double 
   out << text << '\n';
 }
 
+void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_weight\n"; }
+
+void writeParticles(std::ostream& out, double timestamp, const FilterStep& step) {
+  for (const auto& [pose, logWeight] : step.poses) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f,%.6f,%.6g\n", timestamp, pose.x, pose.y, pose.phi,
+                  logWeight);
+    out << text;
+  }
+}
+
 }  // namespace hybrid_slam

@@ -38,5 +38,18 @@ TEST(StepsTable, WhatAFilterDoesNotTellIsLeftEmpty) {
   EXPECT_EQ(out.str(), "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000\n");
 }
 
+TEST(ParticlesTable, ARowForEachParticle) {
+  FilterStep step;
+  step.poses = {{{1, 2, 3}, -0.5}, {{-1.25, 0, 0.125}, 0}};
+  std::ostringstream out;
+  writeParticlesHeader(out);
+  writeParticles(out, 1137834225.713386, step);
+  writeParticles(out, 2, FilterStep());
+  EXPECT_EQ(out.str(),
+            "timestamp,x,y,phi,log_weight\n"
+            "1137834225.713386,1.000000,2.000000,3.000000,-0.5\n"
+            "1137834225.713386,-1.250000,0.000000,0.125000,0\n");
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -30,6 +30,7 @@ void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double 
   }
   step.stdX = std::sqrt(xx), step.stdY = std::sqrt(yy), step.stdPhi = std::sqrt(pp);
   step.stdAlong = std::sqrt(along), step.stdAcross = std::sqrt(across);
+  step.poses = poses;
 }
 
 }  // namespace hybrid_slam

@@ -13,6 +13,11 @@
 
 namespace hybrid_slam {
 
+struct WeightedPose {
+  mrpt::math::TPose2D pose;
+  double logWeight;
+};
+
 /// What one update of the filter did: a row of steps.csv. Spreads are weighted standard deviations over the
 /// particles before resampling (m, rad).
 struct FilterStep {
@@ -24,14 +29,10 @@ struct FilterStep {
   std::optional<double> gridWeight;     ///< w_grid of the best particle before tempering
   std::optional<double> lineWeight;     ///< w_line of the best particle
   int linesSeen = 0, linesMatched = 0;  ///< of the best particle
+  std::vector<WeightedPose> poses;      ///< those that the spreads are of
 };
 
-struct WeightedPose {
-  mrpt::math::TPose2D pose;
-  double logWeight;
-};
-
-/// Spreads of a weighted set of poses, seen along `heading`.
+/// Notes a weighted set of poses and its spreads, seen along `heading`.
 void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double heading);
 
 /// Read access common to our filter and to MRPT's own.
