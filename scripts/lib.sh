@@ -4,7 +4,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(
   g++ cmake ninja-build ccache
-  libmrpt-dev mrpt-common libeigen3-dev libtbb-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
+  libmrpt-dev mrpt-common libopencv-dev libeigen3-dev libtbb-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
   libgtest-dev libgmock-dev
 )
 
