@@ -146,7 +146,9 @@ TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
   const auto steps = drive(1);
   for (const DriveStep& step : steps) {
     feed(builder, step);
-    if (builder.updates() > 1) EXPECT_GT(builder.lastStep().gridWeight.value(), 1.5 * c.improved.minFit);
+    if (builder.updates() > 1) {
+      EXPECT_GT(builder.lastStep().gridWeight.value(), 1.5 * c.improved.minFit);
+    }
   }
 }
 
