@@ -29,8 +29,9 @@ void ParticleFilterOptions::describe(OptionTable& t) {
 void ImprovedProposalOptions::describe(OptionTable& t) {
   t.add("samples", samples, 2, 10000,
         "poses around the scan match that make out the proposal and the weight");
-  t.add("min_fit", minFit, 0, 1, "",
-        "a match that fits the map less is not used: the motion model is sampled");
+  t.add(
+      "min_fit", minFit, 0, 1, "",
+      "a match that fits the map less is not used: the motion model is sampled; a map of one scan fits 0.04");
 }
 
 }  // namespace hybrid_slam

@@ -36,7 +36,7 @@ struct ParticleFilterOptions : Options {
 /// Section [improved_proposal].
 struct ImprovedProposalOptions : Options {
   int samples = 20;
-  double minFit = 0.05;
+  double minFit = 0.02;
   void describe(OptionTable& table) override;
 };
 

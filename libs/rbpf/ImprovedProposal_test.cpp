@@ -158,6 +158,7 @@ TEST_P(ImprovedProposals, ThePosesAreThoseOfTheTarget) {
 TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
   FilterConfiguration c = configuration(GetParam());
   c.matcher.sigma = 0.5;
+  c.motion.distance.varianceD = 0.04;  // 5 cm
   const TPose2D start(-0.3, 0.1, 0);
   const Particle particle = particleAt(kCorridor, start);
   const Moments drawn = proposed(c, particle, scanAfterwards(kCorridor, start), 500);

@@ -139,6 +139,19 @@ TEST(Tracking, TheImprovedProposalTracksBetterThanTheStandardOne) {
   }
 }
 
+/// The map of one scan is faint, and a good match fits it badly: it must be used all the same.
+TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
+  FilterConfiguration c = with(Proposal::improved, true);
+  HybridMapBuilder builder(c);
+  const auto steps = drive(1);
+  for (const DriveStep& step : steps) {
+    feed(builder, step);
+    if (builder.updates() > 1) {
+      EXPECT_GT(builder.lastStep().gridWeight.value(), 1.5 * c.improved.minFit);
+    }
+  }
+}
+
 TEST(Tracking, LinesMakeADifference) {
   const auto steps = drive(2);
   const Outcome hybrid = run(with(Proposal::standard, true), steps);
