@@ -21,6 +21,13 @@ const TPose2D& ParticleSnapshot::best() const {
       ->pose;
 }
 
+double ParticleSnapshot::radius() const {
+  double farthest = 0;
+  for (const WeightedParticle& p : particles)
+    farthest = std::max(farthest, std::hypot(p.pose.x - best().x, p.pose.y - best().y));
+  return farthest;
+}
+
 std::vector<ParticleSnapshot> loadParticles(const std::string& file) {
   std::vector<ParticleSnapshot> run;
   std::ifstream in(file);
@@ -95,9 +102,11 @@ std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& align
              "stroke:#d00000;stroke-width:0.8;stroke-opacity:0.6");
     svg.circle(at, 2.2, "fill:#d00000");
   }
-  const double bar = 0.2 * scale;
+  // A bar of 1 or 5 times a power of ten metres, at most half as long as the square.
+  const double decade = std::pow(10, std::floor(std::log10(side / 2)));
+  const double metres = 5 * decade <= side / 2 ? 5 * decade : decade, bar = metres * scale;
   svg.line({0, kTop + kPixels + 12}, {bar, kTop + kPixels + 12}, "stroke:#333;stroke-width:2");
-  svg.text({bar + 6, kTop + kPixels + 16}, "0.2 m");
+  svg.text({bar + 6, kTop + kPixels + 16}, shortNumber(metres) + " m");
   return svg.str("particles of " + title);
 }
 

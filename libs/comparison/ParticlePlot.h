@@ -22,6 +22,7 @@ struct ParticleSnapshot {
   std::vector<WeightedParticle> particles;
 
   const mrpt::math::TPose2D& best() const;  ///< the pose of the highest weight
+  double radius() const;                    ///< m, from there to the farthest particle
 };
 
 /// Reads `particles.csv`; nothing if there is no such file.

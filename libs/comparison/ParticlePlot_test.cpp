@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "comparison/XmlCheck.h"
 #include "io/TemporaryFolder.h"
 
@@ -30,6 +32,7 @@ TEST(Particles, AreReadUpdateByUpdate) {
   ASSERT_EQ(run[0].particles.size(), 2u);
   EXPECT_EQ(run[0].best().x, 4);
   EXPECT_EQ(run[0].best().phi, 0.25);
+  EXPECT_DOUBLE_EQ(run[0].radius(), std::hypot(3, 3));
   EXPECT_EQ(run[1].particles[0].pose.y, 8);
   EXPECT_TRUE(loadParticles(folder.path("none.csv")).empty());
   EXPECT_THROW(loadParticles(folder.write("broken.csv", "timestamp,x,y,phi,log_weight\n1,2,x,0,0\n")),

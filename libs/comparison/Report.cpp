@@ -179,10 +179,9 @@ std::string mapPictures(const ReportInput& input) {
   return plots(all);
 }
 
-/// The particles of each group's median run at the same moments, a row for each moment.
+/// The particles of each group's median run at the same moments, all at the same scale.
 std::string particlePlots(const ReportInput& input) {
   constexpr size_t kMoments = 4;
-  constexpr double kSide = 1.5;  // m
   struct Shown {
     std::string name;
     std::vector<ParticleSnapshot> run;
@@ -204,12 +203,17 @@ std::string particlePlots(const ReportInput& input) {
   }
   if (shown.empty()) return {};
   const double start = shown[0].run[0].timestamp;
+  const std::vector<double> moments = turningMoments(shown[0].run, kMoments);
+  double farthest = 0;  // m, of any particle from its robot
+  for (const Shown& s : shown)
+    for (const double moment : moments)
+      farthest = std::max(farthest, nearestSnapshot(s.run, moment).radius());
   std::string all;
-  for (const double moment : turningMoments(shown[0].run, kMoments)) {
+  for (const Shown& s : shown) {
     std::string row;
-    for (const Shown& s : shown)
+    for (const double moment : moments)
       row += plotParticles(nearestSnapshot(s.run, moment), s.alignment,
-                           input.truth.plan ? &*input.truth.plan : nullptr, kSide,
+                           input.truth.plan ? &*input.truth.plan : nullptr, std::max(0.2, 2.5 * farthest),
                            s.name + ", " + shortNumber(std::round(10 * (moment - start)) / 10) + " s");
     all += plots(row);
   }
