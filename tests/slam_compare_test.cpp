@@ -173,6 +173,14 @@ TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
   EXPECT_THAT(report, Not(HasSubstr("Success rates")));
 }
 
+TEST_F(SlamCompare, ParticlesArePicturedWhereTheRunsHaveThem) {
+  ASSERT_EQ(run(kSmall + kTruth + " --set run.particles_every=2").status, 0);
+  const std::string report = contents(folder.path("out/report.html"));
+  EXPECT_EQ(xmlDefect(report), "");
+  EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
+  EXPECT_THAT(report, HasSubstr("particles of general-4, "));
+}
+
 TEST_F(SlamCompare, TheRelationsMetricIsSlamEvals) {
   const Trajectory truth = loadTum(kCsie + "csie-corridor.tum");
   std::ostringstream relations;

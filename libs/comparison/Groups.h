@@ -17,7 +17,8 @@ struct Variant {
 
 /// Reads `[METHOD/]NAME:ITEM[,ITEM...]`, an item being SECTION.KEY=VALUE or `@FILE` for another INI file.
 /// @throws InputError for another form, a name that no folder can have, and settings of what the comparison
-///         itself varies: [run], and the particles, seed and threads of [particle_filter]
+///         itself varies: [run] (but for particles_every), and the particles, seed and threads of
+///         [particle_filter]
 Variant parseVariant(const std::string& text);
 /// The same check for a setting of all runs.
 void checkSetting(const std::string& setting, const std::string& where);

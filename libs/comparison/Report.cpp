@@ -1,10 +1,12 @@
 #include "comparison/Report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <tuple>
 
+#include "comparison/ParticlePlot.h"
 #include "comparison/Plots.h"
 #include "comparison/ReportTables.h"
 #include "comparison/Svg.h"
@@ -145,19 +147,26 @@ std::string mapPicture(const ReportInput& input, const RunResult& r, const std::
          "\"/><figcaption>" + text + "</figcaption></figure>\n";
 }
 
+/// A group's finished runs from the best to the worst, where there is a figure that says so.
+std::vector<const RunResult*> rankedRuns(const ReportInput& input, size_t group) {
+  auto runs = finishedRuns(input, group);
+  if (const auto ranking = rankingFigure(input))
+    std::stable_sort(runs.begin(), runs.end(), [&](const RunResult* a, const RunResult* b) {
+      return (*a)[*ranking].value_or(0) < (*b)[*ranking].value_or(0);
+    });
+  return runs;
+}
+
 std::string mapPictures(const ReportInput& input) {
   const auto ranking = rankingFigure(input);
   std::string all;
   for (size_t g = 0; g < input.groups.size(); ++g) {
-    auto runs = finishedRuns(input, g);
+    const auto runs = rankedRuns(input, g);
     if (runs.empty()) continue;
     if (!ranking) {
       all += mapPicture(input, *runs[0], "the first");
       continue;
     }
-    std::stable_sort(runs.begin(), runs.end(), [&](const RunResult* a, const RunResult* b) {
-      return (*a)[*ranking].value_or(0) < (*b)[*ranking].value_or(0);
-    });
     const FigureName& name = kFigureNames[static_cast<size_t>(*ranking)];
     const auto caption = [&](const char* which, const RunResult& r) {
       return std::string(which) + " run, " + name.title + " " + shortNumber(r[*ranking].value_or(0), 3) +
@@ -168,6 +177,47 @@ std::string mapPictures(const ReportInput& input) {
     if (runs.size() > 1) all += mapPicture(input, *runs.back(), caption("worst", *runs.back()));
   }
   return plots(all);
+}
+
+/// The particles of each group's median run at the same moments, all at the same scale.
+std::string particlePlots(const ReportInput& input) {
+  constexpr size_t kMoments = 4;
+  struct Shown {
+    std::string name;
+    std::vector<ParticleSnapshot> run;
+    mrpt::math::TPose2D alignment;
+  };
+  std::vector<Shown> shown;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    const auto runs = rankedRuns(input, g);
+    if (runs.empty()) continue;
+    const RunFolder folder = folderOf(input, *runs[(runs.size() - 1) / 2]);
+    auto snapshots = loadParticles(folder.file("particles.csv").string());
+    if (snapshots.empty()) continue;
+    shown.push_back({input.groups[g].name(), std::move(snapshots), {}});
+    if (!input.truth.reference.empty())
+      shown.back().alignment =
+          absoluteTrajectoryError(loadTum(folder.file("trajectory.tum").string()), input.truth.reference,
+                                  GroundTruth::kReferenceTolerance)
+              .alignment;
+  }
+  if (shown.empty()) return {};
+  const double start = shown[0].run[0].timestamp;
+  const std::vector<double> moments = turningMoments(shown[0].run, kMoments);
+  double farthest = 0;  // m, of any particle from its robot
+  for (const Shown& s : shown)
+    for (const double moment : moments)
+      farthest = std::max(farthest, nearestSnapshot(s.run, moment).radius());
+  std::string all;
+  for (const Shown& s : shown) {
+    std::string row;
+    for (const double moment : moments)
+      row += plotParticles(nearestSnapshot(s.run, moment), s.alignment,
+                           input.truth.plan ? &*input.truth.plan : nullptr, std::max(0.2, 2.5 * farthest),
+                           s.name + ", " + shortNumber(std::round(10 * (moment - start)) / 10) + " s");
+    all += plots(row);
+  }
+  return all;
 }
 
 }  // namespace
@@ -226,6 +276,12 @@ void writeReport(const ReportInput& input, std::ostream& out) {
           "the particles.",
           spreadPlots(input));
 
+  section(
+      out, "Particles",
+      "Particles (red, each with its heading) and robot (light blue: the particle of the highest weight) in "
+      "the median run of each group, at the moment of each quarter of the log in which the robot turned most "
+      "between two snapshots.",
+      particlePlots(input));
   section(
       out, "Time and memory", "Each run is a process of its own with one thread.",
       summaryTable(

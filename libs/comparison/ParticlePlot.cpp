@@ -1,0 +1,113 @@
+#include "comparison/ParticlePlot.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "comparison/Svg.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+const TPose2D& ParticleSnapshot::best() const {
+  return std::max_element(particles.begin(), particles.end(),
+                          [](const auto& a, const auto& b) { return a.logWeight < b.logWeight; })
+      ->pose;
+}
+
+double ParticleSnapshot::radius() const {
+  double farthest = 0;
+  for (const WeightedParticle& p : particles)
+    farthest = std::max(farthest, std::hypot(p.pose.x - best().x, p.pose.y - best().y));
+  return farthest;
+}
+
+std::vector<ParticleSnapshot> loadParticles(const std::string& file) {
+  std::vector<ParticleSnapshot> run;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    double t = 0;
+    WeightedParticle p;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &p.pose.x, &p.pose.y, &p.pose.phi,
+                    &p.logWeight) != 5)
+      throw std::runtime_error("broken table: " + file);
+    if (run.empty() || run.back().timestamp != t) run.push_back({t, {}});
+    run.back().particles.push_back(p);
+  }
+  return run;
+}
+
+std::vector<double> turningMoments(const std::vector<ParticleSnapshot>& run, size_t count) {
+  std::vector<double> moments;
+  for (size_t part = 0; part < count; ++part) {
+    const size_t from = std::max<size_t>(1, part * run.size() / count), to = (part + 1) * run.size() / count;
+    double most = -1, moment = 0;
+    for (size_t i = from; i < to; ++i) {
+      const double turn = std::abs(mrpt::math::wrapToPi(run[i].best().phi - run[i - 1].best().phi));
+      if (turn > most) most = turn, moment = run[i].timestamp;
+    }
+    if (most >= 0) moments.push_back(moment);
+  }
+  return moments;
+}
+
+const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run, double timestamp) {
+  return *std::min_element(run.begin(), run.end(), [timestamp](const auto& a, const auto& b) {
+    return std::abs(a.timestamp - timestamp) < std::abs(b.timestamp - timestamp);
+  });
+}
+
+std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& alignment, const FloorPlan* plan,
+                          double side, const std::string& title) {
+  constexpr double kPixels = 250, kTop = 24;
+  const double scale = kPixels / side;
+  const TPose2D robot = alignment + snapshot.best();
+  Svg svg(kPixels, kTop + kPixels + 22);
+  svg.text({0, 15}, title, Anchor::start, "font-weight:bold");
+  const auto pixel = [&](const TPoint2D& p) {
+    return Point{kPixels / 2 + (p.x - robot.x) * scale, kTop + kPixels / 2 - (p.y - robot.y) * scale};
+  };
+  const auto isInside = [&](const Point& p) {
+    return p.x >= 0 && p.x <= kPixels && p.y >= kTop && p.y <= kTop + kPixels;
+  };
+  svg.rectangle({0, kTop}, kPixels, kPixels, "fill:#fff;stroke:#bbb;stroke-width:1");
+  if (plan)
+    for (const Wall& wall : plan->walls()) {
+      const double step = 0.02;  // m; only the steps inside of the square are drawn
+      const int pieces = static_cast<int>(std::ceil(wall.length() / step));
+      std::vector<Point> points;
+      for (int i = 0; i <= pieces; ++i) {
+        const Point p = pixel(wall.pointAt(static_cast<double>(i) / pieces));
+        if (isInside(p)) points.push_back(p);
+        if ((!isInside(p) || i == pieces) && !points.empty()) {
+          svg.polyline(points, "stroke:#000;stroke-width:2");
+          points.clear();
+        }
+      }
+    }
+  svg.circle(pixel({robot.x, robot.y}), 9, "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
+  for (const WeightedParticle& particle : snapshot.particles) {
+    const TPose2D pose = alignment + particle.pose;
+    const Point at = pixel({pose.x, pose.y});
+    if (!isInside(at)) continue;
+    svg.line(at, {at.x + 14 * std::cos(pose.phi), at.y - 14 * std::sin(pose.phi)},
+             "stroke:#d00000;stroke-width:0.8;stroke-opacity:0.6");
+    svg.circle(at, 2.2, "fill:#d00000");
+  }
+  // A bar of 1 or 5 times a power of ten metres, at most half as long as the square.
+  const double decade = std::pow(10, std::floor(std::log10(side / 2)));
+  const double metres = 5 * decade <= side / 2 ? 5 * decade : decade, bar = metres * scale;
+  svg.line({0, kTop + kPixels + 12}, {bar, kTop + kPixels + 12}, "stroke:#333;stroke-width:2");
+  svg.text({bar + 6, kTop + kPixels + 16}, shortNumber(metres) + " m");
+  return svg.str("particles of " + title);
+}
+
+}  // namespace hybrid_slam
