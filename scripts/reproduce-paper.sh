@@ -25,7 +25,7 @@ experiment() {
 
 experiment "Fig. 3: doorways and sudden turns" \
   "${compare[@]}" config-ini/csie-lms100.ini $csie/csie-doorways.rawlog --methods hybrid,general \
-  --particles 20 --reference $csie/csie-doorways.tum --floorplan $csie/csie.plan -o "$out/fig3"
+  --particles 20 --set run.particles_every=1 --reference $csie/csie-doorways.tum --floorplan $csie/csie.plan -o "$out/fig3"
 experiment "Fig. 5: 378 steps of corridor" \
   "${compare[@]}" config-ini/csie-lms100.ini $csie/csie-corridor.rawlog --methods hybrid,general \
   --particles 20 --reference $csie/csie-corridor.tum --floorplan $csie/csie.plan -o "$out/fig5"
