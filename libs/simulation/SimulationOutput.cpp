@@ -1,8 +1,9 @@
 #include "simulation/SimulationOutput.h"
 
+#include <zlib.h>
+
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/io/zip.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -91,15 +92,33 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
   return rawlog;
 }
 
+namespace {
+
+/// The bytes of a gzip file, best compression, no name and no time in its head.
+bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
+  z_stream z{};
+  constexpr int kGzip = 15 + 16, kMemoryLevel = 8;
+  if (deflateInit2(&z, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+    return false;
+  zipped.resize(deflateBound(&z, plain.size()));
+  z.next_in = plain.data(), z.avail_in = static_cast<uInt>(plain.size());
+  z.next_out = zipped.data(), z.avail_out = static_cast<uInt>(zipped.size());
+  const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
+  zipped.resize(z.total_out);
+  deflateEnd(&z);
+  return done;
+}
+
+}  // namespace
+
 void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
   mrpt::io::CMemoryStream plain;
   auto archive = mrpt::serialization::archiveFrom(plain);
   for (const auto& entry : rawlog) archive << *entry;
   const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
+  // MRPT's own compressor goes through a temporary file that two programs at a time may share.
   std::vector<uint8_t> zipped;
-  constexpr int kBestCompression = 9;
-  const bool done = mrpt::io::zip::compress_gz_data_block({bytes, bytes + plain.getTotalBytesCount()}, zipped,
-                                                          kBestCompression);
+  const bool done = gzip({bytes, bytes + plain.getTotalBytesCount()}, zipped);
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(zipped.data()), static_cast<std::streamsize>(zipped.size()));
   out.close();
