@@ -31,22 +31,22 @@ experiment "Fig. 5: 378 steps of corridor" \
   --particles 20 --reference $csie/csie-corridor.tum --floorplan $csie/csie.plan -o "$out/fig5"
 experiment "Fig. 4 and Fig. 6: the loop" \
   "${compare[@]}" config-ini/csie-lms100.ini $csie/csie-loop.rawlog --methods hybrid,general \
-  --particles 20,50 --reference $csie/csie-loop.tum --floorplan $csie/csie.plan -o "$out/fig4"
-experiment "Fig. 4: without lines, three times the particles" \
-  "$bin/slam-compare" --seeds "$seeds" config-ini/csie-lms100.ini $csie/csie-loop.rawlog --methods general \
-  --particles 60 --reference $csie/csie-loop.tum --floorplan $csie/csie.plan -o "$out/fig4-general-60"
-experiment "MRPT's own RBPF on the loop" \
-  "$bin/slam-compare" --seeds "$((seeds < 5 ? seeds : 5))" config-ini/csie-lms100.ini $csie/csie-loop.rawlog \
+  --particles 20,50,general:60 --reference $csie/csie-loop.tum --floorplan $csie/csie.plan -o "$out/fig4"
+experiment "MRPT's own RBPF on the loop, with our settings and with its shipped ones" \
+  "$bin/slam-compare" --seeds "$((seeds < 10 ? seeds : 10))" config-ini/csie-lms100.ini $csie/csie-loop.rawlog \
   --methods hybrid,general,stock "${shipped[@]}" --particles 20 --reference $csie/csie-loop.tum \
   --floorplan $csie/csie.plan -o "$out/stock"
 
+# The same comparison on real logs. Malaga's comes with MRPT (Debian package mrpt-common).
+real=("$bin/slam-compare" --seeds "$((seeds < 10 ? seeds : 10))" --particles 20 --methods hybrid,general "${eq9[@]}")
+experiment "Malaga" "${real[@]}" config-ini/malaga.ini \
+  "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog" -o "$out/malaga"
 if [[ -n ${HYBRID_SLAM_DATASETS:-} ]]; then
   logs=$HYBRID_SLAM_DATASETS
   for log in intel-lab csail dpslam-loop5; do
     [[ -f $out/$log.rawlog ]] || "$bin/log2rawlog" "$logs/$log.clf.gz" "$out/$log.rawlog"
   done
-  real=("$bin/slam-compare" --seeds "$((seeds < 10 ? seeds : 10))" --particles 20 --methods hybrid,general
-    "${eq9[@]}" config-ini/lms-logs.ini)
+  real+=(config-ini/lms-logs.ini)
   experiment "Intel" "${real[@]}" "$out/intel-lab.rawlog" --relations "$logs/intel-lab.relations" \
     --odometry "$logs/intel-lab.odom.gz" -o "$out/intel"
   experiment "MIT CSAIL" "${real[@]}" "$out/csail.rawlog" --relations "$logs/csail-revisit.relations" \

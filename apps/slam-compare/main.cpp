@@ -28,8 +28,7 @@ std::atomic<bool> stop{false};
 
 struct CommandLine {
   std::string config, log, output, reference, relations, odometry, floorplan;
-  std::vector<std::string> methods{"hybrid", "general"}, variants, settings;
-  std::vector<int> particles;
+  std::vector<std::string> methods{"hybrid", "general"}, particles, variants, settings;
   int seeds = 30, firstSeed = 1, jobs = 0;
   SuccessCriterion criterion;
   bool isReportOnly = false, isListOnly = false, isQuiet = false;
@@ -46,8 +45,10 @@ void describe(CLI::App& app, CommandLine& line) {
                  "of hybrid, general, stock; the first is what others are tested against")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("-n,--particles", line.particles, "particle counts (default: the INI file's)")
-      ->delimiter(',');
+  app.add_option("-n,--particles", line.particles,
+                 "particle counts, for all methods or for one (default: the INI file's)")
+      ->delimiter(',')
+      ->type_name("[METHOD:]N");
   app.add_option("--seeds", line.seeds, "runs of each group")->capture_default_str();
   app.add_option("--first-seed", line.firstSeed, "the seeds count up from here")->capture_default_str();
   app.add_option("--variant", line.variants,
@@ -234,8 +235,10 @@ int run(const CommandLine& line, const std::string& command) {
   check(line);
   std::vector<Variant> variants;
   for (const std::string& text : line.variants) variants.push_back(parseVariant(text));
-  std::vector<int> particles = line.particles;
-  if (particles.empty()) particles = {Configuration(line.config, line.settings).filter.filter.particles};
+  std::vector<ParticleCount> particles;
+  for (const std::string& text : line.particles) particles.push_back(parseParticleCount(text));
+  if (particles.empty())
+    particles = {{"", Configuration(line.config, line.settings).filter.filter.particles}};
   const std::vector<Group> groups = makeGroups(line.methods, variants, particles);
   const GroundTruth truth = loadTruth(line);
   const std::vector<ComparisonRun> sweep = makeSweep(line, groups);

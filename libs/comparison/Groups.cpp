@@ -1,6 +1,7 @@
 #include "comparison/Groups.h"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 #include <sstream>
 
@@ -74,17 +75,35 @@ Variant parseVariant(const std::string& text) {
   return variant;
 }
 
+ParticleCount parseParticleCount(const std::string& text) {
+  const std::string where = "option --particles `" + text + "`";
+  const auto colon = text.find(':');
+  ParticleCount count;
+  if (colon != std::string::npos) {
+    count.method = text.substr(0, colon);
+    checkMethod(count.method, where);
+  }
+  const char* const number = text.c_str() + (colon == std::string::npos ? 0 : colon + 1);
+  const auto [end, error] = std::from_chars(number, text.c_str() + text.size(), count.particles);
+  if (error != std::errc() || *end != '\0' || count.particles < 1)
+    throw InputError("wrong particle count", where, "expected [METHOD:]N, N 1 or more");
+  return count;
+}
+
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
-                              const std::vector<int>& particles) {
+                              const std::vector<ParticleCount>& particles) {
   if (methods.empty())
     throw InputError("no method", "option --methods", "expected one or more of hybrid, general, stock");
   for (const std::string& method : methods) checkMethod(method, "option --methods");
-  for (const int n : particles)
-    if (n < 1)
-      throw InputError("wrong particle count " + std::to_string(n), "option --particles",
-                       "expected 1 or more");
+  const auto isCompared = [&](const std::string& method) {
+    return method.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
+  };
+  for (const ParticleCount& count : particles)
+    if (!isCompared(count.method))
+      throw InputError("particle count of the method `" + count.method + "`", "option --particles",
+                       "expected one of the methods that are compared");
   for (const Variant& variant : variants)
-    if (!variant.method.empty() && std::find(methods.begin(), methods.end(), variant.method) == methods.end())
+    if (!isCompared(variant.method))
       throw InputError("variant `" + variant.name + "` of the method `" + variant.method + "`",
                        "option --variant", "expected one of the methods that are compared");
 
@@ -94,8 +113,14 @@ std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std
     std::vector<Variant> applying{Variant()};
     for (const Variant& variant : variants)
       if (variant.method.empty() || variant.method == method) applying.push_back(variant);
+    std::vector<int> counts;
+    for (const ParticleCount& count : particles)
+      if (count.method.empty() || count.method == method) counts.push_back(count.particles);
+    if (counts.empty())
+      throw InputError("no particle count for the method `" + method + "`", "option --particles",
+                       "expected N for all methods or " + method + ":N");
     for (const Variant& variant : applying)
-      for (const int n : particles) {
+      for (const int n : counts) {
         groups.push_back({method, variant, n});
         if (!names.insert(groups.back().name()).second)
           throw InputError("`" + groups.back().name() + "` twice", "command line",

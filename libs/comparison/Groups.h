@@ -35,11 +35,20 @@ struct Group {
   std::string name() const { return label() + "-" + std::to_string(particles); }
 };
 
-/// Method by method, each plain and then with every variant that applies, each with every particle count.
+/// How many particles a method is run with.
+struct ParticleCount {
+  std::string method;  ///< empty: all
+  int particles = 0;
+};
+
+/// Reads `[METHOD:]N`. @throws InputError for another form, an unknown method, and a number below 1
+ParticleCount parseParticleCount(const std::string& text);
+
+/// Method by method, each plain and then with every variant that applies, each with every particle count that is its.
 /// @throws InputError for an unknown or repeated method, a variant of a method that is not compared, two
-///         groups of the same name, and a particle count below 1
+///         groups of the same name, a particle count of a method that is not compared, and a method without one
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
-                              const std::vector<int>& particles);
+                              const std::vector<ParticleCount>& particles);
 
 struct Run {
   size_t group = 0;

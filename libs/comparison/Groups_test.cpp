@@ -59,25 +59,37 @@ TEST(Groups, MethodsTimesVariantsTimesParticles) {
   const auto groups = makeGroups(
       {"hybrid", "general"},
       {parseVariant("hybrid/eq9:line_weight.method=paper"), parseVariant("fine:grid.resolution=0.03")},
-      {20, 50});
+      {{"", 20}, {"", 50}, {"general", 60}});
   std::vector<std::string> names;
   for (const Group& g : groups) names.push_back(g.name());
   EXPECT_THAT(
       names, ElementsAre("hybrid-20", "hybrid-50", "hybrid-eq9-20", "hybrid-eq9-50", "hybrid-fine-20",
-                         "hybrid-fine-50", "general-20", "general-50", "general-fine-20", "general-fine-50"));
+                         "hybrid-fine-50", "general-20", "general-50", "general-60", "general-fine-20",
+                         "general-fine-50", "general-fine-60"));
 }
 
 TEST(Groups, BadOnesAreNamed) {
-  EXPECT_THAT(errorOf([] { makeGroups({}, {}, {20}); }), HasSubstr("no method"));
+  EXPECT_THAT(errorOf([] { makeGroups({}, {}, {{"", 20}}); }), HasSubstr("no method"));
   EXPECT_THAT(errorOf([] {
-                makeGroups({"hybrid", "gmapping"}, {}, {20});
+                makeGroups({"hybrid", "gmapping"}, {}, {{"", 20}});
               }),
               HasSubstr("unknown method `gmapping`"));
-  EXPECT_THAT(errorOf([] { makeGroups({"hybrid", "hybrid"}, {}, {20}); }), HasSubstr("`hybrid-20` twice"));
-  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {}, {20, 20}); }), HasSubstr("`hybrid-20` twice"));
-  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {}, {20, 0}); }), HasSubstr("--particles"));
-  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {parseVariant("stock/x:a.b=c")}, {20}); }),
+  EXPECT_THAT(errorOf([] { makeGroups({"hybrid", "hybrid"}, {}, {{"", 20}}); }), HasSubstr("`hybrid-20` twice"));
+  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {}, {{"", 20}, {"hybrid", 20}}); }), HasSubstr("`hybrid-20` twice"));
+  EXPECT_THAT(errorOf([] { makeGroups({"hybrid", "general"}, {}, {{"hybrid", 20}}); }),
+              HasSubstr("no particle count for the method `general`"));
+  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {}, {{"", 20}, {"stock", 20}}); }), HasSubstr("`stock`"));
+  EXPECT_THAT(errorOf([] { makeGroups({"hybrid"}, {parseVariant("stock/x:a.b=c")}, {{"", 20}}); }),
               HasSubstr("`stock`"));
+}
+
+TEST(ParticleCounts, OfAllMethodsOrOfOne) {
+  EXPECT_EQ(parseParticleCount("20").method, "");
+  EXPECT_EQ(parseParticleCount("20").particles, 20);
+  EXPECT_EQ(parseParticleCount("general:60").method, "general");
+  EXPECT_EQ(parseParticleCount("general:60").particles, 60);
+  for (const char* wrong : {"", "0", "-3", "x", "20x", "2.5", "general:", ":20", "gmapping:20", "99999999999"})
+    EXPECT_THAT(errorOf([&] { parseParticleCount(wrong); }), HasSubstr("--particles")) << wrong;
 }
 
 TEST(Runs, EveryGroupWithEverySeed) {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "comparison/Svg.h"
+#include "comparison/PlanView.h"
 
 namespace hybrid_slam {
 
@@ -72,9 +72,7 @@ std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& align
   const TPose2D robot = alignment + snapshot.best();
   Svg svg(kPixels, kTop + kPixels + 22);
   svg.text({0, 15}, title, Anchor::start, "font-weight:bold");
-  const auto pixel = [&](const TPoint2D& p) {
-    return Point{kPixels / 2 + (p.x - robot.x) * scale, kTop + kPixels / 2 - (p.y - robot.y) * scale};
-  };
+  const PlanView view({robot.x - side / 2, robot.y + side / 2}, {0, kTop}, scale);
   const auto isInside = [&](const Point& p) {
     return p.x >= 0 && p.x <= kPixels && p.y >= kTop && p.y <= kTop + kPixels;
   };
@@ -85,7 +83,7 @@ std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& align
       const int pieces = static_cast<int>(std::ceil(wall.length() / step));
       std::vector<Point> points;
       for (int i = 0; i <= pieces; ++i) {
-        const Point p = pixel(wall.pointAt(static_cast<double>(i) / pieces));
+        const Point p = view.pixel(wall.pointAt(static_cast<double>(i) / pieces));
         if (isInside(p)) points.push_back(p);
         if ((!isInside(p) || i == pieces) && !points.empty()) {
           svg.polyline(points, "stroke:#000;stroke-width:2");
@@ -93,20 +91,16 @@ std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& align
         }
       }
     }
-  svg.circle(pixel({robot.x, robot.y}), 9, "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
+  svg.circle(view.pixel({robot.x, robot.y}), 9, "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
   for (const WeightedParticle& particle : snapshot.particles) {
     const TPose2D pose = alignment + particle.pose;
-    const Point at = pixel({pose.x, pose.y});
+    const Point at = view.pixel({pose.x, pose.y});
     if (!isInside(at)) continue;
     svg.line(at, {at.x + 14 * std::cos(pose.phi), at.y - 14 * std::sin(pose.phi)},
              "stroke:#d00000;stroke-width:0.8;stroke-opacity:0.6");
     svg.circle(at, 2.2, "fill:#d00000");
   }
-  // A bar of 1 or 5 times a power of ten metres, at most half as long as the square.
-  const double decade = std::pow(10, std::floor(std::log10(side / 2)));
-  const double metres = 5 * decade <= side / 2 ? 5 * decade : decade, bar = metres * scale;
-  svg.line({0, kTop + kPixels + 12}, {bar, kTop + kPixels + 12}, "stroke:#333;stroke-width:2");
-  svg.text({bar + 6, kTop + kPixels + 16}, shortNumber(metres) + " m");
+  view.drawScaleBar(svg, {0, kTop + kPixels + 12}, kPixels / 2);
   return svg.str("particles of " + title);
 }
 

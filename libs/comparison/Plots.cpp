@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/RandomStream.h"
+#include "comparison/PlanView.h"
 #include "comparison/Svg.h"
 
 namespace hybrid_slam {
@@ -233,43 +234,22 @@ std::string plotTrajectories(size_t group, const std::vector<Group>& groups,
           (ys.high - ys.low) * scale + 2 * kMargin + 26);
   const std::string title = groups[group].name();
   svg.text({kMargin, 15}, title, Anchor::start, "font-weight:bold");
-  const auto pixel = [&](double x, double y) {
-    return Point{kMargin + (x - xs.low) * scale, kMargin + (ys.high - y) * scale};
-  };
+  const PlanView view({xs.low, ys.high}, {kMargin, kMargin}, scale);
   const auto draw = [&](const Trajectory& trajectory, const std::string& style) {
     std::vector<Point> points;
     for (const StampedPose& p : trajectory) {
-      const Point next = pixel(p.pose.x, p.pose.y);
+      const Point next = view.pixel({p.pose.x, p.pose.y});
       const bool isLast = &p == &trajectory.back();
       if (points.empty() || isLast || std::hypot(next.x - points.back().x, next.y - points.back().y) >= 1)
         points.push_back(next);
     }
     svg.polyline(points, style);
   };
-  if (plan)
-    for (const Wall& wall : plan->walls()) {
-      std::vector<Point> points;
-      const int pieces = wall.isArc() ? 24 : 1;
-      for (int i = 0; i <= pieces; ++i) {
-        const auto p = wall.pointAt(static_cast<double>(i) / pieces);
-        points.push_back(pixel(p.x, p.y));
-      }
-      svg.polyline(points, "stroke:#bbb;stroke-width:1");
-    }
+  if (plan) view.drawWalls(svg, *plan, "stroke:#bbb;stroke-width:1");
   const std::string style = looksOf(groups)[group].solid(0.8) + ";stroke-opacity:0.6";
   for (const Trajectory& trajectory : trajectories) draw(trajectory, style);
   if (!reference.empty()) draw(reference, "stroke:#000;stroke-width:1.4;stroke-dasharray:5 3");
-
-  // A bar of 1, 2 or 5 times a power of ten metres, at most 100 pixels long.
-  double metres = std::pow(10, std::floor(std::log10(100 / scale)));
-  for (const double factor : {5.0, 2.0})
-    if (metres * factor * scale <= 100) {
-      metres *= factor;
-      break;
-    }
-  const Point bar{kMargin, svg.height() - 12};
-  svg.line(bar, {bar.x + metres * scale, bar.y}, "stroke:#333;stroke-width:2");
-  svg.text({bar.x + metres * scale + 6, bar.y + 4}, shortNumber(metres) + " m");
+  view.drawScaleBar(svg, {kMargin, svg.height() - 12}, 100);
   return svg.str("trajectories of " + title);
 }
 

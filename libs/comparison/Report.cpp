@@ -1,5 +1,7 @@
 #include "comparison/Report.h"
 
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -7,9 +9,11 @@
 #include <tuple>
 
 #include "comparison/ParticlePlot.h"
+#include "comparison/PlanView.h"
 #include "comparison/Plots.h"
 #include "comparison/ReportTables.h"
 #include "comparison/Svg.h"
+#include "comparison/WallErrors.h"
 #include "evaluation/AbsoluteTrajectoryError.h"
 
 namespace hybrid_slam {
@@ -179,6 +183,30 @@ std::string mapPictures(const ReportInput& input) {
   return plots(all);
 }
 
+/// The paper's Fig. 6: the map of each group's median run over the walls.
+std::string wallPlots(const ReportInput& input) {
+  if (!input.truth.plan) return {};
+  std::string all;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    const auto runs = rankedRuns(input, g);
+    if (runs.empty()) continue;
+    const RunResult& median = *runs[(runs.size() - 1) / 2];
+    const RunFolder folder = folderOf(input, median);
+    const auto map = loadGridMap(folder.file("map.gridmap.gz").string());
+    auto cells = occupiedCells(map);
+    const auto alignment =
+        absoluteTrajectoryError(loadTum(folder.file("trajectory.tum").string()), input.truth.reference,
+                                GroundTruth::kReferenceTolerance)
+            .alignment;
+    for (auto& cell : cells) cell = alignment.composePoint(cell);
+    all += plotCellsOverWalls(cells, map.getResolution(), *input.truth.plan,
+                              input.groups[g].name() + ": mean " +
+                                  shortNumber(median[Figure::wallMean].value_or(0), 2) + " m, 95 % below " +
+                                  shortNumber(median[Figure::wallP95].value_or(0), 2) + " m");
+  }
+  return plots(all);
+}
+
 /// The particles of each group's median run at the same moments, all at the same scale.
 std::string particlePlots(const ReportInput& input) {
   constexpr size_t kMoments = 4;
@@ -297,6 +325,10 @@ void writeReport(const ReportInput& input, std::ostream& out) {
               ? "All seeds of a group, from their common start."
               : "All seeds of a group, each rigidly aligned to the reference (black, dashed).",
           trajectoryPlots(input));
+  section(out, "Maps over the walls",
+          "The occupied cells of each group's median run over the floor plan (blue), the map aligned by its "
+          "trajectory; their colour tells the distance to the nearest wall.",
+          wallPlots(input));
   section(out, "Maps",
           "Black: occupied; red: path; green: line database; light blue: the robot at the end. Each map is "
           "in its own "

@@ -76,6 +76,16 @@ void Svg::rectangle(Point corner, double width, double height, const std::string
   body_ += "<rect " + at("x", "y", corner) + at("width", "height", {width, height}) + styled(style);
 }
 
+void Svg::squares(const std::vector<Point>& centres, double side, const std::string& style) {
+  if (centres.empty()) return;
+  const std::string length = pixels(side);
+  body_ += "<path d=\"";
+  for (const Point& c : centres)
+    body_ += "M" + pixels(c.x - side / 2) + " " + pixels(c.y - side / 2) + "h" + length + "v" + length + "h-" +
+             length + "z";
+  body_ += "\" " + styled(style);
+}
+
 void Svg::circle(Point centre, double radius, const std::string& style, const std::string& title) {
   body_ += "<circle " + at("cx", "cy", centre) + "r=\"" + pixels(radius) + "\" style=\"" + style + "\"" +
            (title.empty() ? "/>\n" : "><title>" + escapeXml(title) + "</title></circle>\n");

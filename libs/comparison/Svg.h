@@ -29,6 +29,8 @@ class Svg {
   void polyline(const std::vector<Point>& points, const std::string& style);
   void polygon(const std::vector<Point>& points, const std::string& style);
   void rectangle(Point corner, double width, double height, const std::string& style);
+  /// Squares around the points as one shape, which keeps a picture of thousands small.
+  void squares(const std::vector<Point>& centres, double side, const std::string& style);
   /// @param title  shown by browsers when the pointer rests on it; may be empty
   void circle(Point centre, double radius, const std::string& style, const std::string& title = {});
   void text(Point at, const std::string& text, Anchor anchor = Anchor::start, const std::string& style = {});

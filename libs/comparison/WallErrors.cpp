@@ -92,15 +92,21 @@ double doubledShare(const COccupancyGridMap2D& map, const FloorPlan& plan, const
 
 }  // namespace
 
+std::vector<TPoint2D> occupiedCells(const COccupancyGridMap2D& map) {
+  std::vector<TPoint2D> cells;
+  for (int y = 0; y < static_cast<int>(map.getSizeY()); ++y)
+    for (int x = 0; x < static_cast<int>(map.getSizeX()); ++x)
+      if (isOccupied(map, x, y)) cells.emplace_back(map.idx2x(x), map.idx2y(y));
+  return cells;
+}
+
 WallErrors wallErrors(const COccupancyGridMap2D& map, const FloorPlan& plan, const TPose2D& alignment) {
   std::vector<double> distances;
   double sum = 0;
-  for (int y = 0; y < static_cast<int>(map.getSizeY()); ++y)
-    for (int x = 0; x < static_cast<int>(map.getSizeX()); ++x) {
-      if (!isOccupied(map, x, y)) continue;
-      distances.push_back(plan.distanceToNearestWall(alignment.composePoint({map.idx2x(x), map.idx2y(y)})));
-      sum += distances.back();
-    }
+  for (const TPoint2D& cell : occupiedCells(map)) {
+    distances.push_back(plan.distanceToNearestWall(alignment.composePoint(cell)));
+    sum += distances.back();
+  }
   if (distances.empty()) throw std::runtime_error("the map has no occupied cells");
   return {sum / static_cast<double>(distances.size()), quantile(distances, 0.95),
           doubledShare(map, plan, alignment)};

@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <string>
+#include <vector>
 
 #include "simulation/FloorPlan.h"
 
@@ -15,13 +16,15 @@ class COccupancyGridMap2D;
 
 namespace hybrid_slam {
 
+/// Centres of the cells with an occupancy above 0.65, as for ROS's map_server; m, in the map's frame, row by
+/// row.
+std::vector<mrpt::math::TPoint2D> occupiedCells(const mrpt::maps::COccupancyGridMap2D& map);
+
 struct WallErrors {
   double mean = 0, p95 = 0;  ///< m, from the centres of occupied cells to the nearest wall
   double doubledShare = 0;   ///< of the free-standing wall that the map shows, in [0, 1]
 };
 
-/// Cells with an occupancy above 0.65 are occupied, as for ROS's map_server.
-///
 /// Doubled wall: every straight wall is sampled each 0.1 m. At a sample the map is read along the wall's
 /// normal, up to 1 m to both sides. The sample is *free-standing* if that normal up to 1.5 m comes no nearer
 /// than 0.5 m to another wall (nearer than to the sample itself), so that one row of occupied cells is
