@@ -28,7 +28,7 @@ int fail(int code, const std::string& message) {
 int main(int argc, char** argv) {
   CLI::App app{"Replays a rawlog through the hybrid RBPF: grid maps with line directions"};
   std::string config, rawlog, output, method, proposal;
-  int particles = 0, seed = -1, threads = -1;
+  int particles = 0, seed = -1, threads = -1, refine = 0;
   std::vector<std::string> settings;
   bool isQuiet = false, wantsManual = false;
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
@@ -36,10 +36,12 @@ int main(int argc, char** argv) {
   app.add_option("dataset", rawlog, "rawlog, plain or gzipped; else [run] rawlog of the INI file");
   app.add_option("-o,--output", output, "folder for the results, made if it is missing")->type_name("DIR");
   app.add_option("-m,--method", method, "hybrid, general (without lines) or stock (MRPT's own RBPF)");
-  app.add_option("-p,--proposal", proposal, "standard, auxiliary_standard or auxiliary_optimal");
+  app.add_option("-p,--proposal", proposal, "standard, improved, auxiliary_standard or auxiliary_optimal");
   app.add_option("-n,--particles", particles, "number of particles")->type_name("N");
   app.add_option("-s,--seed", seed, "same seed, same results to the byte")->type_name("N");
   app.add_option("-j,--threads", threads, "threads over particles; 0: all cores")->type_name("N");
+  app.add_option("--refine", refine, "afterwards: matches each scan against the final map, N times")
+      ->type_name("N");
   app.add_option("--set", settings, "sets a key of the INI file; repeatable")
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
@@ -74,6 +76,8 @@ int main(int argc, char** argv) {
   if (app.count("--particles")) set("particle_filter.particles", std::to_string(particles));
   if (app.count("--seed")) set("particle_filter.seed", std::to_string(seed));
   if (app.count("--threads")) set("particle_filter.threads", std::to_string(threads));
+
+  if (app.count("--refine")) set("run.refine", std::to_string(refine));
 
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);

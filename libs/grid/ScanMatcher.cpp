@@ -64,9 +64,6 @@ void ScanMatcherOptions::describe(OptionTable& t) {
   t.add("sigma", sigma, 0.01, 100, "", "deviation of one beam's residual 1 - m; larger trusts a match less");
   t.add("beam_step", beamStep, 1, 100, "matches every n-th beam");
   t.add("iterations", iterations, 1, 1000, "at most so many steps of a climb");
-  t.add("search_distance", searchDistance, 0, 5, "m",
-        "reach of the lattice of starts; 0: the prediction alone");
-  t.addAngle("search_angle_deg", searchAngle, 0, 90, "reach of the lattice in heading");
 }
 
 LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Eigen::Matrix3d& information) {
@@ -130,13 +127,14 @@ Eigen::Matrix3d ScanMatcher::curvature(const ScanBeams& scan, const TPose2D& pos
   return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
 }
 
-ScanMatch ScanMatcher::climb(const ScanBeams& scan, TPose2D pose, const OccupancyGrid& grid,
+ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
                              const Prior& prior) const {
   constexpr double kSmallStep = 1e-4;  // m or rad
   const auto posterior = [&](const TPose2D& at) {
     LogDensity density = logLikelihood(scan, at, grid);
     return density += prior(at);
   };
+  TPose2D pose = start;
   LogDensity here = posterior(pose);
   double damping = 1e-3;
   for (int i = 0; i < options_.iterations; ++i) {
@@ -157,39 +155,11 @@ ScanMatch ScanMatcher::climb(const ScanBeams& scan, TPose2D pose, const Occupanc
   ScanMatch match;
   match.pose = pose;
   match.logPosterior = here.value;
+  match.information = curvature(scan, match.pose, grid) + prior(match.pose).information;
+  forEachEnd(scan, match.pose, grid, occupied_,
+             [&](double, double, const MapSample& sample) { match.fit += sample.m; });
+  if (!scan.rays.empty()) match.fit /= static_cast<double>(scan.rays.size());
   return match;
-}
-
-ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
-                             const Prior& prior) const {
-  return search(scan, start, grid, prior, options_.searchDistance, options_.searchAngle);
-}
-
-ScanMatch ScanMatcher::search(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
-                              const Prior& prior, double reach, double reachAngle) const {
-  ScanMatch best = climb(scan, start, grid, prior);
-  if (reach > 0) {
-    // A lattice fine enough that the climb from its best place ends on the right wall.
-    const double step = grid.resolution(), stepAngle = 1.5 * M_PI / 180;
-    const int n = static_cast<int>(std::ceil(reach / step)),
-              a = static_cast<int>(std::ceil(reachAngle / stepAngle));
-    TPose2D top = start;
-    double topValue = -1e300;
-    for (int k = -a; k <= a; ++k)
-      for (int j = -n; j <= n; ++j)
-        for (int i = -n; i <= n; ++i) {
-          const TPose2D at = moved(start, {i * step, j * step, k * stepAngle});
-          const double value = logLikelihoodValue(scan, at, grid) + prior(at).value;
-          if (value > topValue) top = at, topValue = value;
-        }
-    const ScanMatch second = climb(scan, top, grid, prior);
-    if (second.logPosterior > best.logPosterior) best = second;
-  }
-  best.information = curvature(scan, best.pose, grid) + prior(best.pose).information;
-  forEachEnd(scan, best.pose, grid, occupied_,
-             [&](double, double, const MapSample& sample) { best.fit += sample.m; });
-  if (!scan.rays.empty()) best.fit /= static_cast<double>(scan.rays.size());
-  return best;
 }
 
 }  // namespace hybrid_slam

@@ -18,8 +18,6 @@ struct ScanMatcherOptions : Options {
   double sigma = 0.5;
   int beamStep = 1;
   int iterations = 20;
-  double searchDistance = 0;
-  double searchAngle = 3 * M_PI / 180;
   void describe(OptionTable& table) override;
 };
 
@@ -62,7 +60,8 @@ struct ScanMatch {
 ///
 /// Basin of convergence, measured in a made room of 8 m x 6 m without a prior, 400 random poses each: all
 /// climbs from 5 cm and up to 10 deg away reach the true pose (within 2 cm and 0.5 deg), 98 % of those from
-/// 10 cm, 92 % from 15 cm and 87 % from 20 cm (each with 5 deg). Farther away `search` is the way.
+/// 10 cm, 92 % from 15 cm and 87 % from 20 cm (each with 5 deg). Farther away
+/// correlativeSearch is the way.
 class ScanMatcher {
  public:
   explicit ScanMatcher(const ScanMatcherOptions& options);
@@ -74,17 +73,11 @@ class ScanMatcher {
   double logLikelihoodValue(const ScanBeams& scan, const mrpt::math::TPose2D& pose,
                             const OccupancyGrid& grid) const;
 
-  /// Climbs from `start` and, where searchDistance is not 0, from the best of a lattice around it.
+  /// Climbs from `start`.
   ScanMatch match(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
                   const Prior& prior) const;
-  /// The same with a lattice of the given reach (m, rad): for a robot that has slipped.
-  ScanMatch search(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
-                   const Prior& prior, double reach, double reachAngle) const;
 
  private:
-  ScanMatch climb(const ScanBeams& scan, mrpt::math::TPose2D pose, const OccupancyGrid& grid,
-                  const Prior& prior) const;
-
   /// Minus the second derivative of ln p(scan | pose, grid), without its negative part: differences of the
   /// gradient 1.5 cells (3/4 deg) to either side. The sum of squared slopes that Gauss-Newton climbs by takes
   /// the roughness of a sparsely hit wall for information along it, and has none on the ridge of a wall.

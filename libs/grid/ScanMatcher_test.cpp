@@ -167,33 +167,6 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
   }
 }
 
-TEST(ScanMatcher, ALatticeFindsTheWayBackFromASlip) {
-  RandomStream random(7, 0, 0);
-  for (int i = 0; i < 8; ++i) {
-    const TPose2D truth = somePose(random);
-    const ScanBeams scan = beamsAt(kRoom, truth, random);
-    const double towards = 2 * M_PI * random.uniform(), sign = i % 2 ? -1 : 1;
-    const TPose2D start(truth.x + 0.3 * std::cos(towards), truth.y + 0.3 * std::sin(towards),
-                        truth.phi + sign * 20 * kDegree);
-    expectNear(matcher().search(scan, start, room(), kNoPrior, 0.35, 22 * kDegree).pose, truth, 0.02,
-               0.5 * kDegree);
-  }
-}
-
-TEST(ScanMatcher, SearchDistanceSwitchesTheLatticeOn) {
-  RandomStream random(8, 0, 0);
-  const TPose2D truth(0.3, -0.2, 1);
-  const ScanBeams scan = beamsAt(kRoom, truth, random);
-  ScanMatcherOptions options;
-  options.searchDistance = 0.3;
-  const TPose2D start(truth.x + 0.25, truth.y + 0.2, truth.phi - 2 * kDegree);
-  const ScanMatch match = ScanMatcher(options).match(scan, start, room(), kNoPrior);
-  const ScanMatch same = matcher().search(scan, start, room(), kNoPrior, 0.3, options.searchAngle);
-  EXPECT_EQ(match.pose, same.pose);
-  EXPECT_EQ(match.logPosterior, same.logPosterior);
-  expectNear(match.pose, truth, 0.02, 0.5 * kDegree);
-}
-
 TEST(ScanMatcher, AFeaturelessCorridorSaysNothingOfThePlaceAlongIt) {
   RandomStream random(9, 0, 0);
   for (int i = 0; i < 50; ++i) {

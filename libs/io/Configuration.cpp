@@ -75,6 +75,8 @@ void RunOptions::describe(OptionTable& t) {
   t.add("output", output, "folder for the results, where the command line names none");
   t.add("particles_every", particlesEvery, 0, 1000000,
         "particles.csv takes all particles of each update whose number this divides; 0: no particles.csv");
+  t.add("refine", refine, 0, 100,
+        "after the run: so many times matches each scan against the final map and builds the map anew");
 }
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings) {

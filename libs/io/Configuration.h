@@ -21,6 +21,7 @@ struct RunOptions : Options {
   std::string rawlog;
   std::string output = "out";
   int particlesEvery = 0;
+  int refine = 0;
   void describe(OptionTable& table) override;
 };
 

@@ -13,12 +13,14 @@
 #include <optional>
 
 #include "base/Errors.h"
+#include "grid/GridConversion.h"
 #include "io/MapFiles.h"
 #include "io/Progress.h"
 #include "io/SimpleMapFile.h"
 #include "io/StepsTable.h"
 #include "io/TrajectoryRecorder.h"
 #include "rbpf/HybridMapBuilder.h"
+#include "rbpf/Refinement.h"
 #include "rbpf/StockMapBuilder.h"
 
 namespace hybrid_slam {
@@ -105,6 +107,9 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
                      const std::string& version) {
   const auto start = Clock::now();
   const RunOptions& run = configuration.run;
+  if (run.refine > 0 && run.method == Method::stock)
+    throw InputError("no refinement of MRPT's filter", "section [run], keys `method`, `refine`",
+                     "expected hybrid or general, or refine = 0");
   const RawlogSummary log = summarise(run.rawlog, configuration.input);
   const OutputFolder folder(run.output);
   RawlogSource source(run.rawlog, configuration.input, log);
@@ -116,7 +121,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   if (run.particlesEvery > 0) writeParticlesHeader(particles.emplace(folder.path("particles.csv")).stream());
   TrajectoryRecorder recorder;
   std::vector<bool> isUpdate;
-  size_t resamplings = 0;
+  size_t resamplings = 0, slips = 0;
+  double firstSlip = 0;
   Progress progress(log.scans, isQuiet);
   while (const auto reading = stop ? std::nullopt : source.next()) {
     const auto stepStart = Clock::now();
@@ -132,6 +138,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     if (!isUpdate.back()) continue;
     const FilterStep& step = filter.view->lastStep();
     resamplings += step.resampled.value_or(false) ? 1 : 0;
+    if (step.slipped.value_or(false) && slips++ == 0) firstSlip = reading->timestamp;
     writeStep(steps.stream(), reading->timestamp, step, 1000 * secondsSince(stepStart));
     if (particles && filter.view->updates() % static_cast<size_t>(run.particlesEvery) == 0)
       writeParticles(particles->stream(), reading->timestamp, step);
@@ -141,6 +148,9 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
 
   ReplayOutcome outcome;
   outcome.warnings = warningsOf(log);
+  if (slips > 0)
+    outcome.warnings.push_back(std::to_string(slips) + " updates in which the odometry was far off: first at " +
+                               textOf("%.3f s", firstSlip) + "; the motion is that of a scan match");
   if (stop)
     outcome.incomplete = "interrupted: entry " + std::to_string(source.entry()) + " of " + run.rawlog +
                          "; the results cover the log up to there";
@@ -148,10 +158,25 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " +
                          run.rawlog + "; the results cover the log up to there";
 
-  const std::vector<mrpt::math::TPose2D> path = filter.view->bestPath();
-  const Trajectory trajectory = recorder.trajectory(path);
-  const auto grid = filter.view->bestGrid();
-  const auto lines = filter.view->bestLines();
+  std::vector<mrpt::math::TPose2D> path = filter.view->bestPath();
+  Trajectory trajectory = recorder.trajectory(path);
+  auto grid = filter.view->bestGrid();
+  auto lines = filter.view->bestLines();
+  if (run.refine > 0) {
+    RawlogSource scans(run.rawlog, configuration.input, log);
+    std::vector<PosedScan> posed;
+    for (size_t i = 0; i < trajectory.size(); ++i)
+      posed.push_back({scans.next()->scan, trajectory[i].pose, isUpdate[i]});
+    refine(posed, configuration.filter, run.refine);
+    path.clear();
+    for (size_t i = 0; i < posed.size(); ++i) {
+      trajectory[i].pose = posed[i].pose;
+      if (isUpdate[i]) path.push_back(posed[i].pose);
+    }
+    const ScanMap map = mapOf(posed, configuration.filter);
+    grid = toMrpt(map.grid);
+    lines = {map.lines.lines().begin(), map.lines.lines().end()};
+  }
   folder.write("trajectory.tum", [&](std::ostream& out) { saveTum(trajectory, out); });
   savePicture(folder, grid, trajectory, lines);
   saveRosMap(folder, grid);
@@ -178,6 +203,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
       {"realtime_factor", wall > 0 ? log.duration / wall : 0},
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings},
+      {"slips", slips},
       {"lines", lines.size()},
       {"distance_m", recorder.distance()},
       {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};

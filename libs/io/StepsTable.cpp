@@ -6,7 +6,7 @@ namespace hybrid_slam {
 
 void writeStepsHeader(std::ostream& out) {
   out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-         "lines_seen,lines_matched,step_ms\n";
+         "lines_seen,lines_matched,step_ms,matched,slipped\n";
 }
 
 void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
@@ -27,9 +27,13 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double 
     else
       out << ',';
   out << s.linesSeen << ',' << s.linesMatched << ',';
-  char text[64];
-  std::snprintf(text, sizeof text, "%.3f", milliseconds);
-  out << text << '\n';
+  number("%.3f", milliseconds);
+  if (s.matched)
+    number("%.3f", *s.matched);
+  else
+    out << ',';
+  if (s.slipped) out << (*s.slipped ? 1 : 0);
+  out << '\n';
 }
 
 void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_weight\n"; }

@@ -73,8 +73,8 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
                           const AssociationOptions& association) {
   ++updates_;
   for (const LineSegment& line : seen) {
-    if (DatabaseLine* match = closestMatch(line, association))
-      *match = merged(*match, line);
+    if (const DatabaseLine* match = closestMatch(line, association))
+      lines_[static_cast<size_t>(match - lines_.data())] = merged(*match, line);
     else if (line.length >= options.minLength)
       lines_.push_back({line, 1, updates_});
   }
@@ -82,10 +82,11 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
   dominatingDirection_ = directionModuloRightAngle(lines_);
 }
 
-DatabaseLine* LineDatabase::closestMatch(const LineSegment& seen, const AssociationOptions& association) {
-  DatabaseLine* closest = nullptr;
+const DatabaseLine* LineDatabase::closestMatch(const LineSegment& seen,
+                                               const AssociationOptions& association) const {
+  const DatabaseLine* closest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (DatabaseLine& line : lines_) {
+  for (const DatabaseLine& line : lines_) {
     const auto distance = matchDistance(seen, line, association);
     if (distance && *distance < least) {
       least = *distance;

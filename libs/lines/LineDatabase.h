@@ -47,6 +47,9 @@ class LineDatabase {
 
   const std::vector<DatabaseLine>& lines() const { return lines_; }
 
+  /// The line that a segment seen now (map frame) belongs to, or null.
+  const DatabaseLine* closestMatch(const LineSegment& seen, const AssociationOptions& association) const;
+
   /// The direction, modulo a right angle, that the lines are parallel or perpendicular to, in rad in
   /// (-pi/4, pi/4]: atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w = length * min(count, 20), so that a
   /// long-known wall does not outweigh all the others for ever. Nothing while there is no line, or none
@@ -54,7 +57,6 @@ class LineDatabase {
   std::optional<double> dominatingDirection() const { return dominatingDirection_; }
 
  private:
-  DatabaseLine* closestMatch(const LineSegment& seen, const AssociationOptions& association);
   void prune(const LineDatabaseOptions& options);
 
   std::vector<DatabaseLine> lines_;

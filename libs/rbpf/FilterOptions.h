@@ -35,8 +35,15 @@ struct ParticleFilterOptions : Options {
 
 /// Section [improved_proposal].
 struct ImprovedProposalOptions : Options {
+  double updateDistance = 0.1;
+  double updateAngle = 5 * M_PI / 180;
   int samples = 20;
   double minFit = 0.02;
+  double lineSigma = 0.5 * M_PI / 180;
+  double lineSigmaRho = 0.05;
+  double slipDistance = 0.5;
+  double slipAngle = 30 * M_PI / 180;
+  double slipProbability = 0.001;
   void describe(OptionTable& table) override;
 };
 
@@ -55,6 +62,13 @@ struct FilterConfiguration {
   LineWeightOptions lineWeight;
   ImprovedProposalOptions improved;
   ScanMatcherOptions matcher;
+
+  /// How far the robot moves (m) or turns (rad) from one update to the next.
+  double updateDistance() const {
+    return usesMatches() ? improved.updateDistance : filter.updateDistance;
+  }
+  double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
+  bool usesMatches() const { return filter.proposal == ParticleFilterOptions::Proposal::improved; }
 
   /// (section, options) of every part.
   std::vector<std::pair<std::string, Options*>> sections() {

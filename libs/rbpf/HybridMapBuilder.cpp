@@ -52,7 +52,7 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
 
 HybridMapBuilder::HybridMapBuilder(const FilterConfiguration& configuration)
     : configuration_(configuration),
-      lineExtractor_(configuration.segmentation, configuration.lineFit, configuration.hough),
+      prepare_(configuration),
       particles_(configuration) {
   particleFilter_.m_options = mrptOptions(configuration.filter);
   initialize();
@@ -62,15 +62,15 @@ void HybridMapBuilder::processActionObservation(mrpt::obs::CActionCollection& ac
                                                 mrpt::obs::CSensoryFrame& observations) {
   odometry_ = odometry_ + odometryIncrement(action);
   const auto scan = observations.getObservationByClass<CObservation2DRangeScan>();
-  const bool isDue = !hasMap_ || odometry_.norm() >= configuration_.filter.updateDistance ||
-                     std::abs(odometry_.phi) >= configuration_.filter.updateAngle;
+  const bool isDue = !hasMap_ || odometry_.norm() >= configuration_.updateDistance() ||
+                     std::abs(odometry_.phi) >= configuration_.updateAngle();
   if (scan && isDue) update(*scan, observations);
 }
 
 // Fig. 1 from top to bottom.
 void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
                               mrpt::obs::CSensoryFrame& observations) {
-  const PreparedScan scan = prepare(observation);  // line detection, Sec. III-B
+  const PreparedScan scan = prepare_(observation);  // line detection, Sec. III-B
   particles_.beginStep(scan);
   if (hasMap_) {
     mrpt::obs::CActionCollection motion;
@@ -91,13 +91,6 @@ void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
   }
 }
 
-PreparedScan HybridMapBuilder::prepare(const CObservation2DRangeScan& observation) const {
-  const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
-  return {scan, ScanBeams(scan, 1), ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
-          ScanBeams(scan, static_cast<size_t>(configuration_.matcher.beamStep)),
-          configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
-}
-
 void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, const mrpt::poses::CPosePDF* x0) {
   odometry_ = TPose2D();
   updates_ = 0;
@@ -110,7 +103,7 @@ void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, cons
     const auto scan = frame->getObservationByClass<CObservation2DRangeScan>();
     if (!scan) continue;
     particles_.appendPose(TPose2D(posePdf->getMeanVal().asTPose()) - particles_.best().path.back());
-    const PreparedScan prepared = prepare(*scan);
+    const PreparedScan prepared = prepare_(*scan);
     particles_.beginStep(prepared);
     particles_.updateMaps();
     hasMap_ = true;

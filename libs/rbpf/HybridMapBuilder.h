@@ -5,7 +5,6 @@
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/slam/CMetricMapBuilder.h>
 
-#include "lines/LineExtractor.h"
 #include "rbpf/FilterOptions.h"
 #include "rbpf/FilterView.h"
 #include "rbpf/ParticleSet.h"
@@ -53,10 +52,9 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public FilterView
 
  private:
   void update(const mrpt::obs::CObservation2DRangeScan& scan, mrpt::obs::CSensoryFrame& observations);
-  PreparedScan prepare(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
   FilterConfiguration configuration_;
-  LineExtractor lineExtractor_;
+  ScanPreparation prepare_;
   ParticleSet particles_;
   mrpt::bayes::CParticleFilter particleFilter_;
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "rbpf/LineLikelihood.h"
 
 namespace hybrid_slam {
 
@@ -25,18 +28,23 @@ Eigen::Vector3d standardNormal(RandomStream& random) {
 ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
     : configuration_(configuration), matcher_(configuration.matcher) {}
 
-Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odometry,
+Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
                                    const PreparedScan& scan, RandomStream& random) const {
-  MotionDistribution motion = motionDistribution(particle.path.back(), odometry, configuration_.motion);
-  motion.covariance.diagonal().array() += 1e-8;  // (0.1 mm, 0.1 mrad)^2: a model without noise has no inverse
+  const MotionDistribution motion = motionAfter(particle.path.back(), stepMotion, configuration_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
+  std::optional<LineLikelihood> lines;
+  if (configuration_.useLines) lines.emplace(scan.lines, motion.mean, *particle.lines, configuration_);
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
-    if (configuration_.useLines)
-      density += lineLogDensity(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
+    if (lines) density += (*lines)(pose);
     return density;
   };
-  const ScanMatch match = matcher_.match(scan.matchedBeams, motion.mean, particle.grid, prior);
+  ScanMatch match = matcher_.match(scan.matchedBeams, motion.mean, particle.grid, prior);
+  if (!(stepMotion.start == stepMotion.odometry)) {
+    const ScanMatch other =
+        matcher_.match(scan.matchedBeams, particle.path.back() + stepMotion.start, particle.grid, prior);
+    if (other.logPosterior > match.logPosterior) match = other;
+  }
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
     return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
@@ -45,11 +53,11 @@ Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odom
   proposed.fit = match.fit;
   proposed.isMatched = match.fit >= configuration_.improved.minFit;
   if (!proposed.isMatched) {
-    proposed.pose = particle.path.back() + sampleMotion(odometry, configuration_.motion, random);
+    proposed.pose = particle.path.back() + sampleMotion(stepMotion.start, configuration_.motion, random);
     proposed.logWeight = matcher_.logLikelihoodValue(scan.matchedBeams, proposed.pose, particle.grid);
-    if (configuration_.useLines) {
+    if (lines) {
       proposed.lineWeight = lineWeightAt(proposed.pose);
-      proposed.logWeight += std::log(proposed.lineWeight.value);
+      proposed.logWeight += (*lines)(proposed.pose).value;
     }
     return proposed;
   }
@@ -92,30 +100,8 @@ Proposed ImprovedProposal::propose(const Particle& particle, const TPose2D& odom
       spread.transpositionsP().transpose() *
       Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
   proposed.pose = displaced(match.pose, mean + drawn);
-  if (configuration_.useLines) proposed.lineWeight = lineWeightAt(proposed.pose);
+  if (lines) proposed.lineWeight = lineWeightAt(proposed.pose);
   return proposed;
-}
-
-LogDensity lineLogDensity(const std::vector<LineSegment>& seen, double heading, const LineDatabase& database,
-                          const LineWeightOptions& options) {
-  LogDensity density;
-  const LineWeight weight = lineWeight(seen, heading, database, options);
-  density.value = std::log(weight.value);
-  const auto direction = database.dominatingDirection();
-  if (!direction || weight.value <= options.floor || options.method == LineWeightOptions::Method::paper)
-    return density;
-  const double information = 1 / (options.sigma * options.sigma);
-  double sum = 0, slope = 0;
-  for (const LineSegment& line : seen) {
-    const double d = std::remainder(line.theta + heading - *direction, M_PI / 2);
-    const double share = line.length * std::exp(-0.5 * d * d * information);
-    sum += share;
-    slope -= share * d * information;
-  }
-  if (sum <= 0) return density;
-  density.gradient.z() = slope / sum;
-  density.information(2, 2) = information;
-  return density;
 }
 
 }  // namespace hybrid_slam

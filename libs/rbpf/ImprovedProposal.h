@@ -3,10 +3,7 @@
 #pragma once
 
 #include "base/RandomStream.h"
-#include "grid/ScanMatcher.h"
-#include "rbpf/FilterOptions.h"
-#include "rbpf/Particle.h"
-#include "rbpf/PreparedScan.h"
+#include "rbpf/SlipRecovery.h"
 
 namespace hybrid_slam {
 
@@ -19,29 +16,25 @@ struct Proposed {
   LineWeight lineWeight;
 };
 
-/// The target density of a step is  p(x) = p(scan | x, grid) w_line(x) p(x | x', odometry).  A match finds
+/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).  A match finds
 /// its top; poses drawn from the normal distribution that the match makes out there, each weighed by p over
 /// that distribution, give the proposal its mean and covariance, and their mean weight is the particle's own:
 /// the integral of p, which does not depend on the pose that is drawn in the end. Where the scan says
 /// nothing, as along a corridor, the motion model keeps its uncertainty.
 ///
 /// A match that fits the map less than min_fit is not used: the pose is drawn from the motion model, and the
-/// weight is p(scan | x, grid) w_line(x) there. Its mean over such draws is the same integral, so that
+/// weight is p(scan | x, grid) p(lines | x, database) there. Its mean over such draws is the same integral, so that
 /// matched and unmatched particles can be compared.
 class ImprovedProposal {
  public:
   explicit ImprovedProposal(const FilterConfiguration& configuration);
 
-  Proposed propose(const Particle& particle, const mrpt::math::TPose2D& odometry, const PreparedScan& scan,
+  Proposed propose(const Particle& particle, const StepMotion& motion, const PreparedScan& scan,
                    RandomStream& random) const;
 
  private:
   FilterConfiguration configuration_;
   ScanMatcher matcher_;
 };
-
-/// ln w_line as a function of the heading; constant below the floor.
-LogDensity lineLogDensity(const std::vector<LineSegment>& seen, double heading, const LineDatabase& database,
-                          const LineWeightOptions& options);
 
 }  // namespace hybrid_slam

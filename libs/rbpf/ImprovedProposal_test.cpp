@@ -1,9 +1,9 @@
 #include "rbpf/ImprovedProposal.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/math/wrap2pi.h>
 
-#include "rbpf/TestRoom.h"
+#include "rbpf/LineLikelihood.h"
+#include "rbpf/MappedRoom.h"
 
 namespace hybrid_slam {
 namespace {
@@ -11,48 +11,21 @@ namespace {
 using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
-const Walls kCorridor{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1000, 1.2}}};
+const StepMotion kMotion{kOdometry, kOdometry, false};
 
 FilterConfiguration configuration(bool useLines) {
   FilterConfiguration c = roomConfiguration();
   c.useLines = useLines;
   c.matcher.sigma = 2;  // broad enough to integrate over a lattice of poses
-  c.lineWeight.sigma = 3 * kDegree;
+  c.improved.lineSigma = 3 * kDegree;
   c.improved.minFit = 0;
   return c;
-}
-
-PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStream& random) {
-  const LaserScan scan = scanOf(walls, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
-  const FilterConfiguration c;
-  return {scan, ScanBeams(scan, 1), ScanBeams(scan, 1), ScanBeams(scan, 1),
-          LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan)};
-}
-
-/// A particle at `start` that has mapped the walls around.
-Particle particleAt(const Walls& walls, const TPose2D& start) {
-  RandomStream random(1, 0, 0);
-  Particle particle;
-  particle.path.push(start);
-  for (int i = 0; i < 40; ++i) {
-    const TPose2D robot(uniform(random, -1, 1), uniform(random, -0.5, 0.5), uniform(random, -M_PI, M_PI));
-    const PreparedScan scan = prepared(walls, robot, random);
-    particle.grid.insert(scan.beams, robot, GridOptions());
-    std::vector<LineSegment> lines;
-    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, robot));
-    particle.lines.write().update(lines, LineDatabaseOptions(), AssociationOptions());
-  }
-  return particle;
 }
 
 /// The scan, a little beside where the odometry says.
 PreparedScan scanAfterwards(const Walls& walls, const TPose2D& start) {
   RandomStream random(2, 0, 0);
   return prepared(walls, start + kOdometry + TPose2D(0.01, -0.008, 0.01), random);
-}
-
-Eigen::Vector3d offset(const TPose2D& pose, const TPose2D& from) {
-  return {pose.x - from.x, pose.y - from.y, mrpt::math::wrapToPi(pose.phi - from.phi)};
 }
 
 struct Moments {
@@ -62,12 +35,13 @@ struct Moments {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// p(scan | x, grid) w_line(x) p(x | x', odometry) over a lattice that spans 4.5 deviations of the motion
+/// p(scan | x, grid) p(lines | x, database) p(x | x', odometry) over a lattice that spans 4.5 deviations of the motion
 /// model.
 Moments integrated(const FilterConfiguration& c, const Particle& particle, const PreparedScan& scan) {
   const MotionDistribution motion = motionDistribution(particle.path.back(), kOdometry, c.motion);
   const Eigen::Matrix3d root = motion.covariance.llt().matrixL();
   const ScanMatcher matcher(c.matcher);
+  const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, c);
   constexpr int kHalf = 18;
   constexpr double kStep = 0.25;
   Moments all;
@@ -79,7 +53,7 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
         double density = std::exp(matcher.logLikelihoodValue(scan.matchedBeams, pose, particle.grid) -
                                   0.5 * normal.squaredNorm()) *
                          std::pow(kStep / std::sqrt(2 * M_PI), 3);
-        if (c.useLines) density *= lineWeight(scan.lines, pose.phi, *particle.lines, c.lineWeight).value;
+        if (c.useLines) density *= std::exp(lines(pose).value);
         all.mass += density;
         all.mean += density * off;
         all.covariance += density * off * off.transpose();
@@ -97,7 +71,7 @@ Moments proposed(const FilterConfiguration& c, const Particle& particle, const P
   double squares = 0;
   for (int i = 0; i < streams; ++i) {
     RandomStream random(3, 0, static_cast<uint64_t>(i));
-    const Proposed p = proposal.propose(particle, kOdometry, scan, random);
+    const Proposed p = proposal.propose(particle, kMotion, scan, random);
     EXPECT_EQ(p.isMatched, p.fit >= c.improved.minFit);
     const double weight = std::exp(p.logWeight);
     all.mass += weight / streams, squares += weight * weight / streams;
@@ -175,9 +149,9 @@ TEST_P(ImprovedProposals, NothingSeenOrMappedLeavesTheMotionModel) {
   Particle blank;
   blank.path.push(kStart);
   RandomStream random(5, 0, 0);
-  EXPECT_FALSE(ImprovedProposal(c).propose(blank, kOdometry, scan, random).isMatched);
+  EXPECT_FALSE(ImprovedProposal(c).propose(blank, kMotion, scan, random).isMatched);
   scan.matchedBeams.rays.clear(), scan.lines.clear();
-  const Proposed p = ImprovedProposal(c).propose(particle, kOdometry, scan, random);
+  const Proposed p = ImprovedProposal(c).propose(particle, kMotion, scan, random);
   EXPECT_FALSE(p.isMatched);
   EXPECT_EQ(p.fit, 0);
   EXPECT_EQ(p.logWeight, 0);
@@ -190,50 +164,13 @@ TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   c.motion.minStdXY = c.motion.minStdPhi = 0;
   const Particle particle = particleAt(room(), kStart);
   RandomStream random(6, 0, 0);
-  const Proposed p = ImprovedProposal(c).propose(particle, kOdometry, scanAfterwards(room(), kStart), random);
+  const Proposed p = ImprovedProposal(c).propose(particle, kMotion, scanAfterwards(room(), kStart), random);
   EXPECT_TRUE(std::isfinite(p.logWeight));
   EXPECT_LT(offset(p.pose, kStart + kOdometry).norm(), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ImprovedProposals, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "WithLines" : "WithoutLines"; });
-
-TEST(LineLogDensity, IsTheLogarithmOfTheWeightWithItsGradient) {
-  const Particle particle = particleAt(room(), kStart);
-  const PreparedScan scan = scanAfterwards(room(), kStart);
-  ASSERT_TRUE(particle.lines->dominatingDirection());
-  RandomStream random(7, 0, 0);
-  LineWeightOptions options;
-  int sloped = 0;
-  for (int i = 0; i < 500; ++i) {
-    const double heading = kStart.phi + 0.06 * random.gaussian();
-    const auto ln = [&](double at) {
-      return std::log(lineWeight(scan.lines, at, *particle.lines, options).value);
-    };
-    const LogDensity density = lineLogDensity(scan.lines, heading, *particle.lines, options);
-    EXPECT_EQ(density.value, ln(heading));
-    EXPECT_EQ(density.gradient.x(), 0);
-    EXPECT_EQ(density.gradient.y(), 0);
-    EXPECT_GE(density.information(2, 2), 0);
-    const double below = ln(heading - 1e-6), above = ln(heading + 1e-6), floor = std::log(options.floor);
-    if ((below == floor) != (above == floor)) continue;  // the edge of the floor has no slope
-    EXPECT_NEAR(density.gradient.z(), (above - below) / 2e-6, 1e-4 * (1 + std::abs(density.gradient.z())));
-    sloped += density.gradient.z() != 0;
-  }
-  EXPECT_GT(sloped, 100);
-}
-
-TEST(LineLogDensity, EqNinesStepsHaveNoSlope) {
-  const Particle particle = particleAt(room(), kStart);
-  const PreparedScan scan = scanAfterwards(room(), kStart);
-  LineWeightOptions options;
-  options.method = LineWeightOptions::Method::paper;
-  const LogDensity density = lineLogDensity(scan.lines, kStart.phi + 0.2, *particle.lines, options);
-  EXPECT_EQ(density.value,
-            std::log(lineWeight(scan.lines, kStart.phi + 0.2, *particle.lines, options).value));
-  EXPECT_EQ(density.gradient, Eigen::Vector3d::Zero());
-  EXPECT_EQ(density.information, Eigen::Matrix3d::Zero());
-}
 
 }  // namespace
 }  // namespace hybrid_slam

@@ -19,6 +19,7 @@ struct Particle {
   double logWeight = 0;   ///< after the last weighing, before any resampling; best particle = its argmax
   double gridWeight = 1;  ///< w_grid before tempering, in [0, 1]
   LineWeight lineWeight;  ///< w_line
+  bool isMatched = true;  ///< improved proposal: by a scan match, not by odometry alone
 };
 
 }  // namespace hybrid_slam

@@ -55,6 +55,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& configuration)
     : configuration_(configuration),
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
       improvedProposal_(configuration),
+      slipRecovery_(configuration),
       arena_(configuration.filter.threads > 0 ? std::min(configuration.filter.threads, coresAllowed())
                                               : +tbb::task_arena::automatic) {}
 
@@ -136,16 +137,21 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
 void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActionCollection* action,
                                                           const mrpt::obs::CSensoryFrame* /*observation*/,
                                                           const PfOptions& /*PF_options*/) {
-  const TPose2D odometry = rawOdometry(*action);
+  const StepMotion motion = slipRecovery_.motionOf(best(), rawOdometry(*action), *scan_);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
-    const auto proposed = improvedProposal_.propose(particle, odometry, *scan_, random);
+    const auto proposed = improvedProposal_.propose(particle, motion, *scan_, random);
     particle.path.push(proposed.pose);
     particle.gridWeight = proposed.fit;
     particle.lineWeight = proposed.lineWeight;
+    particle.isMatched = proposed.isMatched;
     m_particles[i].log_w += proposed.logWeight;
   });
   summarise();
+  step_.slipped = motion.hasSlipped;
+  const auto matched = std::count_if(m_particles.begin(), m_particles.end(),
+                                     [](const auto& particle) { return particle.d->isMatched; });
+  step_.matched = static_cast<double>(matched) / static_cast<double>(m_particles.size());
 }
 
 void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::CActionCollection* action,

@@ -87,6 +87,7 @@ class ParticleSet
   FilterConfiguration configuration_;
   GridWeight gridWeight_;
   ImprovedProposal improvedProposal_;
+  SlipRecovery slipRecovery_;
   tbb::task_arena arena_;
   const PreparedScan* scan_ = nullptr;
   uint64_t stepNumber_ = 0;

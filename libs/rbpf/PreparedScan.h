@@ -7,6 +7,7 @@
 #include "base/LaserScan.h"
 #include "grid/ScanBeams.h"
 #include "lines/LineSegment.h"
+#include "rbpf/FilterOptions.h"
 
 namespace hybrid_slam {
 
@@ -16,7 +17,18 @@ struct PreparedScan {
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< every beam_step-th of [grid_weight]
   ScanBeams matchedBeams;          ///< every beam_step-th of [scan_matcher]
-  std::vector<LineSegment> lines;  ///< robot frame
+  std::vector<LineSegment> lines;  ///< robot frame; none without lines
+};
+
+/// Line detection (Sec. III-B) and all else that is the same for every particle.
+class ScanPreparation {
+ public:
+  explicit ScanPreparation(const FilterConfiguration& configuration);
+  PreparedScan operator()(const mrpt::obs::CObservation2DRangeScan& observation) const;
+
+ private:
+  FilterConfiguration configuration_;
+  LineExtractor lineExtractor_;
 };
 
 }  // namespace hybrid_slam

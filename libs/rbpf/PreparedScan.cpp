@@ -1,0 +1,16 @@
+#include "rbpf/PreparedScan.h"
+
+namespace hybrid_slam {
+
+ScanPreparation::ScanPreparation(const FilterConfiguration& configuration)
+    : configuration_(configuration),
+      lineExtractor_(configuration.segmentation, configuration.lineFit, configuration.hough) {}
+
+PreparedScan ScanPreparation::operator()(const mrpt::obs::CObservation2DRangeScan& observation) const {
+  const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
+  return {scan, ScanBeams(scan, 1), ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
+          ScanBeams(scan, static_cast<size_t>(configuration_.matcher.beamStep)),
+          configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
+}
+
+}  // namespace hybrid_slam

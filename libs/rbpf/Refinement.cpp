@@ -1,0 +1,51 @@
+#include "rbpf/Refinement.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "grid/ScanMatcher.h"
+#include "rbpf/PreparedScan.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration) {
+  const ScanPreparation prepare(configuration);
+  ScanMap map{OccupancyGrid(configuration.grid.resolution), {}};
+  for (const PosedScan& posed : scans) {
+    if (!posed.isMapped) continue;
+    const PreparedScan scan = prepare(*posed.scan);
+    map.grid.insert(scan.beams, posed.pose, configuration.grid);
+    std::vector<LineSegment> lines;
+    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, posed.pose));
+    map.lines.update(lines, configuration.database, configuration.association);
+  }
+  return map;
+}
+
+void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configuration, int passes) {
+  const Eigen::Vector3d deviations(0.05, 0.05, M_PI / 180);
+  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+  const ScanMatcher matcher(configuration.matcher);
+  tbb::task_arena arena(configuration.filter.threads > 0 ? configuration.filter.threads
+                                                         : +tbb::task_arena::automatic);
+  for (int pass = 0; pass < passes; ++pass) {
+    const OccupancyGrid grid = mapOf(scans, configuration).grid;
+    arena.execute([&] {
+      tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
+        TPose2D& pose = scans[i].pose;
+        const ScanBeams beams(toLaserScan(*scans[i].scan, configuration.grid.maxRange),
+                              static_cast<size_t>(configuration.matcher.beamStep));
+        const Prior prior = [&, before = pose](const TPose2D& at) {
+          return gaussianLogDensity(at, before, information);
+        };
+        const ScanMatch match = matcher.match(beams, pose, grid, prior);
+        if (match.fit >= configuration.improved.minFit) pose = match.pose;
+      });
+    });
+  }
+}
+
+}  // namespace hybrid_slam
