@@ -1,0 +1,223 @@
+#include "motion/MotionModelFit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "motion/SimulatedMotions.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+using mrpt::math::TPose2D;
+using testing::HasSubstr;
+
+constexpr size_t kSteps = 5000;
+constexpr double kErrors = 4;  // standard errors; 12 parameters in 5 runs leave 0.4 % for a false alarm
+
+std::vector<MotionSample> simulate(const MotionModelOptions& model, const std::vector<TPose2D>& odometry,
+                                   RandomStream& random) {
+  std::vector<MotionSample> samples;
+  for (const TPose2D& step : odometry) samples.push_back({step, sampleMotion(step, model, random), 1});
+  return samples;
+}
+
+/// Steps that are always the same function of the number i.
+template <class Step>
+std::vector<MotionSample> drive(size_t steps, const Step& step) {
+  RandomStream random(3, 0, 0);
+  std::vector<TPose2D> odometry;
+  for (size_t i = 0; i < steps; ++i) odometry.push_back(step(i).increment());
+  return simulate(trueModel(), odometry, random);
+}
+
+void expectKept(const MotionTerm& fitted, const MotionTerm& prior, bool keepsD, bool keepsT) {
+  EXPECT_EQ(fitted.meanD == prior.meanD, keepsD);
+  EXPECT_EQ(fitted.varianceD == prior.varianceD, keepsD);
+  EXPECT_EQ(fitted.meanT == prior.meanT, keepsT);
+  EXPECT_EQ(fitted.varianceT == prior.varianceT, keepsT);
+}
+
+MotionModelOptions randomModel(RandomStream& random) {
+  MotionModelOptions o;
+  const auto spread = [&random] { return std::pow(10, -6 + 6 * random.uniform()); };
+  for (MotionTerm* term : {&o.distance, &o.drift, &o.turn})
+    *term = {random.gaussian(), random.gaussian(), random.uniform() < 0.2 ? 0 : spread(),
+             random.uniform() < 0.2 ? 0 : spread()};
+  o.minStdXY = 0.01 * random.uniform(), o.minStdPhi = 0.01 * random.uniform();
+  return o;
+}
+
+TEST(MotionModelFit, RecoversTheParametersOfSimulatedOdometry) {
+  for (const uint64_t seed : {1, 2, 3, 4, 5}) {
+    RandomStream random(seed, 0, 0);
+    const MotionModelOptions truth = trueModel(), prior;
+    const auto odometry = randomOdometry(kSteps, random);
+    const auto samples = simulate(truth, odometry, random);
+    const MotionModelOptions fitted = fitMotionModel(samples, prior, determine(samples));
+    const auto expectNear = [&](const MotionTerm& term, const MotionTerm& expected, double minStd) {
+      const Parameters errors = standardErrors(expected, minStd, odometry);
+      for (size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(parametersOf(term)[i], parametersOf(expected)[i], kErrors * errors[i]) << i;
+    };
+    expectNear(fitted.distance, truth.distance, truth.minStdXY);
+    expectNear(fitted.drift, truth.drift, truth.minStdXY);
+    expectNear(fitted.turn, truth.turn, truth.minStdPhi);
+    EXPECT_GT(logLikelihood(samples, fitted), logLikelihood(samples, truth));
+  }
+}
+
+/// The bounds of the test above say little if they are wide.
+TEST(MotionModelFit, TheBoundsOfTheRecoveryAreNarrow) {
+  RandomStream random(1, 0, 0);
+  const Parameters errors = standardErrors(trueModel().distance, 0.005, randomOdometry(kSteps, random));
+  EXPECT_LT(kErrors * errors[0], 0.015);   // m/m
+  EXPECT_LT(kErrors * errors[1], 0.010);   // m/rad
+  EXPECT_LT(kErrors * errors[2], 0.0006);  // of 0.004
+  EXPECT_LT(kErrors * errors[3], 0.0002);  // of 0.0009
+}
+
+TEST(MotionModelFit, NeverLowersTheLikelihood) {
+  RandomStream random(2, 0, 0);
+  for (int run = 0; run < 300; ++run) {
+    const MotionModelOptions truth = randomModel(random), present = randomModel(random);
+    auto samples = simulate(truth, randomOdometry(10 + random.bits() % 60, random), random);
+    for (MotionSample& sample : samples) sample.weight = random.uniform();
+    if (run % 3 == 0) samples[0].motion.x += 30;  // a slip
+    Determination determined;
+    determined.meanD = run % 5 != 0, determined.varianceD = run % 5 != 1;
+    determined.meanT = run % 5 != 2, determined.varianceT = run % 5 != 3;
+    const MotionModelOptions fitted = fitMotionModel(samples, present, determined);
+    EXPECT_GE(logLikelihood(samples, fitted), logLikelihood(samples, present)) << run;
+    for (const auto& [after, before] :
+         {std::pair(fitted.distance, present.distance), std::pair(fitted.drift, present.drift),
+          std::pair(fitted.turn, present.turn)}) {
+      EXPECT_GE(after.varianceD, 0);
+      EXPECT_GE(after.varianceT, 0);
+      const Parameters is = parametersOf(after), was = parametersOf(before);
+      const bool isFree[] = {determined.meanD, determined.meanT, determined.varianceD, determined.varianceT};
+      for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(isFree[i] || is[i] == was[i]) << run << " " << i;
+    }
+  }
+}
+
+TEST(MotionModelFit, TheLikelihoodIsThatOfTheSampledModel) {
+  const MotionModelOptions model = trueModel();
+  const TPose2D odometry(0.4, 0.03, 0.2);
+  RandomStream random(4, 0, 0);
+  double mean = 0;
+  for (int i = 0; i < 10000; ++i)
+    mean += logLikelihood({{odometry, sampleMotion(odometry, model, random), 1}}, model) / 10000;
+  const MotionStep step(odometry);
+  const double v = model.distance.variance(step, model.minStdXY) *
+                   model.drift.variance(step, model.minStdXY) * model.turn.variance(step, model.minStdPhi);
+  // The negative entropy of three normal numbers; each one's term has the standard deviation sqrt(1 / 2).
+  EXPECT_NEAR(mean, -0.5 * std::log(v) - 1.5 * std::log(2 * M_PI * M_E), 4 * std::sqrt(1.5 / 10000));
+}
+
+TEST(MotionModelFit, HypothesesCountByTheirWeights) {
+  const MotionModelOptions prior;
+  std::vector<MotionSample> samples;
+  for (int i = 0; i < 100; ++i) {
+    const TPose2D odometry = MotionStep(0.3, 0, i % 2 ? 0.4 : -0.1).increment();
+    samples.push_back({odometry, MotionStep(0.3 + 0.04, 0, odometry.phi).increment(), 0.25});
+    samples.push_back({odometry, MotionStep(0.3, 0, odometry.phi).increment(), 0.75});
+  }
+  Determination determined;
+  determined.varianceT = determined.meanT = false;
+  MotionModelOptions noTurn = prior;
+  noTurn.distance.varianceT = 0;
+  const MotionModelOptions fitted = fitMotionModel(samples, noTurn, determined);
+  EXPECT_NEAR(0.3 * fitted.distance.meanD, 0.31, 1e-6);
+  const double variance = 0.25 * 0.75 * 0.04 * 0.04 - prior.minStdXY * prior.minStdXY;
+  EXPECT_NEAR(0.09 * fitted.distance.varianceD, variance, 1e-6 * variance + 1e-11);
+}
+
+TEST(MotionModelFit, TurnsAreModuloAFullCircle) {
+  std::vector<MotionSample> samples;
+  for (int i = 0; i < 50; ++i) {
+    const double turn = (i % 2 ? 1 : -1) * (M_PI - 0.02);
+    TPose2D motion = MotionStep(0.3, 0.01, turn * 1.02).increment();  // beyond half a circle
+    motion.phi = std::remainder(motion.phi, 2 * M_PI);
+    samples.push_back({MotionStep(0.3, 0.01, turn).increment(), motion, 1});
+  }
+  const MotionModelOptions fitted = fitMotionModel(samples, MotionModelOptions(), determine(samples));
+  EXPECT_NEAR(fitted.turn.meanT, 1.02, 1e-6);
+  EXPECT_NEAR(fitted.distance.meanD, 1, 1e-6);
+  EXPECT_NEAR(fitted.drift.meanD, 0, 1e-6);
+}
+
+TEST(MotionModelFit, ExactOdometryLeavesNoVariance) {
+  MotionModelOptions prior;
+  prior.minStdXY = prior.minStdPhi = 0;
+  RandomStream random(5, 0, 0);
+  std::vector<MotionSample> samples;
+  for (const TPose2D& odometry : randomOdometry(200, random)) samples.push_back({odometry, odometry, 1});
+  const MotionModelOptions fitted = fitMotionModel(samples, prior, determine(samples));
+  EXPECT_NEAR(fitted.distance.meanD, 1, 1e-6);
+  EXPECT_NEAR(fitted.turn.meanT, 1, 1e-6);
+  for (const MotionTerm* term : {&fitted.distance, &fitted.drift, &fitted.turn}) {
+    EXPECT_NEAR(term->varianceD, 0, 1e-9);
+    EXPECT_NEAR(term->varianceT, 0, 1e-9);
+  }
+}
+
+TEST(Determination, ARobotThatNeverTurnedKeepsThePriorForTurns) {
+  RandomStream noise(6, 0, 0);
+  const auto samples = drive(1000, [&](size_t) { return MotionStep(0.3, 0, 0.003 * noise.gaussian()); });
+  const Determination determined = determine(samples);
+  ASSERT_EQ(determined.lacks.size(), 1u);
+  EXPECT_EQ(determined.lacks[0].keys, "mean_t, var_t");
+  EXPECT_EQ(determined.lacks[0].why, "the robot turned 2.9 deg or more in 0 updates, it takes 20");
+  const MotionModelOptions prior, fitted = fitMotionModel(samples, prior, determined);
+  expectKept(fitted.distance, prior.distance, false, true);
+  expectKept(fitted.drift, prior.drift, false, true);
+  expectKept(fitted.turn, prior.turn, false, true);
+}
+
+TEST(Determination, ARobotThatNeverMovedKeepsThePriorForMoves) {
+  const auto samples =
+      drive(100, [](size_t i) { return MotionStep(0.001, 0, 0.1 + 0.001 * static_cast<double>(i)); });
+  const Determination determined = determine(samples);
+  ASSERT_EQ(determined.lacks.size(), 1u);
+  EXPECT_EQ(determined.lacks[0].keys, "mean_d, var_d");
+  EXPECT_THAT(determined.lacks[0].why, HasSubstr("moved 2 cm or more in 0 updates"));
+  const MotionModelOptions prior, fitted = fitMotionModel(samples, prior, determined);
+  expectKept(fitted.distance, prior.distance, true, false);
+  expectKept(fitted.turn, prior.turn, true, false);
+}
+
+TEST(Determination, TwentyStepsAreEnoughAndNineteenAreNot) {
+  const auto step = [](size_t i) { return MotionStep(0.3, 0, i % 2 ? 0.3 : 0.1); };
+  EXPECT_TRUE(determine(drive(20, step)).lacks.empty());
+  EXPECT_TRUE(determine(drive(19, step)).nothing());
+  EXPECT_TRUE(determine({}).nothing());
+}
+
+TEST(Determination, CirclesTellOnlyTheSumOfBoth) {
+  const auto circle = [](size_t i) {
+    const double d = 0.1 + 0.01 * static_cast<double>(i % 30);
+    return MotionStep(d, 0, 0.8 * d);
+  };
+  const Determination determined = determine(drive(200, circle));
+  EXPECT_TRUE(determined.nothing());
+  ASSERT_EQ(determined.lacks.size(), 2u);
+  EXPECT_THAT(determined.lacks[0].why, HasSubstr("in proportion"));
+}
+
+TEST(Determination, CirclesBothWaysTellTheMeansButNotTheVariances) {
+  const auto eight = [](size_t i) {
+    const double d = 0.1 + 0.01 * static_cast<double>(i % 30);
+    return MotionStep(d, 0, i % 2 ? 0.8 * d : -0.8 * d);
+  };
+  const auto samples = drive(200, eight);
+  const Determination determined = determine(samples);
+  EXPECT_TRUE(determined.meanD && determined.meanT);
+  EXPECT_FALSE(determined.varianceD || determined.varianceT);
+  const MotionModelOptions prior, fitted = fitMotionModel(samples, prior, determined);
+  EXPECT_NE(fitted.distance.meanD, prior.distance.meanD);
+  EXPECT_EQ(fitted.distance.varianceD, prior.distance.varianceD);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
