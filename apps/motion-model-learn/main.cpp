@@ -124,7 +124,7 @@ int learn(const CommandLine& line, Configuration configuration) {
   output.finish();
   if (!line.isQuiet)
     std::cout << (learnt.isConverged ? "the likelihood has stopped rising"
-                                     : "the likelihood still rises; --iterations takes more")
+                                     : "the likelihood has not stopped rising; --iterations takes more")
               << ": iteration " << learnt.best.number << " is in " << line.output << "\n";
   if (!log.defect.empty())
     return fail(1, "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + line.log +
