@@ -157,8 +157,8 @@ double cosine(const std::vector<MotionSample>& samples, const F& f, const G& g) 
 Determination determine(const std::vector<MotionSample>& samples) {
   constexpr double kLeastDistance = 0.02, kLeastTurn = 0.05;  // m, rad
   constexpr double kLeastSteps = 20;
-  constexpr double kMostCosine =
-      0.99;  // beyond, the standard errors are 7 times those of one regressor alone
+  // Beyond, the standard errors are 7 times those of one regressor alone.
+  constexpr double kMostCosine = 0.99;
 
   double moved = 0, turned = 0;
   for (const MotionSample& sample : samples) {

@@ -40,7 +40,7 @@ void expectKept(const MotionTerm& fitted, const MotionTerm& prior, bool keepsD, 
 
 MotionModelOptions randomModel(RandomStream& random) {
   MotionModelOptions o;
-  const auto spread = [&random] { return std::pow(10, -6 + 6 * random.uniform()); };
+  const auto spread = [&random] { return std::pow(10, -9 + 9 * random.uniform()); };
   for (MotionTerm* term : {&o.distance, &o.drift, &o.turn})
     *term = {random.gaussian(), random.gaussian(), random.uniform() < 0.2 ? 0 : spread(),
              random.uniform() < 0.2 ? 0 : spread()};
@@ -79,9 +79,9 @@ TEST(MotionModelFit, TheBoundsOfTheRecoveryAreNarrow) {
 
 TEST(MotionModelFit, NeverLowersTheLikelihood) {
   RandomStream random(2, 0, 0);
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < 20000; ++run) {
     const MotionModelOptions truth = randomModel(random), present = randomModel(random);
-    auto samples = simulate(truth, randomOdometry(10 + random.bits() % 60, random), random);
+    auto samples = simulate(truth, randomOdometry(3 + random.bits() % 12, random), random);
     for (MotionSample& sample : samples) sample.weight = random.uniform();
     if (run % 3 == 0) samples[0].motion.x += 30;  // a slip
     Determination determined;
@@ -98,6 +98,27 @@ TEST(MotionModelFit, NeverLowersTheLikelihood) {
       const bool isFree[] = {determined.meanD, determined.meanT, determined.varianceD, determined.varianceT};
       for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(isFree[i] || is[i] == was[i]) << run << " " << i;
     }
+  }
+}
+
+/// No neighbour is more likely, a twentieth of a standard error to either side in any parameter.
+TEST(MotionModelFit, FindsTheTopOfTheLikelihood) {
+  RandomStream random(7, 0, 0);
+  const auto odometry = randomOdometry(300, random);
+  const auto samples = simulate(trueModel(), odometry, random);
+  const MotionModelOptions fitted = fitMotionModel(samples, MotionModelOptions(), determine(samples));
+  const double top = logLikelihood(samples, fitted);
+  for (MotionTerm MotionModelOptions::*term :
+       {&MotionModelOptions::distance, &MotionModelOptions::drift, &MotionModelOptions::turn}) {
+    const Parameters errors = standardErrors(fitted.*term, fitted.minStdPhi, odometry);
+    double MotionTerm::*const parameters[] = {&MotionTerm::meanD, &MotionTerm::meanT, &MotionTerm::varianceD,
+                                              &MotionTerm::varianceT};
+    for (size_t i = 0; i < 4; ++i)
+      for (const double side : {-0.05, 0.05}) {
+        MotionModelOptions neighbour = fitted;
+        neighbour.*term.*parameters[i] += side * errors[i];
+        EXPECT_LT(logLikelihood(samples, neighbour), top) << i;
+      }
   }
 }
 
