@@ -2,10 +2,11 @@
 /// @brief motion-model-learn: a robot's motion model from a log (doc/motion-model.md).
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 #include "base/Errors.h"
 #include "io/FilteredMotions.h"
@@ -77,19 +78,23 @@ Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
 /// What the learnt section says of its origin.
 std::vector<std::string> comments(const CommandLine& line, const Configuration& configuration,
                                   const EmIteration& prior, const LearntMotionModel& learnt) {
-  char updates[64], likelihoods[64];
-  std::snprintf(updates, sizeof updates, "%g m or %g deg", configuration.filter.filter.updateDistance,
-                configuration.filter.filter.updateAngle * 180 / M_PI);
-  std::snprintf(likelihoods, sizeof likelihoods, "%.4f (the prior's: %.4f)", learnt.best.logLikelihood,
-                prior.logLikelihood);
+  const auto text = [](const auto&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+  };
+  const ParticleFilterOptions& filter = configuration.filter.filter;
   std::vector<std::string> all{
-      "Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from " + line.log + " with " + line.config + ".",
-      "For updates every " + std::string(updates) + ": the variances are those of such steps.",
-      std::to_string(learnt.best.number) + " iterations; log-likelihood per update " + likelihoods + ".",
-      "Use: cat " + line.config + " " + line.output + " > learnt.ini"};
+      text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.log, " with ", line.config,
+           "."),
+      text("For updates every ", filter.updateDistance, " m or ", filter.updateAngle * 180 / M_PI,
+           " deg: the variances are those of such steps."),
+      text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
+           " (the prior's: ", prior.logLikelihood, ")."),
+      text("Use: cat ", line.config, " ", line.output, " > learnt.ini")};
   for (const auto& [keys, why] : learnt.determined.lacks)
-    all.push_back("Not learnt but kept from " + line.config + ": " + keys +
-                  " of distance, drift and turn: " + why);
+    all.push_back(
+        text("Not learnt but kept from ", line.config, ": ", keys, " of distance, drift and turn: ", why));
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "motion/MotionModel.h"
+#include "motion/Determination.h"
 
 namespace hybrid_slam::test {
 
@@ -26,6 +26,16 @@ inline std::vector<mrpt::math::TPose2D> randomOdometry(size_t steps, RandomStrea
     all.push_back(MotionStep(d, 0.02 * random.gaussian(), t).increment());
   }
   return all;
+}
+
+/// What really happened in such steps.
+inline std::vector<MotionSample> simulate(const MotionModelOptions& model,
+                                          const std::vector<mrpt::math::TPose2D>& odometry,
+                                          RandomStream& random) {
+  std::vector<MotionSample> samples;
+  for (const mrpt::math::TPose2D& step : odometry)
+    samples.push_back({step, sampleMotion(step, model, random), 1});
+  return samples;
 }
 
 using Parameters = std::array<double, 4>;  ///< mean_d, mean_t, var_d, var_t
