@@ -139,7 +139,7 @@ TEST_F(HybridSlam, WritesAllResultsAndSumsUp) {
   for (const auto& [key, value] : metrics.items()) keys.push_back(key);
   EXPECT_THAT(keys, UnorderedElementsAre("method", "particles", "seed", "threads", "scans", "updates",
                                          "duration_s", "wall_s", "cpu_s", "realtime_factor", "peak_rss_mb",
-                                         "resamplings", "lines", "distance_m", "versions"));
+                                         "resamplings", "slips", "lines", "distance_m", "versions"));
   EXPECT_EQ(metrics["method"], "hybrid");
   EXPECT_EQ(metrics["particles"], 5);
   EXPECT_EQ(metrics["seed"], 7);
@@ -155,11 +155,11 @@ TEST_F(HybridSlam, WritesAllResultsAndSumsUp) {
   EXPECT_EQ(
       result("steps.csv").substr(0, result("steps.csv").find('\n')),
       "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-      "lines_seen,lines_matched,step_ms");
+      "lines_seen,lines_matched,step_ms,matched,slipped");
   EXPECT_EQ(steps.size(), metrics["updates"].get<size_t>() + 1);
   size_t resamplings = 0;
   for (size_t i = 1; i < steps.size(); ++i) {
-    ASSERT_EQ(steps[i].size(), 14u) << i;
+    ASSERT_EQ(steps[i].size(), 16u) << i;
     EXPECT_EQ(steps[i][1], "5");
     resamplings += steps[i][3] == "1" ? 1 : 0;
   }

@@ -3,6 +3,9 @@
 #include <cmath>
 
 namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
 namespace {
 
 /// The term's keys: NAME_mean_d, NAME_mean_t, NAME_var_d, NAME_var_t.
@@ -18,26 +21,17 @@ void describeTerm(OptionTable& t, MotionTerm& term, const std::string& name, con
         "variance of the " + what + " per squared radian of odometry");
 }
 
-/// The odometry's own step, seen along its mean heading: what it moved sideways stays in the drift.
-struct OdometryStep {
-  explicit OdometryStep(const mrpt::math::TPose2D& odometry)
-      : d(std::cos(odometry.phi / 2) * odometry.x + std::sin(odometry.phi / 2) * odometry.y),
-        sideways(-std::sin(odometry.phi / 2) * odometry.x + std::cos(odometry.phi / 2) * odometry.y),
-        t(odometry.phi) {}
-  double mean(const MotionTerm& term) const { return term.meanD * d + term.meanT * t; }
-  double variance(const MotionTerm& term, double minStd) const {
-    return term.varianceD * d * d + term.varianceT * t * t + minStd * minStd;
-  }
-  double d, sideways, t;  ///< m, m, rad
-};
+}  // namespace
 
-/// The step of `distance` along the heading in the middle of the turn, and `drift` across it.
-mrpt::math::TPose2D step(double distance, double drift, double turn) {
+MotionStep::MotionStep(const TPose2D& p)
+    : distance(std::cos(p.phi / 2) * p.x + std::sin(p.phi / 2) * p.y),
+      drift(-std::sin(p.phi / 2) * p.x + std::cos(p.phi / 2) * p.y),
+      turn(p.phi) {}
+
+TPose2D MotionStep::increment() const {
   const double c = std::cos(turn / 2), s = std::sin(turn / 2);
   return {c * distance - s * drift, s * distance + c * drift, turn};
 }
-
-}  // namespace
 
 void MotionModelOptions::describe(OptionTable& t) {
   describeTerm(t, distance, "distance", "m", "distance along the heading");
@@ -47,30 +41,30 @@ void MotionModelOptions::describe(OptionTable& t) {
   t.addAngle("min_std_phi_deg", minStdPhi, 0, 60, "least standard deviation of the turn in a step");
 }
 
-mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& o,
-                                 RandomStream& random) {
-  const OdometryStep seen(odometry);
+TPose2D sampleMotion(const TPose2D& odometry, const MotionModelOptions& o, RandomStream& random) {
+  const MotionStep seen(odometry);
   const auto draw = [&](const MotionTerm& term, double minStd) {
-    return seen.mean(term) + std::sqrt(seen.variance(term, minStd)) * random.gaussian();
+    return term.mean(seen) + std::sqrt(term.variance(seen, minStd)) * random.gaussian();
   };
   const double distance = draw(o.distance, o.minStdXY);
-  const double drift = seen.sideways + draw(o.drift, o.minStdXY);
-  return step(distance, drift, draw(o.turn, o.minStdPhi));
+  const double drift = seen.drift + draw(o.drift, o.minStdXY);
+  return MotionStep(distance, drift, draw(o.turn, o.minStdPhi)).increment();
 }
 
-MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
+MotionDistribution motionDistribution(const TPose2D& start, const TPose2D& odometry,
                                       const MotionModelOptions& o) {
-  const OdometryStep seen(odometry);
-  const double distance = seen.mean(o.distance), drift = seen.sideways + seen.mean(o.drift);
-  const double turn = seen.mean(o.turn), heading = start.phi + turn / 2;
+  const MotionStep seen(odometry);
+  const double distance = o.distance.mean(seen), drift = seen.drift + o.drift.mean(seen);
+  const double turn = o.turn.mean(seen), heading = start.phi + turn / 2;
   const double c = std::cos(heading), s = std::sin(heading);
   Eigen::Matrix3d jacobian;  // of the pose after the step by (distance, drift, turn)
   jacobian << c, -s, (-s * distance - c * drift) / 2,  //
       s, c, (c * distance - s * drift) / 2,            //
       0, 0, 1;
-  const Eigen::Vector3d variances(seen.variance(o.distance, o.minStdXY), seen.variance(o.drift, o.minStdXY),
-                                  seen.variance(o.turn, o.minStdPhi));
-  return {start + step(distance, drift, turn), jacobian * variances.asDiagonal() * jacobian.transpose()};
+  const Eigen::Vector3d variances(o.distance.variance(seen, o.minStdXY), o.drift.variance(seen, o.minStdXY),
+                                  o.turn.variance(seen, o.minStdPhi));
+  return {start + MotionStep(distance, drift, turn).increment(),
+          jacobian * variances.asDiagonal() * jacobian.transpose()};
 }
 
 mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& o) {
@@ -86,8 +80,7 @@ mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelO
   return out;
 }
 
-mrpt::obs::CActionRobotMovement2D toAction(const mrpt::math::TPose2D& odometry,
-                                           const MotionModelOptions& options) {
+mrpt::obs::CActionRobotMovement2D toAction(const TPose2D& odometry, const MotionModelOptions& options) {
   mrpt::obs::CActionRobotMovement2D action;
   action.computeFromOdometry(mrpt::poses::CPose2D(odometry), toMrpt(options));
   return action;

@@ -13,9 +13,28 @@
 
 namespace hybrid_slam {
 
+/// A pose increment seen along the heading in the middle of its turn. Of the odometry, `distance` and `turn`
+/// are the model's d and t; what it moved sideways stays in the drift.
+struct MotionStep {
+  MotionStep(double distanceAlong, double driftAcross, double turned)
+      : distance(distanceAlong), drift(driftAcross), turn(turned) {}
+  /// @param increment  in the robot frame at the start of the step (m, rad)
+  explicit MotionStep(const mrpt::math::TPose2D& increment);
+  mrpt::math::TPose2D increment() const;
+
+  double distance, drift;  ///< along that heading, and across it to the left (m)
+  double turn;             ///< rad
+};
+
 /// One of D, C, T: normal with a mean and a variance that grow with the odometry's translation d (m) and
 /// rotation t (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2.
 struct MotionTerm {
+  double mean(const MotionStep& odometry) const { return meanD * odometry.distance + meanT * odometry.turn; }
+  double variance(const MotionStep& odometry, double minStd) const {
+    return varianceD * odometry.distance * odometry.distance + varianceT * odometry.turn * odometry.turn +
+           minStd * minStd;
+  }
+
   double meanD, meanT;
   double varianceD, varianceT;
 };

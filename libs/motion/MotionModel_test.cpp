@@ -160,6 +160,18 @@ TEST(MotionModel, TheDistributionIsThatOfTheSamples) {
       }
 }
 
+TEST(MotionModel, AStepAndItsIncrementAreTheSame) {
+  // A quarter turn to the left, seen along 45 deg.
+  const MotionStep quarter(TPose2D(1, 1, M_PI / 2));
+  EXPECT_NEAR(quarter.distance, std::sqrt(2), 1e-12);
+  EXPECT_NEAR(quarter.drift, 0, 1e-12);
+  EXPECT_EQ(quarter.turn, M_PI / 2);
+  const TPose2D p(0.3, -0.2, -0.7), back = MotionStep(p).increment();
+  EXPECT_NEAR(back.x, p.x, 1e-12);
+  EXPECT_NEAR(back.y, p.y, 1e-12);
+  EXPECT_EQ(back.phi, p.phi);
+}
+
 TEST(MotionModel, MrptsGaussianModelGetsTheDeviations) {
   MotionModelOptions o;
   o.distance = {1, 0, 0.04, 0.0016};

@@ -32,6 +32,15 @@ struct FilterStep {
   std::optional<double> matched;        ///< share of the particles whose scan match was used; improved proposal
   std::optional<bool> slipped;          ///< the odometry was off, and the motion found by a search; likewise
   std::vector<WeightedPose> poses;      ///< those that the spreads are of
+
+  /// @name Of our own filter, from its second update on
+  /// @{
+  mrpt::math::TPose2D odometry;              ///< increment since the update before
+  std::vector<mrpt::math::TPose2D> motions;  ///< of each of `poses`, since the update before
+  /// ln p(scan | scans before), up to a constant of the step: the weighted mean of what the particles'
+  /// weights grew by. MRPT's auxiliary filters weigh otherwise.
+  double logLikelihood = 0;
+  /// @}
 };
 
 /// Notes a weighted set of poses and its spreads, seen along `heading`.

@@ -97,7 +97,7 @@ TEST(LineLikelihood, TheGradientIsThatOfTheValue) {
 
 TEST(LineLogDensity, IsTheLogarithmOfTheWeightWithItsGradient) {
   const Particle particle = particleAt(room(), kStart);
-  const PreparedScan scan = scanAfterwards(room(), kStart);
+  const PreparedScan scan = scanAt(kStart);
   ASSERT_TRUE(particle.lines->dominatingDirection());
   RandomStream random(7, 0, 0);
   LineWeightOptions options;
@@ -122,7 +122,7 @@ TEST(LineLogDensity, IsTheLogarithmOfTheWeightWithItsGradient) {
 
 TEST(LineLogDensity, EqNinesStepsHaveNoSlope) {
   const Particle particle = particleAt(room(), kStart);
-  const PreparedScan scan = scanAfterwards(room(), kStart);
+  const PreparedScan scan = scanAt(kStart);
   LineWeightOptions options;
   options.method = LineWeightOptions::Method::paper;
   const LogDensity density = lineLogDensity(scan.lines, kStart.phi + 0.2, *particle.lines, options);

@@ -13,6 +13,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/RandomStream.h"
 #include "rbpf/Resampling.h"
@@ -85,6 +86,7 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   step_ = FilterStep();
   step_.particles = m_particles.size();
   step_.resampled = false;
+  logSumBefore_ = logSumOfWeights();
   // MRPT's resampling and auxiliary filters draw from its global generator. A new one, since seeding the old
   // one keeps the second normal number of its last pair.
   mrpt::random::getRandomGenerator() =
@@ -130,7 +132,7 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
     RandomStream random = stream(i);
     m_particles[i].log_w += sampleAndWeigh(particle, odometry, random);
   });
-  summarise();
+  summarise(odometry);
 }
 
 // The paper's [5]: sample around a scan match instead.
@@ -147,7 +149,7 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
     particle.isMatched = proposed.isMatched;
     m_particles[i].log_w += proposed.logWeight;
   });
-  summarise();
+  summarise(motion.odometry);
   step_.slipped = motion.hasSlipped;
   const auto matched = std::count_if(m_particles.begin(), m_particles.end(),
                                      [](const auto& particle) { return particle.d->isMatched; });
@@ -160,7 +162,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::C
   step_.resampled = ESS() < PF_options.BETA;  // by the weights of the step before
   PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
-  summarise();
+  summarise(rawOdometry(*action));
 }
 
 void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CActionCollection* action,
@@ -169,7 +171,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CA
   step_.resampled = ESS() < PF_options.BETA;
   PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
-  summarise();
+  summarise(rawOdometry(*action));
 }
 
 // Sec. III-D.
@@ -190,7 +192,18 @@ void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
   particle.lineWeight = weight.line;
 }
 
-void ParticleSet::summarise() {
+double ParticleSet::logSumOfWeights() const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const auto& particle : m_particles) highest = std::max(highest, particle.log_w);
+  double sum = 0;
+  for (const auto& particle : m_particles) sum += std::exp(particle.log_w - highest);
+  return highest + std::log(sum);
+}
+
+void ParticleSet::summarise(const TPose2D& odometry) {
+  step_.odometry = odometry;
+  for (const auto& particle : m_particles) step_.motions.push_back(particle.d->path.lastMotion());
+  step_.logLikelihood = logSumOfWeights() - logSumBefore_;
   normalizeWeights();  // else ESS() underflows where all particles fit badly
   for (auto& particle : m_particles) particle.d->logWeight = particle.log_w;
   const Particle& bestParticle = best();

@@ -78,7 +78,8 @@ class ParticleSet
   /// The random numbers of the step that belong to no particle.
   RandomStream sharedRandom() const;
   void setWeight(Particle& particle, const Weight& weight) const;
-  void summarise();
+  void summarise(const mrpt::math::TPose2D& odometry);
+  double logSumOfWeights() const;
   /// Steps 1 and 2 for one particle: moves it and returns by how much its log-weight grows.
   double sampleAndWeigh(Particle& particle, const mrpt::math::TPose2D& odometry, RandomStream& random) const;
   template <class Body>
@@ -91,6 +92,7 @@ class ParticleSet
   tbb::task_arena arena_;
   const PreparedScan* scan_ = nullptr;
   uint64_t stepNumber_ = 0;
+  double logSumBefore_ = 0;  ///< ln of the sum of weights, at the start of the step
   FilterStep step_;
 };
 

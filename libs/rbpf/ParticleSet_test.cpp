@@ -102,6 +102,46 @@ TEST(ParticleSet, SubstitutionMakesTheWeightsEqualAndSaysSo) {
   for (const auto& particle : particles.poses()) EXPECT_EQ(particle.logWeight, 0);
 }
 
+/// One step from particles of different weight, with and without resampling after it: the scan's likelihood
+/// is the mean of p(scan | pose) under the weights before the step.
+TEST(ParticleSet, TheStepTellsItsMotionsAndTheLikelihoodOfTheScan) {
+  for (const double threshold : {0.0, 1.0}) {
+    FilterConfiguration c = fourParticles();
+    c.useLines = false;
+    ParticleSet particles(c);
+    particles.reset({1, 0, 0.5});
+    const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
+    particles.beginStep(first);
+    particles.updateMaps();
+    const auto map = particles.m_particles[0].d->grid;
+    for (size_t i = 0; i < 4; ++i) particles.m_particles[i].log_w = -0.5 * static_cast<double>(i);
+
+    particles.beginStep(second);
+    mrpt::obs::CActionCollection action = actionOf({0.2, 0, 0.1});
+    mrpt::obs::CSensoryFrame observations;
+    mrpt::bayes::CParticleFilter filter;
+    filter.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
+    filter.m_options.BETA = threshold;
+    filter.executeOn(particles, &action, &observations);
+
+    const FilterStep& step = particles.lastStep();
+    EXPECT_EQ(step.resampled, threshold > 0);
+    EXPECT_EQ(step.odometry, TPose2D(0.2, 0, 0.1));
+    ASSERT_EQ(step.motions.size(), 4u);
+    const GridWeight gridWeight(c.gridWeight, c.grid.resolution);
+    double weights = 0, likelihood = 0;
+    for (size_t i = 0; i < 4; ++i) {
+      const TPose2D pose = TPose2D(1, 0, 0.5) + step.motions[i];
+      EXPECT_NEAR((pose - step.poses[i].pose).norm(), 0, 1e-12);
+      const double w = std::exp(-0.5 * static_cast<double>(i));
+      weights += w;
+      likelihood += w * std::exp(c.gridWeight.exponent *
+                                 gridWeight.logWeight(second.weighedBeams, second.scan, pose, map));
+    }
+    EXPECT_NEAR(step.logLikelihood, std::log(likelihood / weights), 1e-9);
+  }
+}
+
 TEST(ParticleSet, ANewStartKeepsTheMapsAndForgetsThePaths) {
   ParticleSet particles(fourParticles());
   particles.reset({});

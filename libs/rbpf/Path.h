@@ -23,6 +23,10 @@ class Path {
   size_t size() const { return last_ ? last_->length : 0; }
   /// The newest pose; the origin of the map before the first one.
   mrpt::math::TPose2D back() const { return last_ ? last_->pose : mrpt::math::TPose2D(); }
+  /// From the pose before the newest to the newest, in the frame of the one before; zero if there is none.
+  mrpt::math::TPose2D lastMotion() const {
+    return size() > 1 ? last_->pose - last_->parent->pose : mrpt::math::TPose2D();
+  }
   bool sharesWith(const Path& other) const { return last_ == other.last_; }
 
   /// All poses, oldest first.

@@ -27,6 +27,17 @@ TEST(Path, GivesItsPosesOldestFirst) {
   EXPECT_EQ(path.poses(), (std::vector<TPose2D>{pose(0), pose(1), pose(2), pose(3), pose(4)}));
 }
 
+TEST(Path, TheLastMotionIsSeenFromThePoseBefore) {
+  Path path;
+  EXPECT_EQ(path.lastMotion(), TPose2D());
+  path.push({1, 2, M_PI / 2});
+  EXPECT_EQ(path.lastMotion(), TPose2D());
+  path.push({1, 5, M_PI});
+  EXPECT_NEAR(path.lastMotion().x, 3, 1e-12);
+  EXPECT_NEAR(path.lastMotion().y, 0, 1e-12);
+  EXPECT_NEAR(path.lastMotion().phi, M_PI / 2, 1e-12);
+}
+
 TEST(Path, CopiesShareUntilOneGoesOn) {
   Path first;
   first.push(pose(0));

@@ -74,7 +74,7 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
     ++cells;
   });
   EXPECT_GT(cells, 20u);
-  EXPECT_GE(map.lines.lines().size(), 4u);
+  EXPECT_GE(map.lines.lines().size(), 3u);
   FilterConfiguration general = c;
   general.useLines = false;
   EXPECT_TRUE(mapOf(scans, general).lines.lines().empty());

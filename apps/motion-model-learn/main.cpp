@@ -1,0 +1,163 @@
+/// @file main.cpp
+/// @brief motion-model-learn: a robot's motion model from a log (doc/motion-model.md).
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "io/FilteredMotions.h"
+#include "io/MotionModelText.h"
+#include "io/OutputFolder.h"
+
+namespace {
+
+using namespace hybrid_slam;
+
+std::atomic<bool> stop{false};
+
+/// The first asks to end, the second ends the program at once.
+void onSignal(int signal) {
+  stop = true;
+  std::signal(signal, SIG_DFL);
+}
+
+int fail(int code, const std::string& message) {
+  std::cerr << "motion-model-learn: error: " << message << "\n";
+  return code;
+}
+
+struct CommandLine {
+  std::string config, log, output;
+  int iterations = 10, particles = 0, seed = -1, threads = -1;
+  std::vector<std::string> settings;
+  bool isQuiet = false;
+};
+
+void describe(CLI::App& app, CommandLine& line) {
+  app.set_version_flag("--version", "motion-model-learn " HYBRID_SLAM_VERSION);
+  app.add_option("config", line.config, "INI file, as for hybrid-slam; its [motion_model] is the prior")
+      ->required();
+  app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
+  app.add_option("-o,--output", line.output, "INI file for the section [motion_model] that was learnt")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--iterations", line.iterations, "ends after so many, if the likelihood still rises")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("-n,--particles", line.particles, "number of particles")->type_name("N");
+  app.add_option("-s,--seed", line.seed, "same seed, same results to the byte")->type_name("N");
+  app.add_option("-j,--threads", line.threads, "threads over particles; 0: all cores")->type_name("N");
+  app.add_option("--set", line.settings, "sets a key of the INI file; repeatable")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
+  app.footer(
+      "Learn with the proposal and the update_distance and update_angle_deg that you will run with, then\n"
+      "  cat config.ini motion.ini > learnt.ini\n"
+      "is config.ini with the learnt model. Exit: 0 done, 1 the run failed or covers only part of the log,\n"
+      "2 wrong command line or input.");
+}
+
+Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
+  std::vector<std::string> settings = line.settings;
+  const auto set = [&settings](const std::string& key, const std::string& value) {
+    settings.push_back(key + "=" + value);
+  };
+  set("run.rawlog", line.log);
+  if (app.count("--particles")) set("particle_filter.particles", std::to_string(line.particles));
+  if (app.count("--seed")) set("particle_filter.seed", std::to_string(line.seed));
+  if (app.count("--threads")) set("particle_filter.threads", std::to_string(line.threads));
+  return Configuration(line.config, settings);
+}
+
+/// What the learnt section says of its origin.
+std::vector<std::string> comments(const CommandLine& line, const Configuration& configuration,
+                                  const EmIteration& prior, const LearntMotionModel& learnt) {
+  const auto text = [](const auto&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+  };
+  const FilterConfiguration& filter = configuration.filter;
+  std::vector<std::string> all{
+      text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.log, " with ", line.config,
+           "."),
+      text("For updates every ", filter.updateDistance(), " m or ", filter.updateAngle() * 180 / M_PI,
+           " deg: the variances are those of such steps."),
+      text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
+           " (the prior's: ", prior.logLikelihood, ")."),
+      text("Use: cat ", line.config, " ", line.output, " > learnt.ini")};
+  for (const auto& [keys, why] : learnt.determined.lacks)
+    all.push_back(
+        text("Not learnt but kept from ", line.config, ": ", keys, " of distance, drift and turn: ", why));
+  return all;
+}
+
+int learn(const CommandLine& line, Configuration configuration) {
+  for (const std::string& input : {line.config, line.log}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, line.output, ignored))
+      throw InputError("the output is the input", line.output, "expected another name after -o");
+  }
+  const RawlogSummary log = summarise(line.log, configuration.input);
+  GrowingFile output(line.output);  // now, so that the run is not for nothing
+
+  int iteration = 0;
+  const auto eStep = [&](const MotionModelOptions& model) {
+    configuration.filter.motion = model;
+    return filteredMotions(configuration, log, line.isQuiet, "iteration " + std::to_string(iteration++),
+                           stop);
+  };
+  EmIteration prior;
+  const auto report = [&](const EmIteration& done) {
+    if (done.number == 0) prior = done;
+    if (line.isQuiet) return;
+    if (done.number == 0) std::cout << motionModelTableHead();
+    std::cout << motionModelTableRow(done.number, done.logLikelihood, done.model) << std::flush;
+  };
+  const LearntMotionModel learnt =
+      learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.log, report);
+  for (const auto& [keys, why] : learnt.determined.lacks)
+    std::cerr << "motion-model-learn: warning: prior kept for " << keys
+              << " of distance, drift and turn: " << line.log << "; " << why << "\n";
+  output.stream() << motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
+  output.finish();
+  if (!line.isQuiet)
+    std::cout << (learnt.isConverged ? "the likelihood has stopped rising"
+                                     : "the likelihood has not stopped rising; --iterations takes more")
+              << ": iteration " << learnt.best.number << " is in " << line.output << "\n";
+  if (!log.defect.empty())
+    return fail(1, "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + line.log +
+                       "; learnt from the log up to there");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Learns the motion model of a robot from a log by EM (Eliazar & Parr)"};
+  CommandLine line;
+  describe(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail(2, std::string(e.what()) + ": command line; see motion-model-learn --help");
+  }
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  try {
+    return learn(line, configurationOf(line, app));
+  } catch (const InputError& e) {
+    return fail(2, e.what());
+  } catch (const std::exception& e) {
+    if (stop) return fail(1, messageOf(e) + "; nothing was written");
+    return fail(1, "run failed: " + line.config + "; " + messageOf(e));
+  }
+}

@@ -1,0 +1,243 @@
+/// What a user of the program sees: exit code, messages, the learnt section.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+
+#include "evaluation/Trajectory.h"
+#include "io/Configuration.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+#include "motion/MotionModelFit.h"
+#include "motion/SimulatedMotions.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contentOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+
+const std::string kDoorways = SOURCE_DIR "/datasets/csie/csie-doorways.rawlog";
+/// One half turn in 44 s of driving straight on.
+const std::string kCorridor = SOURCE_DIR "/datasets/csie/csie-corridor.rawlog";
+
+class MotionModelLearn : public testing::Test {
+ protected:
+  /// Runs the program; `before` is shell code that runs first, `after` follows the command.
+  int run(const std::string& arguments, const std::string& before = "", const std::string& after = "") {
+    const std::string command = before + "'" MOTION_MODEL_LEARN "' " + arguments + " >'" +
+                                folder.path("stdout") + "' 2>'" + folder.path("stderr") + "'" + after;
+    const int status = std::system(command.c_str());
+    out = contentOf(folder.path("stdout"));
+    // A run of more than ten seconds, on a busy machine, says how far it is.
+    err = std::regex_replace(contentOf(folder.path("stderr")), std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"),
+                             "");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string arguments(const std::string& log, const std::string& options = "") const {
+    return "'" + ini + "' '" + log + "' -o '" + output + "' " + options;
+  }
+  int learn(const std::string& log, const std::string& options = "") { return run(arguments(log, options)); }
+  std::string logOf(size_t steps) { return test::writeGzipped(folder.path("log.rawlog"), test::laps(steps)); }
+  /// Exit 2, one line that says so, and no file.
+  void expectError(int exitCode, const std::string& text) {
+    EXPECT_EQ(exitCode, 2);
+    EXPECT_THAT(err, MatchesRegex("motion-model-learn: error: [^\n]*: [^\n]*; [^\n]*\n"));
+    EXPECT_THAT(err, HasSubstr(text));
+    EXPECT_THAT(out, IsEmpty());
+    EXPECT_FALSE(fs::exists(output));
+    EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
+  }
+  /// As hybrid-slam reads `cat config.ini motion.ini`.
+  MotionModelOptions learnt() const {
+    const std::string both = folder.write("both.ini", contentOf(ini) + contentOf(output));
+    return Configuration(both, {}).filter.motion;
+  }
+  /// The numbers of the table of iterations, a list for each row.
+  std::vector<std::vector<double>> rows() const {
+    std::vector<std::vector<double>> all;
+    std::istringstream lines(std::regex_replace(out, std::regex("\\|"), " "));
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream numbers(line);
+      std::vector<double> row;
+      for (double number = 0; numbers >> number;) row.push_back(number);
+      if (!row.empty()) all.push_back(row);
+    }
+    return all;
+  }
+
+  TemporaryFolder folder;
+  std::string ini = folder.write("run.ini",
+                                 "[particle_filter]\nparticles = 3\nproposal = improved\n"
+                                 "[improved_proposal]\nupdate_distance = 0.3\nupdate_angle_deg = 15\n"
+                                 "[grid]\nresolution = 0.05\nmax_range = 20\n"
+                                 "[motion_model]\ndistance_mean_d = 0.95\nturn_mean_t = 1.05\n");
+  std::string output = folder.path("motion.ini");
+  std::string out, err;
+};
+
+/// From the true poses, as EM's M-step would learn it if nothing were hidden.
+std::vector<MotionSample> trueMotions(const std::string& log, const std::string& truth) {
+  constexpr double kUpdateDistance = 0.3, kUpdateAngle = 15 * M_PI / 180;  // as in the INI file
+  const Trajectory poses = loadTum(truth);
+  RawlogSource source(log, InputOptions(), summarise(log, InputOptions()));
+  std::vector<MotionSample> samples;
+  mrpt::math::TPose2D odometry, last = poses.front().pose;
+  for (size_t i = 0; const auto reading = source.next(); ++i) {
+    odometry = odometry + reading->motion;
+    if (odometry.norm() < kUpdateDistance && std::abs(odometry.phi) < kUpdateAngle) continue;
+    samples.push_back({odometry, poses.at(i).pose - last, 1});
+    last = poses[i].pose;
+    odometry = {};
+  }
+  return samples;
+}
+
+TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
+  ASSERT_EQ(learn(kDoorways, "-n 5 --iterations 3"), 0) << err;
+  EXPECT_THAT(err, IsEmpty());
+  const MotionModelOptions model = learnt(), prior;
+  const auto motions = trueMotions(kDoorways, SOURCE_DIR "/datasets/csie/csie-doorways.tum");
+  const MotionModelOptions expected = fitMotionModel(motions, prior, determine(motions));
+  std::vector<mrpt::math::TPose2D> odometry;
+  for (const MotionSample& motion : motions) odometry.push_back(motion.odometry);
+  // The poses are hidden, but the scans tell them well: less is lost than the log leaves open anyway.
+  const auto expectNear = [&](const MotionTerm& term, const MotionTerm& truth, double minStd) {
+    const test::Parameters errors = test::standardErrors(truth, minStd, odometry);
+    for (size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(test::parametersOf(term)[i], test::parametersOf(truth)[i], errors[i]) << i;
+  };
+  expectNear(model.distance, expected.distance, prior.minStdXY);
+  expectNear(model.drift, expected.drift, prior.minStdXY);
+  expectNear(model.turn, expected.turn, prior.minStdPhi);
+  // 8 standard errors off at the start.
+  EXPECT_GT(expected.distance.meanD - 0.95, 8 * test::standardErrors(expected.distance, 0.005, odometry)[0]);
+
+  const auto table = rows();
+  ASSERT_EQ(table.size(), 4u) << out;
+  size_t best = 0;
+  for (size_t i = 0; i < table.size(); ++i) {
+    ASSERT_EQ(table[i].size(), 14u);
+    EXPECT_EQ(table[i][0], static_cast<double>(i));
+    if (table[i][1] > table[best][1]) best = i;
+  }
+  EXPECT_EQ(table[0][2], 0.95);
+  EXPECT_GT(table[1][1], table[0][1]);
+  EXPECT_NEAR(table[best][2], model.distance.meanD, 1e-4) << "the file holds the best iteration";
+  EXPECT_THAT(out, HasSubstr("iteration " + std::to_string(best) + " is in " + output + "\n"));
+}
+
+TEST_F(MotionModelLearn, SaysWhatTheLogDoesNotDetermineAndKeepsThePrior) {
+  ASSERT_EQ(learn(kCorridor, "--iterations 1"), 0) << err;
+  const std::string keys = "mean_t, var_t of distance, drift and turn",
+                    why = "the robot turned 2.9 deg or more";
+  EXPECT_THAT(err, MatchesRegex("motion-model-learn: warning: prior kept for " + keys + ": [^\n]*; " + why +
+                                " in [0-9]+ updates, it takes 20\n"));
+  EXPECT_THAT(contentOf(output), HasSubstr("# Not learnt but kept from " + ini + ": " + keys + ": " + why));
+  EXPECT_EQ(learnt().turn.meanT, 1.05);
+  EXPECT_EQ(learnt().distance.varianceT, MotionModelOptions().distance.varianceT);
+  EXPECT_NE(learnt().distance.meanD, 0.95);
+}
+
+TEST_F(MotionModelLearn, SameSeedSameBytesForAnyNumberOfThreads) {
+  const std::string log = logOf(100),
+                    options = "-n 5 --iterations 1 --set improved_proposal.update_angle_deg=5";
+  ASSERT_EQ(learn(log, options + " -s 3 -j 1 -q"), 0) << err;
+  EXPECT_THAT(out, IsEmpty());
+  EXPECT_THAT(err, IsEmpty());
+  const std::string first = contentOf(output);
+  EXPECT_THAT(first, HasSubstr(log));
+  EXPECT_THAT(first, HasSubstr("\n# For updates every 0.3 m or 5 deg"));
+  ASSERT_EQ(learn(log, options + " -s 3 -j 2 -q"), 0) << err;
+  EXPECT_EQ(contentOf(output), first);
+  ASSERT_EQ(learn(log, options + " -s 4 -q"), 0) << err;
+  EXPECT_NE(contentOf(output), first);
+}
+
+TEST_F(MotionModelLearn, ALogThatIsCutOffIsLearntFromUpToThere) {
+  std::vector<size_t> ends;
+  const std::string log = test::writePlain(folder.path("log.rawlog"), test::laps(100), &ends);
+  fs::resize_file(log, ends.at(160) + 7);
+  EXPECT_EQ(learn(log, "--iterations 1 --set improved_proposal.update_angle_deg=5"), 1);
+  EXPECT_THAT(err,
+              MatchesRegex("motion-model-learn: error: log cut off[^\n]*: entry 162 of [^\n]*; learnt from "
+                           "the log up to there\n"));
+  EXPECT_TRUE(fs::exists(output));
+}
+
+TEST_F(MotionModelLearn, WrongInput) {
+  expectError(learn(logOf(10)),
+              "log too short or too uniform to learn from: " + folder.path("log.rawlog") + "; ");
+  expectError(learn(folder.path("none")), "no such file");
+  expectError(learn(folder.write("text", "once upon a time")), "text");
+  expectError(
+      learn(logOf(10), "--set motion_model.turn_var_t=-0.01"),
+      "wrong value `-0.01`: command line, section [motion_model], key `turn_var_t`; expected a number in "
+      "0..100");
+  expectError(learn(logOf(10), "--set particle_filter.proposal=auxiliary_standard"),
+              "expected standard or improved");
+  expectError(learn(logOf(10), "--set run.method=stock"), "expected hybrid or general");
+  ini = folder.write("negative.ini", "[motion_model]\ndrift_var_d = -1\n");
+  expectError(learn(logOf(10)), "wrong value `-1`: " + ini + ", section [motion_model], key `drift_var_d`");
+  ini = folder.path("none.ini");
+  expectError(learn(logOf(10)), "no such file: " + ini);
+}
+
+TEST_F(MotionModelLearn, WrongCommandLine) {
+  const std::string log = logOf(10);
+  expectError(run(""), "config is required");
+  expectError(run("'" + ini + "'"), "dataset is required");
+  expectError(run("'" + ini + "' '" + log + "'"), "--output is required");
+  expectError(learn(log, "--iterations 0"), "--iterations");
+  expectError(learn(log, "-n 0"), "key `particles`");
+  expectError(learn(log, "-s -1"), "key `seed`");
+  expectError(learn(log, "--learn"), "--learn");
+}
+
+TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
+  const std::string log = logOf(100), before = contentOf(log), settings = contentOf(ini);
+  EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + log + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("the output is the input: " + log));
+  EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + ini + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("the output is the input: " + ini));
+  EXPECT_EQ(contentOf(log), before);
+  EXPECT_EQ(contentOf(ini), settings);
+  output = folder.path("none/motion.ini");
+  expectError(learn(log), "cannot write: " + output);
+}
+
+TEST_F(MotionModelLearn, CtrlCLeavesNothingHalfWritten) {
+  const std::string log = logOf(4000);
+  folder.write("motion.ini", "before");
+  for (const std::string signal : {"INT", "TERM"}) {
+    const std::string wait =
+        "while [ ! -e '" + folder.path(".partial.motion.ini") + "' ]; do sleep 0.05; done; ";
+    EXPECT_EQ(
+        run(arguments(log, "-q -n 300"), "", " & pid=$!; " + wait + "kill -" + signal + " $pid; wait $pid"),
+        1);
+    EXPECT_THAT(err,
+                MatchesRegex("motion-model-learn: error: interrupted: entry [0-9]+ of [^\n]*; nothing was "
+                             "written\n"));
+    EXPECT_EQ(contentOf(output), "before");
+    EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
+  }
+}
+
+TEST_F(MotionModelLearn, HelpAndVersion) {
+  EXPECT_EQ(run("--help"), 0);
+  for (const char* option :
+       {"--output", "--iterations", "--particles", "--seed", "--threads", "--set", "--quiet"})
+    EXPECT_THAT(out, HasSubstr(option));
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_THAT(out, MatchesRegex("motion-model-learn [0-9]+[.][0-9]+[.][0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
