@@ -6,7 +6,7 @@ source "$(dirname "$0")/lib.sh"
 out=${1:-out/paper}
 seeds=${SEEDS:-50}
 cores=$(nproc)
-echo "About $((seeds * 60 / cores / 60 + 5)) minutes on $cores cores, most of it for Fig. 4."
+echo "About $((seeds * 80 / cores / 60 + 8)) minutes on $cores cores, most of it for Fig. 4."
 install_packages "${packages[@]}"
 build release
 bin=build/release/bin
@@ -29,6 +29,16 @@ experiment "Fig. 3: doorways and sudden turns" \
 experiment "Fig. 5: 378 steps of corridor" \
   "${compare[@]}" config-ini/csie-lms100.ini $csie/csie-corridor.rawlog --methods hybrid,general \
   --particles 20 --reference $csie/csie-corridor.tum --floorplan $csie/csie.plan -o "$out/fig5"
+# How much the lines narrow the spread depends on how much the grid's weight has left of it.
+exponents=(--variant e20:grid_weight.exponent=20 --variant e6:grid_weight.exponent=6
+  --variant e2:grid_weight.exponent=2)
+few=("$bin/slam-compare" --seeds "$((seeds < 20 ? seeds : 20))" --methods hybrid,general --particles 20)
+experiment "Fig. 5 with weaker grid weights" \
+  "${few[@]}" "${exponents[@]}" config-ini/csie-lms100.ini $csie/csie-corridor.rawlog \
+  --reference $csie/csie-corridor.tum --floorplan $csie/csie.plan -o "$out/fig5-exponents"
+experiment "Fig. 4 with weaker grid weights" \
+  "${few[@]}" "${exponents[@]}" config-ini/csie-lms100.ini $csie/csie-loop.rawlog \
+  --reference $csie/csie-loop.tum --floorplan $csie/csie.plan -o "$out/fig4-exponents"
 experiment "Fig. 4 and Fig. 6: the loop" \
   "${compare[@]}" config-ini/csie-lms100.ini $csie/csie-loop.rawlog --methods hybrid,general \
   --particles 20,50,general:60 --reference $csie/csie-loop.tum --floorplan $csie/csie.plan -o "$out/fig4"

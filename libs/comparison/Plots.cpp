@@ -180,8 +180,8 @@ std::string plotAgainstParticles(const FigureName& name, const std::vector<Group
 std::string plotSpread(size_t spread, const std::vector<Group>& groups,
                        const std::vector<SpreadBands>& bands) {
   const char* const titles[] = {"spread along the heading (m)", "spread across the heading (m)",
-                                "spread of the heading (deg)"};
-  const char* const units[] = {"m", "m", "deg"};
+                                "spread of the heading (deg)", "spread in x (m)", "spread in y (m)"};
+  const char* const units[] = {"m", "m", "deg", "m", "m"};
   Range range, times;
   for (const SpreadBands& band : bands) {
     for (const double t : band.times) times.add(t);

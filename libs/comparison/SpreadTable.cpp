@@ -30,7 +30,8 @@ std::vector<SpreadStep> loadSpread(const std::string& file) {
   try {
     const size_t timestamp = columns.at("timestamp");
     const std::array<size_t, kSpreads> spreads{columns.at("std_along"), columns.at("std_across"),
-                                               columns.at("std_phi")};
+                                               columns.at("std_phi"), columns.at("std_x"),
+                                               columns.at("std_y")};
     bool isFirst = true;
     while (std::getline(in, line)) {
       const std::vector<std::string> fields = splitAtCommas(line);

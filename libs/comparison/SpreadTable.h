@@ -10,8 +10,9 @@
 
 namespace hybrid_slam {
 
-/// Spread of the weighted particles along and across the robot's heading (m) and of the heading (deg).
-constexpr size_t kSpreads = 3;
+/// Spread of the weighted particles along and across the robot's heading (m), of the heading (deg), and along
+/// the map's axes x and y (m).
+constexpr size_t kSpreads = 5;
 using Spread = std::array<double, kSpreads>;
 
 struct SpreadStep {

@@ -25,6 +25,8 @@ TEST(SpreadTable, TakesItsColumnsByNameAndLeavesTheFirstScanOut) {
   EXPECT_EQ(steps[0].spread[0], 0.3);
   EXPECT_EQ(steps[0].spread[1], 0.4);
   EXPECT_NEAR(steps[0].spread[2], 1, 1e-8);
+  EXPECT_EQ(steps[0].spread[3], 0.1);
+  EXPECT_EQ(steps[0].spread[4], 0.2);
   const Spread mean = meanSpread(steps);
   EXPECT_NEAR(mean[0], 0.4, 1e-12);
   EXPECT_NEAR(mean[1], 0.3, 1e-12);
