@@ -31,7 +31,7 @@ experiment "Fig. 5: 378 steps of corridor" \
   --particles 20 --reference $csie/csie-corridor.tum --floorplan $csie/csie.plan -o "$out/fig5"
 # How much the lines narrow the spread depends on how much the grid's weight has left of it.
 exponents=(--variant e20:grid_weight.exponent=20 --variant e6:grid_weight.exponent=6
-  --variant e2:grid_weight.exponent=2)
+  --variant e2:grid_weight.exponent=2 --variant e1:grid_weight.exponent=1)
 few=("$bin/slam-compare" --seeds "$((seeds < 20 ? seeds : 20))" --methods hybrid,general --particles 20)
 experiment "Fig. 5 with weaker grid weights" \
   "${few[@]}" "${exponents[@]}" config-ini/csie-lms100.ini $csie/csie-corridor.rawlog \

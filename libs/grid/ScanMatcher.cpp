@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "grid/CubicSpline.h"
 
@@ -18,39 +19,81 @@ struct MapSample {
   double m = 0, dx = 0, dy = 0;
 };
 
-MapSample sampleMap(TileReader& cells, const std::array<float, 256>& occupied, double x, double y) {
-  // Cell (i, j) has its centre at (i + 1/2, j + 1/2).
-  const double cx = x - 0.5, cy = y - 0.5;
-  const int i = static_cast<int>(std::floor(cx)), j = static_cast<int>(std::floor(cy));
-  const SplineWeights wx(cx - i), wy(cy - j);
-  MapSample sample;
-  for (int row = 0; row < 4; ++row) {
-    double value = 0, slope = 0;
-    for (int column = 0; column < 4; ++column) {
-      const auto m =
-          static_cast<double>(occupied[static_cast<size_t>(cells.at(i - 1 + column, j - 1 + row) + 128)]);
-      const auto c = static_cast<size_t>(column);
-      value += wx.value[c] * m;
-      slope += wx.slope[c] * m;
-    }
-    const auto r = static_cast<size_t>(row);
-    sample.m += wy.value[r] * value;
-    sample.dx += wy.value[r] * slope;
-    sample.dy += wy.slope[r] * value;
+/// std::floor is a function call where the processor's own rounding cannot be taken for granted.
+int floorOf(double x) {
+  const int towardsZero = static_cast<int>(x);
+  return towardsZero - (x < towardsZero);
+}
+
+/// m of the 4 x 4 cells from (x, y) on, row by row. @return false if all are 0, and then leaves `m` alone
+inline bool readPatch(TileReader& cells, const std::array<double, 256>& occupied, int x, int y,
+                      std::array<double, 16>& m) {
+  constexpr int kLastInside = TileGrid::kTileSize - 4;
+  const int inX = x & (TileGrid::kTileSize - 1), inY = y & (TileGrid::kTileSize - 1);
+  int8_t copied[16];
+  const int8_t* first = copied;
+  size_t stride = 4;
+  if (inX <= kLastInside && inY <= kLastInside) {  // all in one tile
+    const TileGrid::Tile* const tile = cells.tile(x >> TileGrid::kTileBits, y >> TileGrid::kTileBits);
+    if (!tile) return false;
+    first = &tile->cells[TileGrid::inTile({x, y})];
+    stride = TileGrid::kTileSize;
+  } else {
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) copied[4 * row + column] = cells.at(x + column, y + row);
   }
-  return sample;
+  // Free and unknown cells have m = 0: whether any byte is positive, four at a time.
+  uint32_t positive = 0;
+  for (size_t row = 0; row < 4; ++row) {
+    uint32_t four;
+    std::memcpy(&four, first + row * stride, 4);
+    positive |= four & ~(((four & 0x80808080u) >> 7) * 255);
+  }
+  if (positive == 0) return false;
+  for (size_t row = 0; row < 4; ++row) {
+    const int8_t* const cell = first + row * stride;
+    m[4 * row] = occupied[static_cast<uint8_t>(cell[0])];
+    m[4 * row + 1] = occupied[static_cast<uint8_t>(cell[1])];
+    m[4 * row + 2] = occupied[static_cast<uint8_t>(cell[2])];
+    m[4 * row + 3] = occupied[static_cast<uint8_t>(cell[3])];
+  }
+  return true;
 }
 
 /// Calls visit(x, y, sample) with the end of each beam, in cells, and the map there.
-template <class Visit>
+/// @tparam kWithSlope  false: m alone
+template <bool kWithSlope, class Visit>
 void forEachEnd(const ScanBeams& scan, const TPose2D& pose, const OccupancyGrid& grid,
-                const std::array<float, 256>& occupied, const Visit& visit) {
+                const std::array<double, 256>& occupied, const Visit& visit) {
   const GridPose frame(pose, scan, grid.resolution());
+  const double perCell = 1 / grid.resolution();
   TileReader cells(grid.tiles());
+  std::array<double, 16> m;
   for (const auto& ray : scan.rays) {
-    const double range = ray.range / grid.resolution();
+    const double range = ray.range * perCell;
     const double x = frame.originX + range * frame.dirX(ray), y = frame.originY + range * frame.dirY(ray);
-    visit(x, y, sampleMap(cells, occupied, x, y));
+    // Cell (i, j) has its centre at (i + 1/2, j + 1/2).
+    const double cx = x - 0.5, cy = y - 0.5;
+    const int i = floorOf(cx), j = floorOf(cy);
+    MapSample sample;
+    if (readPatch(cells, occupied, i - 1, j - 1, m)) {
+      const SplineWeights wx(cx - i), wy(cy - j);
+      // Down the columns first: four independent sums, which compilers put side by side.
+      std::array<double, 4> value{}, slope{};
+      for (size_t row = 0; row < 4; ++row)
+        for (size_t column = 0; column < 4; ++column) {
+          value[column] += wy.value[row] * m[4 * row + column];
+          if constexpr (kWithSlope) slope[column] += wy.slope[row] * m[4 * row + column];
+        }
+      for (size_t column = 0; column < 4; ++column) {
+        sample.m += wx.value[column] * value[column];
+        if constexpr (kWithSlope) {
+          sample.dx += wx.slope[column] * value[column];
+          sample.dy += wx.value[column] * slope[column];
+        }
+      }
+    }
+    visit(x, y, sample);
   }
 }
 
@@ -78,7 +121,7 @@ LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Ei
 ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {
   for (int value = -128; value < 128; ++value) {
     const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
-    occupied_[static_cast<size_t>(value + 128)] = static_cast<float>(std::max(0.0, 2 * p - 1));
+    occupied_[static_cast<uint8_t>(value)] = std::max(0.0, 2 * p - 1);
   }
 }
 
@@ -86,20 +129,22 @@ LogDensity ScanMatcher::logLikelihood(const ScanBeams& scan, const TPose2D& pose
                                       const OccupancyGrid& grid) const {
   const double perCell = 1 / grid.resolution();
   const double robotX = pose.x * perCell, robotY = pose.y * perCell;
-  LogDensity density;
-  forEachEnd(scan, pose, grid, occupied_, [&](double x, double y, const MapSample& sample) {
+  double squares = 0, gx = 0, gy = 0, gphi = 0, xx = 0, xy = 0, xphi = 0, yy = 0, yphi = 0, phiphi = 0;
+  forEachEnd<true>(scan, pose, grid, occupied_, [&](double x, double y, const MapSample& sample) {
     const double residual = 1 - sample.m;
-    density.value -= residual * residual;
-    if (sample.dx == 0 && sample.dy == 0) return;
+    squares += residual * residual;
     // Turning the robot moves the end of the beam at a right angle to its arm.
-    const Eigen::Vector3d slope(sample.dx * perCell, sample.dy * perCell,
-                                -sample.dx * (y - robotY) + sample.dy * (x - robotX));
-    density.gradient += residual * slope;
-    density.information.noalias() += slope * slope.transpose();
+    const double dx = sample.dx * perCell, dy = sample.dy * perCell;
+    const double dphi = -sample.dx * (y - robotY) + sample.dy * (x - robotX);
+    gx += residual * dx, gy += residual * dy, gphi += residual * dphi;
+    xx += dx * dx, xy += dx * dy, xphi += dx * dphi;
+    yy += dy * dy, yphi += dy * dphi, phiphi += dphi * dphi;
   });
   const double weight = 1 / (options_.sigma * options_.sigma);
-  density.value *= 0.5 * weight;
-  density.gradient *= weight;
+  LogDensity density;
+  density.value = -0.5 * weight * squares;
+  density.gradient = weight * Eigen::Vector3d(gx, gy, gphi);
+  density.information << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
   density.information *= weight;
   return density;
 }
@@ -107,8 +152,8 @@ LogDensity ScanMatcher::logLikelihood(const ScanBeams& scan, const TPose2D& pose
 double ScanMatcher::logLikelihoodValue(const ScanBeams& scan, const TPose2D& pose,
                                        const OccupancyGrid& grid) const {
   double sum = 0;
-  forEachEnd(scan, pose, grid, occupied_,
-             [&](double, double, const MapSample& sample) { sum += (1 - sample.m) * (1 - sample.m); });
+  forEachEnd<false>(scan, pose, grid, occupied_,
+                    [&](double, double, const MapSample& sample) { sum += (1 - sample.m) * (1 - sample.m); });
   return -0.5 * sum / (options_.sigma * options_.sigma);
 }
 
@@ -156,8 +201,8 @@ ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const 
   match.pose = pose;
   match.logPosterior = here.value;
   match.information = curvature(scan, match.pose, grid) + prior(match.pose).information;
-  forEachEnd(scan, match.pose, grid, occupied_,
-             [&](double, double, const MapSample& sample) { match.fit += sample.m; });
+  forEachEnd<false>(scan, match.pose, grid, occupied_,
+                    [&](double, double, const MapSample& sample) { match.fit += sample.m; });
   if (!scan.rays.empty()) match.fit /= static_cast<double>(scan.rays.size());
   return match;
 }

@@ -85,7 +85,7 @@ class ScanMatcher {
                             const OccupancyGrid& grid) const;
 
   ScanMatcherOptions options_;
-  std::array<float, 256> occupied_;  ///< m of a cell by its value + 128
+  std::array<double, 256> occupied_;  ///< m of a cell by its value, as an unsigned byte
 };
 
 }  // namespace hybrid_slam

@@ -86,12 +86,16 @@ class TileReader {
  public:
   explicit TileReader(const TileGrid& grid) : grid_(&grid) {}
   int8_t at(int x, int y) {
-    const int tx = x >> TileGrid::kTileBits, ty = y >> TileGrid::kTileBits;
+    const TileGrid::Tile* const found = tile(x >> TileGrid::kTileBits, y >> TileGrid::kTileBits);
+    return found ? found->cells[TileGrid::inTile({x, y})] : int8_t{0};
+  }
+  /// As TileGrid::tileAt.
+  const TileGrid::Tile* tile(int tx, int ty) {
     if (tx != tx_ || ty != ty_ || first_) {
       tile_ = grid_->tileAt(tx, ty);
       tx_ = tx, ty_ = ty, first_ = false;
     }
-    return tile_ ? tile_->cells[TileGrid::inTile({x, y})] : int8_t{0};
+    return tile_;
   }
 
  private:

@@ -39,12 +39,8 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     if (lines) density += (*lines)(pose);
     return density;
   };
-  ScanMatch match = matcher_.match(scan.matchedBeams, motion.mean, particle.grid, prior);
-  if (!(stepMotion.start == stepMotion.odometry)) {
-    const ScanMatch other =
-        matcher_.match(scan.matchedBeams, particle.path.back() + stepMotion.start, particle.grid, prior);
-    if (other.logPosterior > match.logPosterior) match = other;
-  }
+  const ScanMatch match =
+      matcher_.match(scan.matchedBeams, particle.path.back() + stepMotion.start, particle.grid, prior);
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
     return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);

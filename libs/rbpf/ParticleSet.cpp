@@ -8,7 +8,6 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 }
 #include <mrpt/slam/PF_aux_structs.h>
 #include <mrpt/slam/PF_implementations.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 
 #include "base/RandomStream.h"
 #include "rbpf/Resampling.h"
+#include "rbpf/Threads.h"
 
 namespace mrpt::slam {
 /// Where a particle falls in the bins of KLD sampling; the number of particles is fixed here, but the
@@ -45,11 +45,6 @@ TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
   return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>()->rawOdometryIncrementReading.asTPose();
 }
 
-/// More threads than these TBB does not start, but complains about on stderr.
-int coresAllowed() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
-
 }  // namespace
 
 ParticleSet::ParticleSet(const FilterConfiguration& configuration)
@@ -57,8 +52,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& configuration)
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
       improvedProposal_(configuration),
       slipRecovery_(configuration),
-      arena_(configuration.filter.threads > 0 ? std::min(configuration.filter.threads, coresAllowed())
-                                              : +tbb::task_arena::automatic) {}
+      arena_(arenaThreads(configuration.filter.threads)) {}
 
 template <class Body>
 void ParticleSet::forEachParticle(const Body& body) {

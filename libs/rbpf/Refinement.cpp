@@ -2,10 +2,10 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "grid/ScanMatcher.h"
 #include "rbpf/PreparedScan.h"
+#include "rbpf/Threads.h"
 
 namespace hybrid_slam {
 
@@ -29,8 +29,7 @@ void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configurat
   const Eigen::Vector3d deviations(0.05, 0.05, M_PI / 180);
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher matcher(configuration.matcher);
-  tbb::task_arena arena(configuration.filter.threads > 0 ? configuration.filter.threads
-                                                         : +tbb::task_arena::automatic);
+  tbb::task_arena arena(arenaThreads(configuration.filter.threads));
   for (int pass = 0; pass < passes; ++pass) {
     const OccupancyGrid grid = mapOf(scans, configuration).grid;
     arena.execute([&] {

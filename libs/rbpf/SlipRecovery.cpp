@@ -57,6 +57,7 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
       motion.hasSlipped = slip > modelled;
     }
   }
+  if (!motion.hasSlipped && match.fit >= options.minFit) motion.start = match.pose - before;
   usualFit_ = usualFit_ == 0 ? match.fit : (1 - kForgetting) * usualFit_ + kForgetting * match.fit;
   return motion;
 }

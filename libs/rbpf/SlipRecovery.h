@@ -12,12 +12,13 @@ namespace hybrid_slam {
 /// Where the matches of a step begin, for all particles.
 struct StepMotion {
   mrpt::math::TPose2D odometry;  ///< m, rad; in the robot frame at the start of the step
-  mrpt::math::TPose2D start;     ///< the same of the match, by which it begins
+  mrpt::math::TPose2D start;     ///< the same of the best particle's match: where the others' begin
   bool hasSlipped = false;       ///< the odometry is worth nothing
 };
 
-/// Once a step, in the best particle's map: if the scan, matched from where the odometry says, fits it much
-/// worse than the scans before, a wide window around is searched.
+/// Once a step, in the best particle's map: the scan is matched from where the odometry says, which is where the
+/// other particles' matches then begin. If it fits much worse than the scans before, a wide window around is
+/// searched.
 ///
 /// The motion is a mixture: that of the motion model, or (slip_probability) a slip, anywhere in the window. A
 /// place far off the motion model is taken if, with these odds, scan and motion are more likely there.

@@ -1,0 +1,20 @@
+/// @file Threads.h
+/// @brief How many threads a task arena gets.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace hybrid_slam {
+
+/// For `threads` of [particle_filter], 0 being all cores. More threads than the machine allows TBB does not
+/// start, but complains about on stderr.
+inline int arenaThreads(int threads) {
+  const auto allowed =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return threads > 0 ? std::min(threads, allowed) : +tbb::task_arena::automatic;
+}
+
+}  // namespace hybrid_slam
