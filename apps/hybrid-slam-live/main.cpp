@@ -10,7 +10,7 @@
 #include "base/Errors.h"
 #include "live/LiveRun.h"
 #include "live/ObservationClient.h"
-#include "live/SensorSource.h"
+#include "sensors/SensorSource.h"
 
 namespace {
 

@@ -9,8 +9,9 @@
 
 #include "base/Errors.h"
 #include "io/IniFile.h"
-#include "live/SensorThread.h"
-#include "live/ServeObservations.h"
+#include "sensors/PioneerOdometry.h"
+#include "sensors/SensorThread.h"
+#include "sensors/ServeObservations.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ int run(int argc, char** argv) {
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
   app.add_flag("-q,--quiet", isQuiet, "no summary");
-  app.add_flag("--help-config", wantsManual, "prints every key of section [server]");
+  app.add_flag("--help-config", wantsManual, "prints every key of [server] and of a Pioneer's section");
   app.footer(
       "It says on standard output at which port it listens, and on standard error what happens to sensors\n"
       "and clients. Ctrl-C ends it. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
@@ -52,7 +53,8 @@ int run(int argc, char** argv) {
   hybrid_slam::ServerOptions options;
   const hybrid_slam::Sections sections{{"server", &options}};
   if (wantsManual) {
-    hybrid_slam::writeManual(sections, std::cout);
+    hybrid_slam::PioneerOptions pioneer;
+    hybrid_slam::writeManual({{"server", &options}, {"PIONEER", &pioneer}}, std::cout);
     return 0;
   }
   if (config.empty()) return fail(2, "no INI file: command line; expected observation-server config.ini");

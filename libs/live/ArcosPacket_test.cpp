@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "live/PioneerOdometry.h"
+#include "live/SipOdometry.h"
 
 namespace hybrid_slam {
 namespace {

@@ -1,4 +1,4 @@
-#include "live/SensorThread.h"
+#include "sensors/SensorThread.h"
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -11,7 +11,7 @@
 
 #include "base/Errors.h"
 #include "live/OdometryContinuity.h"
-#include "live/PioneerOdometry.h"
+#include "sensors/PioneerOdometry.h"
 
 namespace hybrid_slam {
 namespace {
@@ -33,7 +33,11 @@ bool isEmptyScan(const CObservation& observation) {
   return scan && scan->getScanSize() == 0;
 }
 
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string oneLine(std::string text) {
+  text.erase(text.find_last_not_of(" \n") + 1);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
 
 }  // namespace
 
@@ -91,7 +95,7 @@ CGenericSensor::Ptr SensorThread::Work::make() const {
     output->logRegisterCallback([log = log, subject = "sensor " + section](
                                     std::string_view text, const mrpt::system::VerbosityLevel level,
                                     std::string_view, const mrpt::Clock::time_point) {
-      if (level >= mrpt::system::LVL_WARN) log->report(subject + " (driver)", firstLine(std::string(text)));
+      if (level >= mrpt::system::LVL_WARN) log->report(subject + " (driver)", oneLine(std::string(text)));
     });
   }
   sensor->loadConfig(config, section);

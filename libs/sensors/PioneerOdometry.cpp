@@ -1,8 +1,7 @@
-#include "live/PioneerOdometry.h"
+#include "sensors/PioneerOdometry.h"
 
 #include <mrpt/obs/CObservationOdometry.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "base/Errors.h"
@@ -17,12 +16,6 @@ constexpr int kAttempts = 5;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The shorter way round of a 15-bit counter.
-int difference(uint16_t from, uint16_t to) {
-  const int forwards = (to - from) & 0x7fff;
-  return forwards < 0x4000 ? forwards : forwards - 0x8000;
 }
 
 }  // namespace
@@ -44,14 +37,6 @@ void PioneerOptions::describe(OptionTable& t) {
         "of the position's counters: DistConvFactor of the robot's parameter file (P3-DX with ARCOS: 1; with "
         "an "
         "older controller: 0.485)");
-}
-
-mrpt::math::TPose2D SipOdometry::operator()(const arcos::Sip& sip) {
-  if (last_) x_ += difference(last_->x, sip.x), y_ += difference(last_->y, sip.y);
-  last_ = sip;
-  const double turn = 2 * M_PI * sip.heading / 4096;
-  return {metresPerUnit_ * static_cast<double>(x_), metresPerUnit_ * static_cast<double>(y_),
-          std::remainder(turn, 2 * M_PI)};
 }
 
 PioneerOdometry::~PioneerOdometry() {

@@ -1,4 +1,4 @@
-#include "live/SensorSource.h"
+#include "sensors/SensorSource.h"
 
 #include "base/Errors.h"
 #include "live/CycleGrouper.h"

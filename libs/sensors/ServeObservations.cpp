@@ -1,11 +1,11 @@
-#include "live/ServeObservations.h"
+#include "sensors/ServeObservations.h"
 
 #include <chrono>
 #include <thread>
 
 #include "live/ObservationServer.h"
 #include "live/RawlogPlayer.h"
-#include "live/SensorSource.h"
+#include "sensors/SensorSource.h"
 
 namespace hybrid_slam {
 

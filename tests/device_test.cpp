@@ -1,6 +1,10 @@
 /// MRPT's CLMS100Eth and our PioneerOdometry against devices that only look real, up to the map.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,8 +15,8 @@
 #include "io/TemporaryFolder.h"
 #include "io/TestLogs.h"
 #include "live/LiveRun.h"
-#include "live/SensorSource.h"
 #include "live/TestEvents.h"
+#include "sensors/SensorSource.h"
 #include "standins/LmsStandIn.h"
 #include "standins/PioneerStandIn.h"
 
@@ -85,14 +89,14 @@ class Sensors {
   std::thread thread_;
 };
 
-class SensorsTest : public testing::Test {
+class DeviceTest : public testing::Test {
  protected:
   test::SimulatedRobot robot{SOURCE_DIR "/datasets/csie/csie.plan",
                              SOURCE_DIR "/datasets/csie/csie-loop.route", 0.4};
   test::Events events;
 };
 
-TEST_F(SensorsTest, TheLms100sScansComeAsTheyWereMade) {
+TEST_F(DeviceTest, TheLms100sScansComeAsTheyWereMade) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events);
   ASSERT_TRUE(happens([&] { return sensors.scans().size() >= 3; })) << events.text();
@@ -114,7 +118,7 @@ TEST_F(SensorsTest, TheLms100sScansComeAsTheyWereMade) {
   EXPECT_EQ(events.count("sensor LASER: works"), 1u) << events.text();
 }
 
-TEST_F(SensorsTest, ThePioneersOdometryIsTheRobots) {
+TEST_F(DeviceTest, ThePioneersOdometryIsTheRobots) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events);
   ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); })) << events.text();
@@ -130,7 +134,57 @@ TEST_F(SensorsTest, ThePioneersOdometryIsTheRobots) {
       << "and nothing that moves it";
 }
 
-TEST_F(SensorsTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
+/// A serial line (a pseudo-terminal) that ends in a TCP connection.
+class SerialLine {
+ public:
+  explicit SerialLine(uint16_t port) : socket_(TcpSocket::connectTo("127.0.0.1", port, 10)) {
+    master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ::grantpt(master_), ::unlockpt(master_);
+    char text[64];
+    ::ptsname_r(master_, text, sizeof text);
+    name_ = text;
+    slave_ =
+        ::open(text, O_RDWR | O_NOCTTY);  // stays open, so that the line does not hang up between two users
+    termios raw{};
+    ::tcgetattr(slave_, &raw), ::cfmakeraw(&raw), ::tcsetattr(slave_, TCSANOW, &raw);
+    thread_ = std::thread([this] {
+      char bytes[256];
+      while (!stop_) {
+        const ssize_t count = ::read(master_, bytes, sizeof bytes);
+        if (count > 0) socket_.send(std::string(bytes, static_cast<size_t>(count)), 5);
+        const std::string answer = socket_.receive(0.005);
+        [[maybe_unused]] const ssize_t ignored = ::write(master_, answer.data(), answer.size());
+      }
+    });
+  }
+  ~SerialLine() {
+    stop_ = true;
+    thread_.join();
+    ::close(slave_), ::close(master_);
+  }
+  const std::string& name() const { return name_; }
+
+ private:
+  TcpSocket socket_;
+  int master_ = -1, slave_ = -1;
+  std::string name_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+TEST_F(DeviceTest, APioneerOnASerialLine) {
+  test::PioneerStandIn pioneer(robot, 100);
+  const SerialLine line(pioneer.port());
+  Sensors sensors(
+      "[PIONEER]\ndriver = PioneerOdometry\nprocess_rate = 50\nserial_port = " + line.name() + "\n", events);
+  ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); })) << events.text();
+  for (int i = 0; i < 10; ++i) robot.scan();
+  EXPECT_TRUE(happens([&] { return std::abs(sensors.odometry().back().x - robot.odometry().x) < 0.001; }));
+  sensors.stop();
+  EXPECT_TRUE(happens([&] { return pioneer.closes() == 1; }));
+}
+
+TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
   test::LmsStandIn lms(robot);
   test::PioneerStandIn pioneer(robot, 100);
   const TemporaryFolder folder;
@@ -163,7 +217,7 @@ TEST_F(SensorsTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
   EXPECT_GT(way, 3) << "24 steps of 0.26 m";
 }
 
-TEST_F(SensorsTest, AnLms100ThatIsNotThereIsWaitedFor) {
+TEST_F(DeviceTest, AnLms100ThatIsNotThereIsWaitedFor) {
   uint16_t port = 0;
   {
     TcpListener reserved("127.0.0.1", 0);
@@ -175,7 +229,7 @@ TEST_F(SensorsTest, AnLms100ThatIsNotThereIsWaitedFor) {
   EXPECT_TRUE(happens([&] { return !sensors.scans().empty(); })) << events.text();
 }
 
-TEST_F(SensorsTest, AnLms100ComesBackAfterEveryFault) {
+TEST_F(DeviceTest, AnLms100ComesBackAfterEveryFault) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events, 0.3);
   for (const Fault fault : {Fault::cut, Fault::garbled, Fault::silent, Fault::refusing}) {
@@ -190,7 +244,7 @@ TEST_F(SensorsTest, AnLms100ComesBackAfterEveryFault) {
   for (const auto& scan : sensors.scans()) EXPECT_EQ(scan->getScanSize(), 541u) << "no part of a scan";
 }
 
-TEST_F(SensorsTest, ThePioneersOdometryGoesOnAfterEveryFault) {
+TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
   for (int i = 0; i < 20; ++i) robot.scan();
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events, 0.3);
@@ -211,7 +265,7 @@ TEST_F(SensorsTest, ThePioneersOdometryGoesOnAfterEveryFault) {
         << "no jump back to zero, nor by the way that nobody saw";
 }
 
-TEST_F(SensorsTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
+TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events);
   ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); }));
@@ -226,7 +280,7 @@ TEST_F(SensorsTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
   EXPECT_GE(events.count("damaged packets left out"), 1u);
 }
 
-TEST_F(SensorsTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
+TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
   const auto errorOf = [&](const std::string& ini) -> std::string {
     try {
       mrpt::config::CConfigFileMemory config(ini);

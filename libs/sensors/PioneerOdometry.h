@@ -4,7 +4,6 @@
 
 #include <mrpt/comms/CSerialPort.h>
 #include <mrpt/hwdrivers/CGenericSensor.h>
-#include <mrpt/math/TPose2D.h>
 #include <mrpt/system/COutputLogger.h>
 
 #include <chrono>
@@ -13,7 +12,7 @@
 #include <string>
 
 #include "base/Options.h"
-#include "live/ArcosPacket.h"
+#include "live/SipOdometry.h"
 #include "live/TcpSocket.h"
 
 namespace hybrid_slam {
@@ -28,19 +27,6 @@ struct PioneerOptions : Options {
   int baudRate = 9600, tcpPort = 8101;
   double millimetresPerUnit = 1;
   void describe(OptionTable& table) override;
-};
-
-/// Adds up the counters of SIPs over their wrap-around.
-class SipOdometry {
- public:
-  explicit SipOdometry(double metresPerUnit) : metresPerUnit_(metresPerUnit) {}
-  /// @return the pose (m, rad) from that of the first SIP's counters on
-  mrpt::math::TPose2D operator()(const arcos::Sip& sip);
-
- private:
-  double metresPerUnit_;
-  std::optional<arcos::Sip> last_;
-  int64_t x_ = 0, y_ = 0;  ///< units
 };
 
 /// `driver = PioneerOdometry`: a Pioneer 2/3, AmigoBot or PowerBot on a serial line or behind TCP.

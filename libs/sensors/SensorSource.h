@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "live/CycleSource.h"
-#include "live/SensorThread.h"
+#include "sensors/SensorThread.h"
 
 namespace hybrid_slam {
 
