@@ -22,14 +22,15 @@ run() {
     >"$work/server.ini"
   "$bin/observation-server" "$work/server.ini" >"$work/server.out" 2>"$work/server.err" &
   server=$!
-  until grep -q listening "$work/server.out"; do
+  until grep -qs listening "$work/server.out"; do
     kill -0 "$server" || { cat "$work/server.err" >&2; exit 1; }
     sleep 0.1
   done
   local address
   address=$(sed -n 's/listening at //p' "$work/server.out")
-  "$bin/hybrid-slam-live" config-ini/csie-lms100.ini --server "$address" -o "$out" -n 50 -j 2 -q 2>"$work/live.err"
-  wait "$server"
+  "$bin/hybrid-slam-live" config-ini/csie-lms100.ini --server "$address" -o "$out" -n 50 -j 2 -q \
+    2>"$work/live.err" || { cat "$work/live.err" "$work/server.err" >&2; exit 1; }
+  wait "$server" || { cat "$work/server.err" >&2; exit 1; }
   server=
   "$bin/hybrid-slam" config-ini/csie-lms100.ini "$out/recording.rawlog" -o "$out-again" -n 50 -j 2 -q
   local same=differs

@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   if (app.count("--seed")) set("particle_filter.seed", std::to_string(seed));
   if (app.count("--threads")) set("particle_filter.threads", std::to_string(threads));
 
+  std::signal(SIGPIPE, SIG_IGN);  // MRPT's sockets would end the program when a device hangs up
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   try {

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   }
   if (config.empty()) return fail(2, "no INI file: command line; expected observation-server config.ini");
 
+  std::signal(SIGPIPE, SIG_IGN);  // MRPT's sockets would end the program when a device hangs up
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   try {

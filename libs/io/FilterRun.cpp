@@ -6,6 +6,7 @@
 #include <mrpt/system/os.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -107,7 +108,7 @@ bool FilterRun::process(const Reading& reading) {
   return true;
 }
 
-std::string FilterRun::finish(RawlogSource& again, double duration, const std::string& version,
+std::string FilterRun::finish(RawlogSource& again, const RawlogSummary& log, const std::string& version,
                               const nlohmann::ordered_json& more) {
   const std::vector<mrpt::math::TPose2D> path = view_->bestPath();
   const Trajectory trajectory = recorder_.trajectory(path);
@@ -117,6 +118,7 @@ std::string FilterRun::finish(RawlogSource& again, double duration, const std::s
   savePicture(folder_, grid, trajectory, lines);
   saveRosMap(folder_, grid);
   saveGridMap(folder_, grid);
+  isUpdate_.resize(std::min(isUpdate_.size(), log.scans));
   saveSimpleMap(folder_, again, isUpdate_, path);
   saveLines(folder_, lines);
   steps_.finish();
@@ -132,10 +134,10 @@ std::string FilterRun::finish(RawlogSource& again, double duration, const std::s
       {"threads", configuration_.filter.filter.threads},
       {"scans", scans_},
       {"updates", path.size()},
-      {"duration_s", duration},
+      {"duration_s", log.duration},
       {"wall_s", wall},
       {"cpu_s", cpuSeconds()},
-      {"realtime_factor", wall > 0 ? duration / wall : 0},
+      {"realtime_factor", wall > 0 ? log.duration / wall : 0},
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings_},
       {"lines", lines.size()},
@@ -146,7 +148,8 @@ std::string FilterRun::finish(RawlogSource& again, double duration, const std::s
 
   return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
          textOf("%.0f m", recorder_.distance()) + " in " + textOf("%.1f s", wall) +
-         textOf(" (%.0f times the log's pace): ", wall > 0 ? duration / wall : 0) + folder_.path("map.png");
+         textOf(" (%.0f times the log's pace): ", wall > 0 ? log.duration / wall : 0) +
+         folder_.path("map.png");
 }
 
 }  // namespace hybrid_slam

@@ -45,13 +45,14 @@ class FilterRun {
   const OutputFolder& folder() const { return folder_; }
 
   /// Writes the results.
-  /// @param again     the log once more from its start, for map.simplemap.gz
-  /// @param duration  of the log (s)
-  /// @param version   of the program
-  /// @param more      further keys of metrics.json
+  /// @param again    the log once more from its start, for map.simplemap.gz
+  /// @param log      what it holds; where that is less than was processed (a recording on a full disk),
+  ///                 map.simplemap.gz ends there
+  /// @param version  of the program
+  /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor
   /// @throws InputError if a result cannot be written
-  std::string finish(RawlogSource& again, double duration, const std::string& version,
+  std::string finish(RawlogSource& again, const RawlogSummary& log, const std::string& version,
                      const nlohmann::ordered_json& more);
 
  private:

@@ -53,7 +53,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + file +
                          "; the results cover the log up to there";
   RawlogSource again(file, configuration.input, log);
-  outcome.summary = run.finish(again, log.duration, version, nlohmann::ordered_json::object());
+  outcome.summary = run.finish(again, log, version, nlohmann::ordered_json::object());
   return outcome;
 }
 

@@ -126,7 +126,7 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
                                      {{"median", quantile(latencies_, 0.5)},
                                       {"p99", quantile(latencies_, 0.99)},
                                       {"max", quantile(latencies_, 1)}}}};
-  return run_.finish(again, recorded.duration, version, more) + ", " + recording_.path();
+  return run_.finish(again, recorded, version, more) + ", " + recording_.path();
 }
 
 }  // namespace hybrid_slam

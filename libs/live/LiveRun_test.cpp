@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -159,6 +162,33 @@ TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
   while (reader.next()) ++scans;
   EXPECT_EQ(scans, 100u);
   EXPECT_THAT(reader.defect(), HasSubstr("cut off"));
+}
+
+TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  const rlimit small{40000, before.rlim_max};  // bytes of a file
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  for (const auto& object : test::laps(300)) {
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
+    run.take(cycle);
+  }
+  EXPECT_EQ(events.count("ends here; the run goes on"), 1u) << events.text();
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(run.finish("test", 0), HasSubstr("300 scans"));
+  RawlogReader reader(folder.path("live/recording.rawlog"));
+  size_t objects = 0;
+  while (reader.next()) ++objects;
+  EXPECT_GT(objects, 10u);
+  EXPECT_LT(objects, 600u);
+  mrpt::maps::CSimpleMap map;
+  EXPECT_TRUE(map.loadFromFile(folder.path("live/map.simplemap.gz"))) << "as far as the recording goes";
+  EXPECT_GT(map.size(), 1u);
 }
 
 TEST_F(LiveRunTest, WrongRecordingNames) {
