@@ -7,10 +7,13 @@
 
 #include <optional>
 
+#include "io/ReadingAssembler.h"
+
 namespace hybrid_slam {
 
 /// A robot that is switched off and on, and a driver that connects again, count from zero. What happened in
-/// between is not known: the pose goes on from the last one as if the robot had stood still.
+/// between is not known: the pose goes on from the last one as if the robot had stood still. So it does over
+/// a jump that no robot makes, which a replay of the recording would refuse.
 class OdometryContinuity {
  public:
   /// The next pose is in a frame of its own.
@@ -19,12 +22,12 @@ class OdometryContinuity {
   /// @param pose  as the robot tells it (m, rad)
   /// @return the pose in the frame of the very first one; the same bits until the first restart
   mrpt::math::TPose2D operator()(const mrpt::math::TPose2D& pose) {
-    if (isNewFrame_ && last_) start_ = Start{*last_, pose};
+    if (told_ && (isNewFrame_ || (pose - *told_).norm() > kMaxStep)) start_ = Start{*last_, pose};
     isNewFrame_ = false;
+    told_ = pose;
     last_ = start_ ? start_->here + (pose - start_->there) : pose;
     return *last_;
   }
-  const std::optional<mrpt::math::TPose2D>& last() const { return last_; }
 
  private:
   struct Start {
@@ -32,7 +35,8 @@ class OdometryContinuity {
   };
   bool isNewFrame_ = false;
   std::optional<Start> start_;
-  std::optional<mrpt::math::TPose2D> last_;
+  std::optional<mrpt::math::TPose2D> told_,
+      last_;  ///< the one before, as the robot told it and as it was given
 };
 
 /// Puts an observation, if it is odometry, into the first frame.
