@@ -14,6 +14,7 @@
 #include "io/Replay.h"
 #include "io/TemporaryFolder.h"
 #include "io/TestLogs.h"
+#include "live/CycleGrouper.h"
 #include "live/LiveRun.h"
 #include "live/TestEvents.h"
 #include "sensors/SensorSource.h"
@@ -40,22 +41,34 @@ std::string pioneerSection(uint16_t port) {
          std::to_string(port) + "\n";
 }
 
-/// The sensors of an INI text, running in a thread; what they gave.
+/// The sensors of an INI text, and what they gave. Cycles are made of it only for a sink: their grouping
+/// would hold back odometry without scans for a second.
 class Sensors {
  public:
-  Sensors(const std::string& ini, test::Events& events, double timeout = 0.5, CycleSink more = {})
-      : more_(std::move(more)) {
+  Sensors(const std::string& ini, test::Events& events, double timeout = 0.5, CycleSink sink = {}) {
     mrpt::config::CConfigFileMemory config(ini);
-    source_ = std::make_unique<SensorSource>(config, 0, timeout, events.shared());
-    thread_ = std::thread([this] {
-      source_->run([this](const CSensoryFrame::Ptr& cycle) { take(cycle); }, [this] { return stop_.load(); });
+    std::vector<std::string> sections;
+    config.getAllSections(sections);
+    for (const std::string& section : sections)
+      if (config.keyExists(section, "driver"))
+        threads_.push_back(std::make_unique<SensorThread>(config, section, timeout, inbox_, events.shared()));
+    for (const auto& sensor : threads_) sensor->start();
+    thread_ = std::thread([this, sink = std::move(sink)] {
+      CycleGrouper grouper(
+          0, sink ? sink : [](const CSensoryFrame::Ptr&) {});
+      while (!stop_)
+        for (const auto& observation : inbox_->take(0.02)) {
+          note(observation);
+          grouper.add(observation);
+        }
+      grouper.finish();
     });
   }
   ~Sensors() { stop(); }
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
-    source_.reset();
+    threads_.clear();
   }
   std::vector<CObservation2DRangeScan::Ptr> scans() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -67,21 +80,16 @@ class Sensors {
   }
 
  private:
-  void take(const CSensoryFrame::Ptr& cycle) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      for (const auto& observation : *cycle) {
-        if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
-          scans_.push_back(scan);
-        if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
-          odometry_.push_back(odometry->odometry.asTPose());
-      }
-    }
-    if (more_) more_(cycle);
+  void note(const mrpt::obs::CObservation::Ptr& observation) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
+      scans_.push_back(scan);
+    if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
+      odometry_.push_back(odometry->odometry.asTPose());
   }
 
-  CycleSink more_;
-  std::unique_ptr<SensorSource> source_;
+  std::shared_ptr<ObservationInbox> inbox_ = std::make_shared<ObservationInbox>();
+  std::vector<std::unique_ptr<SensorThread>> threads_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   std::vector<CObservation2DRangeScan::Ptr> scans_;

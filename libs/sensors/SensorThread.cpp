@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using mrpt::hwdrivers::CGenericSensor;
 using mrpt::obs::CObservation;
 
-constexpr double kShortestPause = 0.5, kLongestPause = 10;  // s
+constexpr double kShortestPause = 0.2, kLongestPause = 10;  // s
 std::atomic<size_t> countLeftBehind{0};
 
 double secondsSince(Clock::time_point start) {
