@@ -5,9 +5,9 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "io/IniFile.h"
 #include "io/RawlogSource.h"
 #include "rbpf/FilterOptions.h"
 
@@ -35,18 +35,17 @@ struct Configuration {
 
   /// @param file      the INI file
   /// @param settings  `SECTION.KEY=VALUE` each, stronger than the file
-  /// @throws InputError for a missing file, a file without any section of ours (nor MRPT's RBPF's), a section
-  ///         that is ours but for a slip of the pen, a line that is none, a setting of a section that is
-  ///         neither ours nor in the file, and for all that Options::loadFromConfigFile finds
-  Configuration(const std::string& file, const std::vector<std::string>& settings);
+  /// @param more      further sections of the program, loaded with these; they outlive the configuration
+  /// @throws InputError as loadIni does; MRPT's RBPF's section will do for one of ours
+  Configuration(const std::string& file, const std::vector<std::string>& settings, const Sections& more = {});
   Configuration() = default;
 
-  std::vector<std::pair<std::string, Options*>> sections();
+  Sections sections();
   /// Every key of ours with its value, and the file's other sections: read back, the same run.
   std::string text();
 
  private:
-  void load(const std::string& where);  ///< from `source`; `where` it is from, for errors
+  Sections more_;
 };
 
 /// Every section and key with its default, unit, range and reason, as Markdown: doc/configuration.md.

@@ -2,16 +2,12 @@
 /// @brief Scans with their odometry from a rawlog of either form.
 #pragma once
 
-#include <mrpt/math/TPose2D.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
-
-#include <deque>
 #include <optional>
 #include <string>
 
 #include "base/Options.h"
 #include "io/RawlogReader.h"
+#include "io/ReadingAssembler.h"
 
 namespace hybrid_slam {
 
@@ -21,13 +17,6 @@ struct InputOptions : Options {
   bool requireOdometry = true;
   double maxOdometryGap = 1;
   void describe(OptionTable& table) override;
-};
-
-/// One scan, and how the robot moved since the scan before by its odometry (m, rad).
-struct Reading {
-  mrpt::obs::CObservation2DRangeScan::Ptr scan;
-  double timestamp = 0;  ///< s; that of the scan before where the scan has none
-  mrpt::math::TPose2D motion;
 };
 
 /// How often something odd is in a log, and the entry (from 1) where it is first.
@@ -51,11 +40,7 @@ struct RawlogSummary {
 ///         where the options require it
 RawlogSummary summarise(const std::string& file, const InputOptions& options);
 
-/// Reads a log of action-observation pairs, or one of observations only, where odometry and scans interleave:
-/// there the odometry at a scan's own time is interpolated between the readings around it; where timestamps
-/// step back or the readings are too far apart, the reading before it in the log's order holds, and the first
-/// one for the scans before it. Scans without beams and whatever is placed at no number are left out; beams
-/// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
+/// The readings of a log, as ReadingAssembler makes them.
 class RawlogSource {
  public:
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
@@ -66,25 +51,10 @@ class RawlogSource {
   size_t entry() const { return reader_.entry(); }
 
  private:
-  void take(const mrpt::serialization::CSerializable::Ptr& object);
-  void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
-  void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
-  void finishWaiting(const mrpt::math::TPose2D& odometry);
-  void finish(const mrpt::obs::CObservation2DRangeScan::Ptr& scan, const mrpt::math::TPose2D& odometry);
-
   std::string file_;
   RawlogReader reader_;
-  double maxOdometryGap_;
-  std::string sensorLabel_;
-  bool hasOdometryReadings_;
-  std::deque<Reading> ready_;
-  std::deque<mrpt::obs::CObservation2DRangeScan::Ptr> waiting_;  ///< for the odometry reading after them
-  std::optional<mrpt::math::TPose2D> lastOdometry_;
-  double lastOdometryTime_ = 0;
-  mrpt::math::TPose2D travelled_;   ///< odometry pose, observation-only or summed actions
-  mrpt::math::TPose2D atLastScan_;  ///< odometry pose of the scan before
-  bool first_ = true;
-  double lastTimestamp_ = 0;
+  ReadingAssembler assembler_;
+  bool isAtEnd_ = false;
 };
 
 }  // namespace hybrid_slam

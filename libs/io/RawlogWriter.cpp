@@ -38,6 +38,16 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
   if (!sink.isWhole) file_.fail(errno);
 }
 
+void RawlogWriter::flush() {
+  errno = 0;
+  if (gzflush(gzip_.get(), Z_SYNC_FLUSH) != Z_OK) file_.fail(errno);
+}
+
+void RawlogWriter::finishCut() {
+  gzip_.reset();
+  file_.commit();
+}
+
 void RawlogWriter::finish() {
   errno = 0;
   if (gzclose_w(gzip_.release()) != Z_OK) file_.fail(errno);

@@ -25,8 +25,13 @@ class RawlogWriter {
 
   /// @throws InputError where the disk takes no more
   void write(const mrpt::serialization::CSerializable& object);
+  /// What was written so far is on disk after this, for a recording whose program may be killed.
+  /// @throws InputError where the disk takes no more
+  void flush();
   /// @throws InputError where the disk takes no more, or the file cannot be given its name
   void finish();
+  /// Gives the file its name although the disk took no more: RawlogReader reads it up to where it is cut.
+  void finishCut();
 
  private:
   PartialFile file_;

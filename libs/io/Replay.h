@@ -3,15 +3,10 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "io/Configuration.h"
-
-namespace mrpt::slam {
-class CMetricMapBuilder;
-}
 
 namespace hybrid_slam {
 

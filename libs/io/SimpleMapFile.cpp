@@ -5,6 +5,8 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
+
 #include "io/RawlogWriter.h"
 
 namespace hybrid_slam {
@@ -18,7 +20,7 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
       : source_(&source), isUpdate_(&isUpdate), path_(&path) {}
 
   void serializeTo(mrpt::serialization::CArchive& out) const override {
-    out.WriteAs<uint32_t>(path_->size());
+    out.WriteAs<uint32_t>(std::count(isUpdate_->begin(), isUpdate_->end(), true));
     size_t written = 0;
     for (const bool isUpdate : *isUpdate_) {
       const auto reading = source_->next();

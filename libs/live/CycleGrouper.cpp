@@ -1,0 +1,78 @@
+#include "live/CycleGrouper.h"
+
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <algorithm>
+
+namespace hybrid_slam {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+
+void CycleGrouper::add(const CObservation::Ptr& observation) {
+  const bool isStamped = observation->timestamp != INVALID_TIMESTAMP;
+  const double time = isStamped ? mrpt::Clock::toDouble(observation->timestamp) : newest_.value_or(0);
+  if (newest_ && time < *newest_ - kLongestWait) {
+    finish();
+    due_.clear();
+    newest_.reset(), lastOdometry_.reset();
+  }
+  newest_ = std::max(newest_.value_or(time), time);
+
+  if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
+    if (!isDue(*scan, time)) return;
+  } else if (std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+    lastOdometry_ = std::max(lastOdometry_.value_or(time), time);
+  }
+  insert(time, observation);
+
+  // The last scan that need not wait ends the cycle, with the first odometry at or after it.
+  for (size_t i = waiting_.size(); i-- > 0;) {
+    if (!std::dynamic_pointer_cast<CObservation2DRangeScan>(waiting_[i].observation)) continue;
+    const double scanTime = waiting_[i].time;
+    const bool comesOdometry = lastOdometry_ && scanTime - *lastOdometry_ <= kLongestWait;
+    size_t end = i + 1;
+    if (lastOdometry_ && *lastOdometry_ >= scanTime) {
+      const bool isBefore = i > 0 && waiting_[i - 1].time == scanTime &&
+                            std::dynamic_pointer_cast<CObservationOdometry>(waiting_[i - 1].observation);
+      const auto isOdometry = [](const Entry& e) {
+        return static_cast<bool>(std::dynamic_pointer_cast<CObservationOdometry>(e.observation));
+      };
+      const auto after =
+          std::find_if(waiting_.begin() + static_cast<std::ptrdiff_t>(i), waiting_.end(), isOdometry);
+      if (!isBefore && after != waiting_.end()) end = static_cast<size_t>(after - waiting_.begin()) + 1;
+    } else if (comesOdometry && *newest_ - scanTime <= kLongestWait) {
+      continue;
+    }
+    return give(end);
+  }
+  if (*newest_ - waiting_.front().time > kLongestWait) give(waiting_.size());
+}
+
+/// Scans of a laser at about the cycles' rate all pass, however they jitter; faster ones are thinned out.
+bool CycleGrouper::isDue(const CObservation2DRangeScan& scan, double time) {
+  const auto due = due_.try_emplace(scan.sensorLabel, time).first;
+  if (time < due->second - period_ / 2) return false;
+  due->second = std::max(due->second, time - period_ / 2) + period_;
+  return true;
+}
+
+void CycleGrouper::insert(double time, const CObservation::Ptr& observation) {
+  const auto after = std::upper_bound(waiting_.begin(), waiting_.end(), time,
+                                      [](double t, const Entry& entry) { return t < entry.time; });
+  waiting_.insert(after, {time, observation});
+}
+
+void CycleGrouper::give(size_t count) {
+  auto cycle = mrpt::obs::CSensoryFrame::Create();
+  for (size_t i = 0; i < count; ++i) cycle->insert(waiting_[i].observation);
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+  sink_(cycle);
+}
+
+void CycleGrouper::finish() {
+  if (!waiting_.empty()) give(waiting_.size());
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,129 @@
+#include "live/CycleGrouper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "io/TestLogs.h"
+
+namespace hybrid_slam {
+namespace {
+
+using test::odometry;
+using test::scan;
+using testing::ElementsAre;
+
+/// Each cycle as text: o for odometry, s for a scan, with the times.
+struct Cycles {
+  std::vector<std::string> texts;
+  CycleGrouper grouper;
+
+  explicit Cycles(double rate)
+      : grouper(rate, [this](const mrpt::obs::CSensoryFrame::Ptr& cycle) { note(*cycle); }) {}
+  void note(const mrpt::obs::CSensoryFrame& cycle) {
+    std::string text;
+    for (const auto& observation : cycle) {
+      char each[32];
+      const bool isScan =
+          static_cast<bool>(std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation));
+      const bool isStamped = observation->timestamp != INVALID_TIMESTAMP;
+      std::snprintf(each, sizeof each, "%s%s%.2f", text.empty() ? "" : " ", isScan ? "s" : "o",
+                    isStamped ? mrpt::Clock::toDouble(observation->timestamp) : -1);
+      text += each;
+    }
+    texts.push_back(text);
+  }
+  void odo(double time) { grouper.add(odometry(time, {})); }
+  void laser(double time, const std::string& label = "LASER") { grouper.add(scan(time, {}, 3, label)); }
+};
+
+TEST(CycleGrouper, ACycleEndsWithTheFirstOdometryAfterItsScan) {
+  Cycles c(5);
+  c.odo(10.03), c.laser(10.1);
+  EXPECT_THAT(c.texts, ElementsAre());
+  c.odo(10.13);
+  EXPECT_THAT(c.texts, ElementsAre("o10.03 s10.10 o10.13"));
+  c.odo(10.23), c.laser(10.3), c.odo(10.33), c.odo(10.43);
+  EXPECT_EQ(c.texts.back(), "o10.23 s10.30 o10.33");
+  c.grouper.finish();
+  EXPECT_EQ(c.texts.back(), "o10.43");
+  EXPECT_EQ(c.texts.size(), 3u);
+}
+
+TEST(CycleGrouper, OdometryOfTheScansOwnTimeIsEnough) {
+  Cycles c(5);
+  c.odo(10), c.laser(10);
+  c.odo(10.2), c.laser(10.2);
+  EXPECT_THAT(c.texts, ElementsAre("o10.00 s10.00", "o10.20 s10.20"));
+}
+
+TEST(CycleGrouper, AScanThatComesLateIsPutInItsPlace) {
+  Cycles c(5);
+  c.odo(10.0), c.odo(10.1), c.odo(10.2), c.laser(10.15);
+  EXPECT_THAT(c.texts, ElementsAre("o10.00 o10.10 s10.15 o10.20"));
+}
+
+TEST(CycleGrouper, FastScansAreThinnedOutPerLaser) {
+  Cycles c(5);
+  for (int i = 0; i < 100; ++i) {  // 25 Hz for 4 s
+    c.odo(10 + 0.04 * i), c.laser(10 + 0.04 * i);
+    c.laser(10 + 0.04 * i, "REAR");
+  }
+  size_t scans = 0;
+  for (const auto& text : c.texts) scans += static_cast<size_t>(std::count(text.begin(), text.end(), 's'));
+  EXPECT_NEAR(static_cast<double>(scans), 40, 2);
+}
+
+TEST(CycleGrouper, JitterCostsNoScanAtTheCyclesOwnRate) {
+  Cycles c(5);
+  for (int i = 0; i < 3000; ++i) {  // 10 minutes
+    const double time = 10 + 0.2 * i + (i % 3 - 1) * 0.045;
+    c.odo(time - 0.01), c.laser(time), c.odo(time + 0.01);
+  }
+  size_t scans = 0;
+  for (const auto& text : c.texts) scans += static_cast<size_t>(std::count(text.begin(), text.end(), 's'));
+  EXPECT_EQ(scans, 3000u);
+}
+
+TEST(CycleGrouper, WithoutARateEveryScanIsACycle) {
+  Cycles c(0);
+  for (int i = 0; i < 5; ++i) c.odo(10 + 0.01 * i), c.laser(10 + 0.01 * i);
+  EXPECT_EQ(c.texts.size(), 5u);
+}
+
+TEST(CycleGrouper, NobodyWaitsWhereThereIsNoOdometry) {
+  Cycles c(5);
+  c.laser(10), c.laser(10.2);
+  EXPECT_THAT(c.texts, ElementsAre("s10.00", "s10.20"));
+  c.odo(10.3), c.laser(10.4), c.laser(10.6);
+  EXPECT_EQ(c.texts.size(), 2u) << "odometry may come";
+  c.laser(11.0), c.laser(11.5);
+  EXPECT_EQ(c.texts.back(), "o10.30 s10.40 s10.60 s11.00 s11.50") << "the odometry has ended";
+}
+
+TEST(CycleGrouper, OdometryAloneIsGivenEverySecond) {
+  Cycles c(5);
+  for (int i = 0; i <= 30; ++i) c.odo(10 + 0.1 * i);
+  c.grouper.finish();
+  EXPECT_GE(c.texts.size(), 2u);
+  EXPECT_LE(c.texts.size(), 4u);
+}
+
+TEST(CycleGrouper, AClockThatIsSetBackStartsAnew) {
+  Cycles c(5);
+  c.odo(1000), c.laser(1000);
+  c.odo(10), c.laser(10), c.odo(10.2), c.laser(10.2);
+  EXPECT_THAT(c.texts, ElementsAre("o1000.00 s1000.00", "o10.00 s10.00", "o10.20 s10.20"));
+}
+
+TEST(CycleGrouper, ObservationsWithoutTimeKeepTheirOrder) {
+  Cycles c(0);
+  c.odo(10), c.odo(test::kNoTime), c.laser(test::kNoTime), c.odo(10.1);
+  c.grouper.finish();
+  EXPECT_THAT(c.texts.front(), "o10.00 o-1.00 s-1.00");
+}
+
+}  // namespace
+}  // namespace hybrid_slam

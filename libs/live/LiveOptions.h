@@ -1,0 +1,41 @@
+/// @file LiveOptions.h
+/// @brief INI sections [live] and [server].
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "base/Options.h"
+
+namespace hybrid_slam {
+
+/// Section [live] of hybrid-slam-live.
+struct LiveOptions : Options {
+  std::string server;
+  double timeout = 5;
+  double cycleRate = 5;
+  double sensorTimeout = 5;
+  int maxWaiting = 5;
+  std::string recording = "recording.rawlog";
+  void describe(OptionTable& table) override;
+};
+
+/// Section [server] of observation-server.
+struct ServerOptions : Options {
+  std::string address = "127.0.0.1";
+  int port = 4550;
+  double cycleRate = 5;
+  double sensorTimeout = 5;
+  int queue = 50;
+  int maxClients = 250;
+  std::string rawlog;
+  double replayRate = 0;
+  int waitForClients = 0;
+  void describe(OptionTable& table) override;
+};
+
+/// "HOST:PORT" apart. @throws InputError for anything else
+std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where);
+
+}  // namespace hybrid_slam

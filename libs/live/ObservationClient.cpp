@@ -1,0 +1,89 @@
+#include "live/ObservationClient.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "base/Errors.h"
+#include "live/ObservationWire.h"
+#include "live/TcpSocket.h"
+
+namespace hybrid_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kShortestPause = 0.1, kLongestPause = 2;  // s
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
+  const std::string subject = "server " + settings_.host + ":" + std::to_string(settings_.port);
+  pause_ = kShortestPause;
+  while (!stop() && !hasEnded_) {
+    std::string fault;
+    try {
+      listen(sink, stop);
+    } catch (const WireError& e) {
+      fault = std::string("sent ") + e.what();
+    } catch (const InputError&) {
+      throw;  // the sink's
+    } catch (const std::runtime_error& e) {
+      fault = e.what();
+    }
+    if (fault.empty()) continue;
+    log_.report(subject, fault + "; trying again");
+    const auto start = Clock::now();
+    while (!stop() && secondsSince(start) < pause_)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    pause_ = std::min(2 * pause_, kLongestPause);
+  }
+}
+
+void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
+  TcpSocket socket = TcpSocket::connectTo(settings_.host, settings_.port, settings_.timeout);
+  ++connections_;
+  MessageDecoder decoder;
+  auto lastBytes = Clock::now();
+  bool isFirst = true;
+  while (!stop() && !hasEnded_) {
+    const std::string bytes = socket.receive(0.1);
+    if (!bytes.empty())
+      lastBytes = Clock::now();
+    else if (secondsSince(lastBytes) > settings_.timeout)
+      throw std::runtime_error("silent for " + std::to_string(static_cast<int>(settings_.timeout)) + " s");
+    decoder.feed(bytes);
+    while (const auto message = decoder.next()) {
+      take(*message, sink);
+      if (isFirst) {
+        log_.report("server " + settings_.host + ":" + std::to_string(settings_.port), "connected");
+        pause_ = kShortestPause;
+      }
+      isFirst = false;
+      if (hasEnded_) return;
+    }
+  }
+}
+
+void ObservationClient::take(const Message& message, const CycleSink& sink) {
+  const auto cycle = message.kind == MessageKind::cycle ? deserialise(message.payload) : nullptr;
+  if (hasSession_ && message.session != session_) {
+    odometry_.restart();
+    log_.report("odometry", "another server: it goes on from the last pose");
+  } else if (hasSession_) {
+    const uint64_t expected = number_ + (cycle ? 1 : 0);
+    if (message.number > expected) lost_ += message.number - expected;
+  }
+  hasSession_ = true;
+  session_ = message.session, number_ = message.number;
+  hasEnded_ = message.kind == MessageKind::end;
+  if (!cycle) return;
+  for (const auto& observation : *cycle) rebase(*observation, odometry_);
+  sink(cycle);
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,171 @@
+#include "live/ObservationServer.h"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace hybrid_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kHeartbeat = 1000;  // ms
+
+uint64_t drawSession() {
+  std::random_device device;
+  return static_cast<uint64_t>(device()) << 32 | device();
+}
+
+std::string nameOf(int descriptor) {
+  sockaddr_in peer{};
+  socklen_t size = sizeof peer;
+  ::getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size);
+  char text[INET_ADDRSTRLEN] = "";
+  ::inet_ntop(AF_INET, &peer.sin_addr, text, sizeof text);
+  return "client " + std::string(text) + ":" + std::to_string(ntohs(peer.sin_port));
+}
+
+}  // namespace
+
+ObservationServer::ObservationServer(const std::string& address, uint16_t port, Limits limits, EventLog& log)
+    : limits_(limits),
+      log_(log),
+      listener_(address, port),
+      wakeUp_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      session_(drawSession()) {
+  if (wakeUp_ < 0) throw std::runtime_error("no eventfd");
+  thread_ = std::thread([this] { serve(); });
+}
+
+ObservationServer::~ObservationServer() {
+  stop_ = true;
+  wake();
+  thread_.join();
+  ::close(wakeUp_);
+}
+
+void ObservationServer::wake() const {
+  const uint64_t one = 1;
+  [[maybe_unused]] const ssize_t ignored = ::write(wakeUp_, &one, sizeof one);  // fails only if it is awake
+}
+
+void ObservationServer::publish(const mrpt::obs::CSensoryFrame& cycle) {
+  std::string payload = serialise(cycle);
+  if (payload.size() > kMaxPayload) return log_.report("server", "cycle of more than 16 MiB: left out");
+  enqueue({MessageKind::cycle, session_, ++number_, std::move(payload)});
+}
+
+void ObservationServer::enqueue(const Message& message) {
+  const auto bytes = std::make_shared<const std::string>(encode(message));
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (Client& client : clients_) {
+      // A message that is on its way must be finished; the next one is the oldest that can go.
+      const auto oldest = client.queue.begin() + (client.sent > 0 ? 1 : 0);
+      if (client.queue.size() >= limits_.queue && oldest != client.queue.end()) {
+        client.queue.erase(oldest);
+        ++client.dropped, ++dropped_;
+      }
+      client.queue.push_back(bytes);
+    }
+  }
+  wake();
+}
+
+void ObservationServer::finish(double timeout) {
+  enqueue({MessageKind::end, session_, number_, {}});
+  const auto end = Clock::now() + std::chrono::duration<double>(timeout);
+  const auto isAllSent = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const Client& client : clients_)
+      if (!client.queue.empty()) return false;
+    return true;
+  };
+  while (!isAllSent() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+void ObservationServer::serve() {
+  auto lastHeartbeat = Clock::now();
+  uint64_t lastNumber = 0;
+  while (!stop_) {
+    std::vector<pollfd> ready{{wakeUp_, POLLIN, 0}};
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (const Client& client : clients_)
+        ready.push_back({client.socket.descriptor(),
+                         static_cast<short>(POLLIN | (client.queue.empty() ? 0 : POLLOUT)), 0});
+    }
+    // Who comes when all places are taken waits in the system's own queue.
+    if (!isFull_) ready.push_back({listener_.descriptor(), POLLIN, 0});
+    ::poll(ready.data(), ready.size(), kHeartbeat);
+
+    uint64_t count = 0;
+    [[maybe_unused]] const ssize_t ignored = ::read(wakeUp_, &count, sizeof count);
+    size_t i = 1;
+    for (auto client = clients_.begin(); client != clients_.end(); ++i) {
+      try {
+        if (ready[i].revents & (POLLIN | POLLERR | POLLHUP)) read(*client);
+        write(*client);
+        ++client;
+      } catch (const std::runtime_error& e) {
+        log_.report(client->name, std::string("gone (") + e.what() + ")");
+        const std::lock_guard<std::mutex> lock(mutex_);
+        client = clients_.erase(client);
+      }
+    }
+    isFull_ = clients_.size() >= limits_.clients;
+    if (!isFull_ && i < ready.size() && ready[i].revents) accept();
+    clientCount_ = clients_.size();
+
+    if (Clock::now() - lastHeartbeat >= std::chrono::milliseconds(kHeartbeat)) {
+      if (number_ == lastNumber) enqueue({MessageKind::heartbeat, session_, number_, {}});
+      lastNumber = number_;
+      lastHeartbeat = Clock::now();
+    }
+  }
+}
+
+void ObservationServer::accept() {
+  TcpSocket socket = listener_.accept(0);
+  if (!socket.isOpen()) {
+    // It is out of descriptors, or the client has left again.
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return;
+  }
+  Client client;
+  client.name = nameOf(socket.descriptor());
+  client.socket = std::move(socket);
+  log_.report(client.name, "connected");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  clients_.push_back(std::move(client));
+}
+
+/// Clients have nothing to say: what they send is thrown away; reading tells when they leave.
+void ObservationServer::read(Client& client) { client.socket.receive(0); }
+
+void ObservationServer::write(Client& client) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  while (!client.queue.empty()) {
+    const std::string& bytes = *client.queue.front();
+    client.sent += client.socket.sendSome(bytes.data() + client.sent, bytes.size() - client.sent);
+    if (client.sent < bytes.size()) break;
+    client.queue.pop_front();
+    client.sent = 0;
+  }
+  if (client.dropped == 0) return;
+  if (client.queue.empty()) {
+    log_.report(client.name, "keeps up again; it missed " + std::to_string(client.dropped) + " cycles");
+    client.dropped = 0;
+  } else {
+    log_.report(client.name, "too slow: its oldest cycles are dropped");
+  }
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,78 @@
+/// @file ObservationServer.h
+/// @brief Cycles of observations to any number of clients, none of which can hold up the robot or another.
+#pragma once
+
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <atomic>
+#include <deque>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "live/EventLog.h"
+#include "live/ObservationWire.h"
+#include "live/TcpSocket.h"
+
+namespace hybrid_slam {
+
+/// One thread serves all clients without ever waiting for one: each has a queue of cycles that it did not
+/// take yet, and when that is full the oldest cycle goes.
+class ObservationServer {
+ public:
+  struct Limits {
+    size_t queue = 50;  ///< cycles that wait for one client
+    size_t clients = 250;
+  };
+
+  /// @param address  of this machine to listen at; @param port  0: one that is free
+  /// @throws InputError if it cannot listen there
+  ObservationServer(const std::string& address, uint16_t port, Limits limits, EventLog& log);
+  ~ObservationServer();
+  ObservationServer(const ObservationServer&) = delete;
+  ObservationServer& operator=(const ObservationServer&) = delete;
+
+  uint16_t port() const { return listener_.port(); }
+  size_t clients() const { return clientCount_; }
+  size_t cycles() const { return number_; }
+  size_t dropped() const { return dropped_; }  ///< cycles, over all clients
+
+  /// Puts the cycle into every client's queue; takes microseconds.
+  void publish(const mrpt::obs::CSensoryFrame& cycle);
+  /// Tells the clients that nothing comes any more, and waits at most `timeout` s for them to take all.
+  void finish(double timeout);
+
+ private:
+  using Bytes = std::shared_ptr<const std::string>;
+  struct Client {
+    TcpSocket socket;
+    std::string name;
+    std::deque<Bytes> queue;  ///< the first may be sent in part
+    size_t sent = 0;          ///< bytes of the first
+    size_t dropped = 0;       ///< cycles since the queue was last empty
+  };
+
+  void serve();
+  void accept();
+  void read(Client& client);
+  void write(Client& client);
+  void enqueue(const Message& message);
+  void wake() const;
+
+  Limits limits_;
+  EventLog& log_;
+  TcpListener listener_;
+  int wakeUp_ = -1;  ///< eventfd
+  const uint64_t session_;
+  std::atomic<uint64_t> number_{0};
+  std::atomic<size_t> clientCount_{0}, dropped_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;  ///< of the clients' queues; only the thread adds and removes clients
+  std::list<Client> clients_;
+  bool isFull_ = false;  ///< more clients wait than can be served
+  std::thread thread_;
+};
+
+}  // namespace hybrid_slam

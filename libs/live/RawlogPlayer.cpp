@@ -1,0 +1,95 @@
+#include "live/RawlogPlayer.h"
+
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "io/RawlogReader.h"
+#include "io/RawlogSource.h"
+#include "live/CycleGrouper.h"
+
+namespace hybrid_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using mrpt::obs::CObservation;
+using mrpt::obs::CSensoryFrame;
+
+/// Waits until the moment of each cycle.
+class Pace {
+ public:
+  Pace(double rate, const StopCheck& stop) : rate_(rate), stop_(stop) {}
+
+  void wait(const CSensoryFrame& cycle) {
+    const double time = timeOf(cycle);
+    // A step back, or a pause of minutes between two logs in one, is not waited for.
+    if (count_ == 0 || time < last_ || time - last_ > 60) start_ = Clock::now(), first_ = time, count_ = 0;
+    const double due = rate_ > 0 ? static_cast<double>(count_) / rate_ : time - first_;
+    ++count_;
+    last_ = time;
+    const auto moment =
+        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due));
+    while (!stop_() && Clock::now() < moment)
+      std::this_thread::sleep_until(std::min(moment, Clock::now() + std::chrono::milliseconds(50)));
+  }
+
+ private:
+  double timeOf(const CSensoryFrame& cycle) const {
+    double newest = last_;
+    bool isFirst = true;
+    for (const auto& observation : cycle) {
+      if (observation->timestamp == INVALID_TIMESTAMP) continue;
+      const double time = mrpt::Clock::toDouble(observation->timestamp);
+      newest = isFirst ? time : std::max(newest, time);
+      isFirst = false;
+    }
+    return newest;
+  }
+
+  double rate_;
+  const StopCheck& stop_;
+  Clock::time_point start_{};
+  double first_ = 0, last_ = 0;
+  size_t count_ = 0;
+};
+
+}  // namespace
+
+RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate)
+    : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
+  InputOptions any;
+  any.requireOdometry = false;
+  summarise(file, any);
+}
+
+void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
+  Pace pace(replayRate_, stop);
+  CycleGrouper grouper(cycleRate_, [&](const CSensoryFrame::Ptr& cycle) {
+    pace.wait(*cycle);
+    if (!stop()) sink(cycle);
+  });
+  RawlogReader reader(file_);
+  mrpt::math::TPose2D travelled;
+  bool hasActions = false;
+  while (const auto object = stop() ? nullptr : reader.next()) {
+    if (const auto increment = incrementOf(object)) {
+      if (isFinite(*increment)) travelled = travelled + *increment;
+      hasActions = true;
+    }
+    forEachObservation(object, [&](const CObservation::Ptr& observation) {
+      if (hasActions && std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation)) {
+        auto odometry = mrpt::obs::CObservationOdometry::Create();
+        odometry->sensorLabel = "ODOMETRY";
+        odometry->timestamp = observation->timestamp;
+        odometry->odometry = mrpt::poses::CPose2D(travelled);
+        grouper.add(odometry);
+      }
+      grouper.add(observation);
+    });
+  }
+  grouper.finish();
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,78 @@
+#include "live/RawlogPlayer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/Errors.h"
+#include "io/ReadingAssembler.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::obs::CSensoryFrame;
+using test::Log;
+
+constexpr double kFast = 100000;  // cycles/s
+
+/// The readings that a live run makes of a log, and the cycles that they came in.
+struct Played {
+  std::vector<Reading> readings;
+  size_t cycles = 0;
+};
+
+Played played(const Log& log, double cycleRate, size_t stopAfter = 1000000) {
+  const TemporaryFolder folder;
+  RawlogPlayer player(test::writePlain(folder.path("log"), log), cycleRate, kFast);
+  Played out;
+  ReadingAssembler assembler("", true, 1);
+  player.run(
+      [&](const CSensoryFrame::Ptr& cycle) {
+        ++out.cycles;
+        assembler.take(cycle);
+      },
+      [&] { return out.cycles >= stopAfter; });
+  assembler.finish();
+  while (const auto reading = assembler.next()) out.readings.push_back(*reading);
+  return out;
+}
+
+TEST(RawlogPlayer, GivesEveryScanOfALogWithItsMotion) {
+  const Played p = played(test::laps(50), 5);
+  ASSERT_EQ(p.readings.size(), 50u);
+  EXPECT_EQ(p.cycles, 50u);
+  for (size_t i = 1; i < 50; ++i)
+    EXPECT_LT((p.readings[i].motion - (test::poseOnLap(i, 80) - test::poseOnLap(i - 1, 80))).norm(), 1e-6);
+}
+
+TEST(RawlogPlayer, ThinsAFastLogOut) {
+  Log log;
+  for (int i = 0; i < 100; ++i) {  // 50 scans/s for 2 s
+    log.push_back(test::odometry(10 + 0.02 * i, {0.01 * i, 0, 0}));
+    log.push_back(test::scan(10 + 0.02 * i));
+  }
+  EXPECT_NEAR(static_cast<double>(played(log, 5).readings.size()), 10, 1);
+  EXPECT_EQ(played(log, 0).readings.size(), 100u);
+}
+
+TEST(RawlogPlayer, TheActionsOfPairsBecomeOdometry) {
+  const Log log{test::action({1, 0, 0}),       test::frame({test::scan(10)}), test::action({1, 0, M_PI / 2}),
+                test::frame({test::scan(11)}), test::action({2, 0, 0}),       test::frame({test::scan(12)})};
+  const Played p = played(log, 5);
+  ASSERT_EQ(p.readings.size(), 3u);
+  EXPECT_NEAR(p.readings[1].motion.x, 1, 1e-9);
+  EXPECT_NEAR(p.readings[1].motion.phi, M_PI / 2, 1e-9);
+  EXPECT_NEAR(p.readings[2].motion.x, 2, 1e-9);
+  EXPECT_NEAR(p.readings[2].motion.y, 0, 1e-9);
+}
+
+TEST(RawlogPlayer, StopsWhenItIsToldTo) { EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u); }
+
+TEST(RawlogPlayer, ALogWithoutScansIsAnError) {
+  EXPECT_THROW(played({test::odometry(1, {})}, 5), InputError);
+  EXPECT_THROW(RawlogPlayer("/none.rawlog", 5, 0), InputError);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

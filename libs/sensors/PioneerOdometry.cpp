@@ -1,0 +1,148 @@
+#include "sensors/PioneerOdometry.h"
+
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <stdexcept>
+
+#include "base/Errors.h"
+
+IMPLEMENTS_GENERIC_SENSOR(PioneerOdometry, hybrid_slam)
+
+namespace hybrid_slam {
+namespace {
+
+constexpr double kConnectTimeout = 3, kAnswerTimeout = 0.5, kSilence = 3, kPulseInterval = 1;  // s
+constexpr int kAttempts = 5;
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void PioneerOptions::describe(OptionTable& t) {
+  t.add("driver", driver, "PioneerOdometry");
+  t.add("sensorLabel", sensorLabel, "of the observations");
+  t.add("process_rate", processRate, 0.1, 1000, "1/s",
+        "how often the line is read; the robot sends 10 packets a second");
+  t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: observations that wait at most");
+  t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: take one observation of so many; 0: all");
+  t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: leave this sensor out");
+  t.add("time_offset", timeOffset, -10, 10, "s", "added to the observations' times");
+  t.add("serial_port", serialPort, "device of the serial line, such as ttyUSB0; empty: TCP");
+  t.add("baud_rate", baudRate, 1200, 230400, "of the serial line");
+  t.add("host", host, "of a serial line behind TCP, or a simulator");
+  t.add("tcp_port", tcpPort, 1, 65535, "of the host");
+  t.add("mm_per_unit", millimetresPerUnit, 0.01, 100, "mm",
+        "of the position's counters: DistConvFactor of the robot's parameter file (P3-DX with ARCOS: 1; with "
+        "an "
+        "older controller: 0.485)");
+}
+
+PioneerOdometry::~PioneerOdometry() {
+  if (!isOpen_) return;
+  try {
+    command(arcos::close);
+  } catch (const std::exception&) {  // it is gone anyway
+  }
+}
+
+void PioneerOdometry::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config,
+                                                const std::string& section) {
+  options_.loadFromConfigFile(config, section);
+  if (options_.serialPort.empty() == options_.host.empty())
+    throw InputError("no robot, or two", "section [" + section + "], keys `serial_port` and `host`",
+                     "expected one of them");
+  m_sensorLabel = options_.sensorLabel;
+  m_process_rate = options_.processRate;
+}
+
+void PioneerOdometry::initialize() {
+  m_state = ssInitializing;
+  odometry_.emplace(options_.millimetresPerUnit / 1000);
+  decoder_ = {};
+  connect();
+  shakeHands();
+  command(arcos::open);
+  isOpen_ = true;
+  command(arcos::pulse);
+  lastPulse_ = lastSip_ = Clock::now();
+}
+
+void PioneerOdometry::connect() {
+  if (options_.serialPort.empty()) {
+    socket_ = TcpSocket::connectTo(options_.host, static_cast<uint16_t>(options_.tcpPort), kConnectTimeout);
+    return;
+  }
+  serial_ = std::make_unique<mrpt::comms::CSerialPort>(options_.serialPort);
+  serial_->setConfig(options_.baudRate);
+  serial_->setTimeouts(1, 0, 20, 1, 20);
+}
+
+/// The robot answers each SYNC by the same; the last answer holds its name, type and subtype as well.
+void PioneerOdometry::shakeHands() {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    uint8_t step = arcos::sync0;
+    for (; step <= arcos::sync2; ++step) {
+      command(step);
+      if (!isAnswered(step)) break;
+    }
+    if (step > arcos::sync2) return;
+    command(arcos::close);  // it may still be open from a program that was killed
+  }
+  throw std::runtime_error("no answer to SYNC: no Pioneer, or another baud rate");
+}
+
+bool PioneerOdometry::isAnswered(uint8_t step) {
+  for (const auto start = Clock::now(); secondsSince(start) < kAnswerTimeout;) {
+    decoder_.feed(receive(0.05));
+    while (const auto payload = decoder_.next())
+      if (payload->front() == step && !arcos::decodeSip(*payload)) return true;
+  }
+  return false;
+}
+
+void PioneerOdometry::doProcess() {
+  if (secondsSince(lastPulse_) >= kPulseInterval) {
+    command(arcos::pulse);
+    lastPulse_ = Clock::now();
+  }
+  const size_t damagedBefore = decoder_.damaged();
+  decoder_.feed(receive(0.01));
+  while (const auto payload = decoder_.next()) {
+    const auto sip = arcos::decodeSip(*payload);
+    if (!sip) continue;
+    auto observation = mrpt::obs::CObservationOdometry::Create();
+    observation->timestamp = mrpt::Clock::now();
+    observation->sensorLabel = m_sensorLabel;
+    observation->odometry = mrpt::poses::CPose2D((*odometry_)(*sip));
+    appendObservation(observation);
+    lastSip_ = Clock::now();
+    m_state = ssWorking;
+  }
+  tellOfDamage(damagedBefore);
+  if (secondsSince(lastSip_) > kSilence) throw std::runtime_error("the robot is silent");
+}
+
+/// A line with steady noise is not to fill the log: the 1st, 2nd, 4th, 8th ... damaged packet is told.
+void PioneerOdometry::tellOfDamage(size_t before) {
+  for (size_t n = before + 1; n <= decoder_.damaged(); ++n)
+    if ((n & (n - 1)) == 0) MRPT_LOG_WARN_STREAM("damaged packets left out: " << n << " so far");
+}
+
+void PioneerOdometry::command(uint8_t number) { send(arcos::encode({number})); }
+
+std::string PioneerOdometry::receive(double timeout) {
+  if (socket_.isOpen()) return socket_.receive(timeout);
+  std::string bytes(256, '\0');
+  bytes.resize(serial_->Read(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+void PioneerOdometry::send(const std::string& bytes) {
+  if (socket_.isOpen()) return socket_.send(bytes, kAnswerTimeout);
+  if (serial_->Write(bytes.data(), bytes.size()) != bytes.size())
+    throw std::runtime_error("the serial line is gone");
+}
+
+}  // namespace hybrid_slam

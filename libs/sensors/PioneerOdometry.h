@@ -1,0 +1,74 @@
+/// @file PioneerOdometry.h
+/// @brief Odometry of a Pioneer robot as a sensor of MRPT's; it never moves the robot.
+#pragma once
+
+#include <mrpt/comms/CSerialPort.h>
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/system/COutputLogger.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/Options.h"
+#include "live/SipOdometry.h"
+#include "live/TcpSocket.h"
+
+namespace hybrid_slam {
+
+/// The keys of the sensor's INI section, those of every sensor among them.
+struct PioneerOptions : Options {
+  std::string driver, sensorLabel = "ODOMETRY";
+  double processRate = 20, timeOffset = 0;
+  int maxQueueLength = 200, grabDecimation = 0;
+  bool isIgnored = false;
+  std::string serialPort, host;
+  int baudRate = 9600, tcpPort = 8101;
+  double millimetresPerUnit = 1;
+  void describe(OptionTable& table) override;
+};
+
+/// `driver = PioneerOdometry`: a Pioneer 2/3, AmigoBot or PowerBot on a serial line or behind TCP.
+///
+/// Sends SYNC0, SYNC1, SYNC2, OPEN, then PULSE every second (the robot's watchdog waits two), CLOSE at the
+/// end; gives a CObservationOdometry, stamped on arrival, for each server information packet, ten a second.
+/// Any fault of the connection is an exception: whoever runs the sensor makes it anew.
+class PioneerOdometry : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COutputLogger {
+  DEFINE_GENERIC_SENSOR(PioneerOdometry)
+ public:
+  PioneerOdometry() : COutputLogger("PioneerOdometry") {}
+  ~PioneerOdometry() override;
+
+  /// Connects and shakes hands. @throws std::runtime_error where the robot does not answer
+  void initialize() override;
+  /// Takes what has come. @throws std::runtime_error where the connection is gone, or the robot silent for 3
+  /// s
+  void doProcess() override;
+
+ protected:
+  /// @throws InputError for an unknown key or a wrong value
+  void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config,
+                                 const std::string& section) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void connect();
+  void tellOfDamage(size_t before);
+  void shakeHands();
+  bool isAnswered(uint8_t step);
+  void command(uint8_t number);
+  std::string receive(double timeout);
+  void send(const std::string& bytes);
+
+  PioneerOptions options_;
+  std::unique_ptr<mrpt::comms::CSerialPort> serial_;
+  TcpSocket socket_;
+  arcos::Decoder decoder_;
+  std::optional<SipOdometry> odometry_;
+  Clock::time_point lastPulse_{}, lastSip_{};
+  bool isOpen_ = false;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,32 @@
+/// @file SensorSource.h
+/// @brief All sensors of an INI file as one source of cycles.
+#pragma once
+
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "live/CycleSource.h"
+#include "sensors/SensorThread.h"
+
+namespace hybrid_slam {
+
+class SensorSource : public CycleSource {
+ public:
+  /// Every section with a `driver` is a sensor, unless it says `rawlog-grabber-ignore = true`.
+  /// @param cycleRate  1/s; @param timeout  s, of a sensor that gives nothing
+  /// @throws InputError if there is none, or one is wrong
+  SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
+               std::shared_ptr<EventLog> log);
+
+  void run(const CycleSink& sink, const StopCheck& stop) override;
+
+ private:
+  double cycleRate_;
+  std::shared_ptr<ObservationInbox> inbox_ = std::make_shared<ObservationInbox>();
+  std::vector<std::unique_ptr<SensorThread>> sensors_;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,212 @@
+#include "sensors/SensorThread.h"
+
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/system/COutputLogger.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+
+#include "base/Errors.h"
+#include "live/OdometryContinuity.h"
+#include "sensors/PioneerOdometry.h"
+
+namespace hybrid_slam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using mrpt::hwdrivers::CGenericSensor;
+using mrpt::obs::CObservation;
+
+constexpr double kShortestPause = 0.2, kLongestPause = 10;  // s
+std::atomic<size_t> countLeftBehind{0};
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// CLMS100Eth gives scans without beams once its connection is gone.
+bool isEmptyScan(const CObservation& observation) {
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
+  return scan && scan->getScanSize() == 0;
+}
+
+std::string oneLine(std::string text) {
+  text.erase(text.find_last_not_of(" \n") + 1);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+void ObservationInbox::put(const std::vector<CObservation::Ptr>& observations) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.insert(waiting_.end(), observations.begin(), observations.end());
+  }
+  changed_.notify_one();
+}
+
+std::deque<CObservation::Ptr> ObservationInbox::take(double timeout) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(timeout), [this] { return !waiting_.empty(); });
+  return std::exchange(waiting_, {});
+}
+
+/// What the thread works on.
+struct SensorThread::Work {
+  mrpt::config::CConfigFileMemory config;
+  std::string section, driver;
+  double timeout = 0;     ///< s
+  double timeOffset = 0;  ///< s
+  std::optional<bool> rightToLeft;
+  std::shared_ptr<ObservationInbox> inbox;
+  std::shared_ptr<EventLog> log;
+  OdometryContinuity odometry{};
+
+  std::mutex mutex{};
+  std::condition_variable changed{};
+  bool stop = false, hasStopped = false;
+
+  bool mustStop() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return stop;
+  }
+  void pause(double seconds) {
+    std::unique_lock<std::mutex> lock(mutex);
+    changed.wait_for(lock, std::chrono::duration<double>(std::max(0., seconds)), [this] { return stop; });
+  }
+  void report(const std::string& event) const { log->report("sensor " + section, event); }
+
+  CGenericSensor::Ptr make() const;
+  void correct(CObservation& observation);
+  void grab(double& nextPause);
+  void run();
+};
+
+CGenericSensor::Ptr SensorThread::Work::make() const {
+  CGenericSensor::Ptr sensor = CGenericSensor::createSensorPtr(driver);
+  if (auto* output = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get())) {
+    // Drivers write pages to the console; warnings and errors become events here.
+    output->logging_enable_console_output = false;
+    output->setMinLoggingLevel(mrpt::system::LVL_WARN);
+    output->logRegisterCallback([log = log, subject = "sensor " + section](
+                                    std::string_view text, const mrpt::system::VerbosityLevel level,
+                                    std::string_view, const mrpt::Clock::time_point) {
+      if (level >= mrpt::system::LVL_WARN) log->report(subject + " (driver)", oneLine(std::string(text)));
+    });
+  }
+  sensor->loadConfig(config, section);
+  return sensor;
+}
+
+void SensorThread::Work::correct(CObservation& observation) {
+  if (timeOffset != 0 && observation.timestamp != INVALID_TIMESTAMP)
+    observation.timestamp +=
+        std::chrono::duration_cast<mrpt::Clock::duration>(std::chrono::duration<double>(timeOffset));
+  if (auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(&observation); scan && rightToLeft)
+    scan->rightToLeft = *rightToLeft;
+  rebase(observation, odometry);
+}
+
+/// Until something is wrong: then it throws.
+void SensorThread::Work::grab(double& nextPause) {
+  const CGenericSensor::Ptr sensor = make();
+  sensor->initialize();
+  odometry.restart();
+  const double period = 1 / sensor->getProcessRate();
+  auto lastObservation = Clock::now();
+  bool isFirst = true;
+  while (!mustStop()) {
+    const auto start = Clock::now();
+    sensor->doProcess();
+    std::vector<CObservation::Ptr> observations;
+    for (const auto& [time, object] : sensor->getObservations()) {
+      const auto observation = std::dynamic_pointer_cast<CObservation>(object);
+      if (observation && !isEmptyScan(*observation)) observations.push_back(observation);
+    }
+    for (const auto& observation : observations) correct(*observation);
+    if (!observations.empty()) {
+      lastObservation = Clock::now();
+      if (isFirst) report("works");
+      isFirst = false;
+      nextPause = kShortestPause;
+      inbox->put(observations);
+    } else if (secondsSince(lastObservation) > timeout) {
+      throw std::runtime_error("it gives nothing");
+    }
+    pause(period - secondsSince(start));
+  }
+}
+
+void SensorThread::Work::run() {
+  double nextPause = kShortestPause;
+  while (!mustStop()) {
+    try {
+      grab(nextPause);
+    } catch (const std::exception& e) {
+      report("fault (" + messageOf(e) + "); starting it anew");
+      pause(nextPause);
+      nextPause = std::min(2 * nextPause, kLongestPause);
+    }
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  hasStopped = true;
+  changed.notify_all();
+}
+
+SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const std::string& section,
+                           double timeout, std::shared_ptr<ObservationInbox> inbox,
+                           std::shared_ptr<EventLog> log)
+    : work_(std::make_shared<Work>()) {
+  PioneerOdometry::doRegister();
+  const std::string where = "section [" + section + "]";
+  work_->config.setContent(config.getContent());  // copies would share the content between threads
+  work_->section = section;
+  work_->timeout = timeout;
+  work_->inbox = std::move(inbox);
+  work_->log = std::move(log);
+  work_->driver = config.read_string(section, "driver", "");
+  if (!CGenericSensor::createSensorPtr(work_->driver))
+    throw InputError(
+        "unknown driver `" + work_->driver + "`", where + ", key `driver`",
+        "expected PioneerOdometry or one of MRPT's, such as CLMS100Eth, CHokuyoURG, CSickLaserSerial");
+  try {
+    work_->timeOffset = config.read_double(section, "time_offset", 0);
+    if (config.keyExists(section, "right_to_left"))
+      work_->rightToLeft = config.read_bool(section, "right_to_left", false);
+    if (!(work_->make()->getProcessRate() > 0))
+      throw InputError("no rate", where + ", key `process_rate`", "expected a rate above 0 Hz");
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError("wrong settings for the driver " + work_->driver, where, messageOf(e));
+  }
+}
+
+void SensorThread::start() {
+  thread_ = std::thread([work = work_] { work->run(); });
+}
+
+SensorThread::~SensorThread() {
+  if (!thread_.joinable()) return;
+  bool hasStopped = false;
+  {
+    std::unique_lock<std::mutex> lock(work_->mutex);
+    work_->stop = true;
+    work_->changed.notify_all();
+    hasStopped = work_->changed.wait_for(lock, std::chrono::seconds(3), [this] { return work_->hasStopped; });
+  }
+  if (hasStopped) {
+    thread_.join();
+  } else {
+    ++countLeftBehind;
+    thread_.detach();
+  }
+}
+
+size_t SensorThread::leftBehind() { return countLeftBehind; }
+
+}  // namespace hybrid_slam

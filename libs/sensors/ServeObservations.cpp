@@ -1,0 +1,34 @@
+#include "sensors/ServeObservations.h"
+
+#include <chrono>
+#include <thread>
+
+#include "live/ObservationServer.h"
+#include "live/RawlogPlayer.h"
+#include "sensors/SensorSource.h"
+
+namespace hybrid_slam {
+
+std::string serveObservations(const ServerOptions& options, const mrpt::config::CConfigFileMemory& config,
+                              const std::shared_ptr<EventLog>& log, const StopCheck& stop,
+                              const std::function<void(uint16_t)>& isReady) {
+  const bool isReplay = !options.rawlog.empty();
+  std::unique_ptr<CycleSource> source;
+  if (isReplay)
+    source = std::make_unique<RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
+  else
+    source = std::make_unique<SensorSource>(config, options.cycleRate, options.sensorTimeout, log);
+
+  const ObservationServer::Limits limits{static_cast<size_t>(options.queue),
+                                         static_cast<size_t>(options.maxClients)};
+  ObservationServer server(options.address, static_cast<uint16_t>(options.port), limits, *log);
+  isReady(server.port());
+  while (isReplay && !stop() && server.clients() < static_cast<size_t>(options.waitForClients))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { server.publish(*cycle); }, stop);
+  if (isReplay && !stop()) server.finish(10);
+  return std::to_string(server.cycles()) + " cycles served, " + std::to_string(server.dropped()) +
+         " dropped for slow clients";
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,265 @@
+/// observation-server and hybrid-slam-live as their users call them.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/RawlogReader.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+#include "live/TestEvents.h"
+
+namespace hybrid_slam {
+namespace {
+
+using test::contentOf;
+using test::happens;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+const std::vector<std::string> kResults{"trajectory.tum", "map.png",          "map.pgm",         "map.yaml",
+                                        "map.gridmap.gz", "map.simplemap.gz", "lines.csv",       "steps.csv",
+                                        "metrics.json",   "config.ini",       "recording.rawlog"};
+
+/// A program that runs beside the test; it is killed if the test ends before it.
+class Program {
+ public:
+  /// @param name  of the files beside which its output goes: NAME.out and NAME.err
+  Program(const TemporaryFolder& folder, const std::string& name, std::vector<std::string> arguments)
+      : out_(folder.path(name + ".out")), err_(folder.path(name + ".err")) {
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    ::dup2(::open(out_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+    ::dup2(::open(err_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Program() {
+    if (child_ <= 0) return;
+    signal(SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void signal(int number) const { ::kill(child_, number); }
+  /// Exit code; -1 for one that a signal ended, or that does not end.
+  int wait() {
+    int status = 0;
+    if (!happens([&] { return ::waitpid(child_, &status, WNOHANG) == child_; })) return -1;
+    child_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string out() const { return contentOf(out_); }
+  std::string err() const { return contentOf(err_); }
+
+ private:
+  std::string out_, err_;
+  pid_t child_ = 0;
+};
+
+class LivePrograms : public testing::Test {
+ protected:
+  std::unique_ptr<Program> server(const std::string& config, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{OBSERVATION_SERVER, config};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto program = std::make_unique<Program>(folder, "server", arguments);
+    EXPECT_TRUE(happens([&] { return program->out().find('\n') != std::string::npos; })) << program->err();
+    const std::string line = program->out();
+    port = line.substr(line.rfind(':') + 1, line.find('\n') - line.rfind(':') - 1);
+    return program;
+  }
+  /// The server that replays laps in the room.
+  std::unique_ptr<Program> replaying(size_t steps, const std::string& rate, const std::string& atPort = "0") {
+    const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(steps));
+    return server(folder.write("server.ini", "[server]\nport = " + atPort +
+                                                 "\nwait_for_clients = 1\nqueue = 10000\n" +
+                                                 "replay_rate = " + rate + "\nrawlog = " + log + "\n"));
+  }
+  std::unique_ptr<Program> live(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{
+        HYBRID_SLAM_LIVE,        ini, "--server", "127.0.0.1:" + port, "-o", output, "--set",
+        "live.max_waiting=10000"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return std::make_unique<Program>(folder, "live", arguments);
+  }
+  std::string replay(const std::string& log, const std::string& to) {
+    Program program(folder, "replay", {HYBRID_SLAM, ini, log, "-q", "-o", folder.path(to)});
+    EXPECT_EQ(program.wait(), 0) << program.err();
+    return contentOf(folder.path(to + "/trajectory.tum"));
+  }
+  std::string result(const std::string& name) const { return contentOf(output + "/" + name); }
+  std::vector<std::string> results() const {
+    std::vector<std::string> names;
+    if (std::filesystem::is_directory(output))
+      for (const auto& entry : std::filesystem::directory_iterator(output))
+        names.push_back(entry.path().filename().string());
+    return names;
+  }
+  size_t recorded() const {
+    RawlogReader reader(output + "/recording.rawlog");
+    size_t scans = 0;
+    while (const auto object = reader.next())
+      if (std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object)) ++scans;
+    EXPECT_EQ(reader.defect(), "");
+    return scans;
+  }
+  void expectError(Program& program, const std::string& name, const std::string& text) {
+    EXPECT_EQ(program.wait(), 2) << text;
+    EXPECT_THAT(program.err(), MatchesRegex(name + ": error: [^\n]*: [^\n]*; [^\n]*\n"));
+    EXPECT_THAT(program.err(), HasSubstr(text));
+  }
+
+  TemporaryFolder folder;
+  std::string ini = folder.write(
+      "live.ini",
+      "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\nresolution = 0.1\n[live]\n");
+  std::string output = folder.path("out"), port;
+};
+
+TEST_F(LivePrograms, TheLiveMapIsThatOfTheLogAndThatOfTheRecording) {
+  const auto robot = replaying(100, "500");
+  const auto map = live();
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_EQ(robot->wait(), 0) << robot->err();
+  EXPECT_THAT(robot->out(), HasSubstr("100 cycles served, 0 dropped"));
+  EXPECT_THAT(map->out(), HasSubstr("100 scans"));
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
+  const std::string trajectory = result("trajectory.tum");
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 100);
+  EXPECT_EQ(trajectory, replay(output + "/recording.rawlog", "again")) << "the recording's replay";
+  EXPECT_EQ(trajectory, replay(folder.path("log.rawlog"), "original")) << "nothing was lost on the way";
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_EQ(metrics["skipped"], 0);
+  EXPECT_EQ(metrics["lost_cycles"], 0);
+  EXPECT_TRUE(metrics["latency_ms"].contains("median") && metrics["latency_ms"].contains("p99"));
+  EXPECT_THAT(result("config.ini"), HasSubstr("max_waiting"));
+}
+
+TEST_F(LivePrograms, ControlCWritesAllResults) {
+  const auto robot = replaying(5000, "50");
+  const auto map = live();
+  // The recording grows by blocks; a few cycles are enough.
+  ASSERT_TRUE(happens([&] { return robot->err().find("connected") != std::string::npos; }));
+  ASSERT_TRUE(happens([&] { return map->err().find("connected") != std::string::npos; })) << map->err();
+  ::usleep(300000);
+  map->signal(SIGINT);
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
+  const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
+  EXPECT_GT(scans, 0u);
+  EXPECT_LT(scans, 5000u);
+  EXPECT_EQ(recorded(), scans);
+  robot->signal(SIGINT);
+  EXPECT_EQ(robot->wait(), 0);
+}
+
+TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
+  auto robot = replaying(5000, "100");
+  const auto map = live();
+  ASSERT_TRUE(happens([&] { return map->err().find("connected") != std::string::npos; })) << map->err();
+  ::usleep(200000);
+  robot->signal(SIGKILL);
+  EXPECT_EQ(robot->wait(), -1);
+  ASSERT_TRUE(happens([&] { return map->err().find("trying again") != std::string::npos; }));
+  robot = replaying(50, "500", port);
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_THAT(map->err(), HasSubstr("another server: it goes on from the last pose"));
+  const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
+  EXPECT_GT(scans, 50u) << "both servers'";
+  EXPECT_EQ(recorded(), scans);
+  EXPECT_EQ(result("trajectory.tum"), replay(output + "/recording.rawlog", "again"));
+}
+
+TEST_F(LivePrograms, WithoutAServerThereAreNoResultsButNoHarm) {
+  port = "1";
+  const auto map = live();
+  ASSERT_TRUE(happens([&] { return map->err().find("refused") != std::string::npos; })) << map->err();
+  map->signal(SIGTERM);
+  EXPECT_EQ(map->wait(), 1);
+  EXPECT_THAT(map->err(), HasSubstr("no scan came"));
+  EXPECT_THAT(results(), testing::ElementsAre("recording.rawlog"));
+}
+
+TEST_F(LivePrograms, TheShippedConfigurationsWaitForTheirSensors) {
+  const std::vector<std::string> nowhere{"--set", "LASER.ip_address=127.0.0.1",   "--set", "LASER.TCP_port=1",
+                                         "--set", "PIONEER.serial_port=/dev/none"};
+  auto arguments = nowhere;
+  arguments.insert(arguments.end(), {"--set", "server.port=0"});
+  const auto robot = server(SOURCE_DIR "/config-ini/observation-server.ini", arguments);
+  arguments = nowhere;
+  arguments.insert(arguments.begin(),
+                   {HYBRID_SLAM_LIVE, SOURCE_DIR "/config-ini/live-p3dx-lms100.ini", "-o", output});
+  Program map(folder, "live", arguments);
+  for (Program* program : {robot.get(), &map}) {
+    EXPECT_TRUE(happens([&] {
+      return program->err().find("sensor LASER: fault") != std::string::npos &&
+             program->err().find("sensor PIONEER: fault") != std::string::npos;
+    })) << program->err();
+    program->signal(SIGINT);
+  }
+  EXPECT_EQ(robot->wait(), 0) << robot->err();
+  EXPECT_EQ(map.wait(), 1) << map.err();
+}
+
+TEST_F(LivePrograms, WrongCommandLinesAndFiles) {
+  const auto serverError = [&](const std::string& content, const std::string& text) {
+    Program program(folder, "wrong", {OBSERVATION_SERVER, folder.write("wrong.ini", content)});
+    expectError(program, "observation-server", text);
+  };
+  serverError("[server]\n", "no sensors");
+  serverError("[LASER]\ndriver = CLMS100Eth\n", "missing section");
+  serverError("[server]\nprot = 1\n", "nearest known key is `port`");
+  serverError("[server]\naddress = 300.0.0.1\nport = 0\nrawlog = " SOURCE_DIR
+              "/datasets/csie/csie-loop.rawlog\n",
+              "cannot listen");
+
+  const auto liveError = [&](const std::vector<std::string>& arguments, const std::string& text) {
+    std::vector<std::string> all{HYBRID_SLAM_LIVE};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    Program program(folder, "wrong", all);
+    expectError(program, "hybrid-slam-live", text);
+  };
+  liveError({}, "no INI file");
+  liveError({ini, "-o", output}, "no sensors");
+  liveError({ini, "--server", "robot", "-o", output}, "expected HOST:PORT");
+  liveError({ini, "--server", "a:1", "--set", "live.maxwaiting=1"}, "nearest known key is `max_waiting`");
+}
+
+TEST_F(LivePrograms, HelpAndVersion) {
+  for (const char* path : {OBSERVATION_SERVER, HYBRID_SLAM_LIVE}) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    Program version(folder, "version", {path, "--version"});
+    EXPECT_EQ(version.wait(), 0);
+    EXPECT_EQ(version.out(), name + " " HYBRID_SLAM_VERSION "\n");
+    Program help(folder, "help", {path, "--help"});
+    EXPECT_EQ(help.wait(), 0);
+    EXPECT_THAT(help.out(), HasSubstr("Exit: 0 done"));
+  }
+}
+
+TEST_F(LivePrograms, EveryKeyIsInTheManual) {
+  const std::string manual = contentOf(SOURCE_DIR "/doc/live.md");
+  for (const char* path : {OBSERVATION_SERVER, HYBRID_SLAM_LIVE}) {
+    Program help(folder, "help", {path, "--help-config"});
+    EXPECT_EQ(help.wait(), 0);
+    std::istringstream lines(help.out());
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind('|', 0) == 0) {
+        EXPECT_THAT(manual, HasSubstr(line));
+      }
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,33 @@
+/// @file LmsStandIn.h
+/// @brief A SICK LMS-100 on TCP: the CoLa-A telegrams that MRPT's CLMS100Eth sends, and scans of a floor
+/// plan.
+#pragma once
+
+#include "standins/SimulatedRobot.h"
+#include "standins/StandIn.h"
+
+namespace hybrid_slam::test {
+
+/// Telegrams are text between STX and ETX. To `sMN SetAccessMode`, `sMN mLMPsetscancfg`, `sWN LMDscandatacfg`
+/// and `sMN LMCstartmeas` it answers that they are done, to `sRN STlms` that it measures (7), to `sRN
+/// LMDscandata` by a scan: distances in mm as hexadecimal numbers, from right to left as the device counts
+/// its beams.
+class LmsStandIn : public StandIn {
+ public:
+  explicit LmsStandIn(SimulatedRobot& robot, uint16_t port = 0) : StandIn(port), robot_(robot) { start(); }
+  ~LmsStandIn() override { join(); }
+
+ private:
+  void connected() override { buffer_.clear(), late_.clear(); }
+  void step(TcpSocket& socket, const std::string& bytes) override;
+  std::string answerTo(const std::string& telegram);
+  std::string scanTelegram();
+
+  SimulatedRobot& robot_;
+  std::string buffer_;
+  std::string late_;  ///< the second half of a telegram that was cut
+  bool measures_ = false;
+  unsigned scanNumber_ = 0;
+};
+
+}  // namespace hybrid_slam::test

@@ -1,0 +1,20 @@
+/// MRPT's CLMS100Eth waits 1 s after each of five answers, and 10 s once more. In this program it does not:
+/// these take the place of the C library's functions.
+#include <sys/epoll.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+extern "C" {
+
+int nanosleep(const timespec* wanted, timespec* left) {
+  const timespec shorter{0, 1000000};
+  return static_cast<int>(syscall(SYS_nanosleep, wanted->tv_sec >= 5 ? &shorter : wanted, left));
+}
+
+int epoll_wait(int descriptor, epoll_event* events, int count, int timeout) {
+  return epoll_pwait(descriptor, events, count, timeout >= 1000 ? 100 : timeout, nullptr);
+}
+}

@@ -1,0 +1,59 @@
+/// @file SimulatedRobot.h
+/// @brief The robot that carries the stand-ins: it drives along a route by a step for each scan.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/RandomStream.h"
+#include "simulation/FloorPlan.h"
+#include "simulation/Laser.h"
+#include "simulation/Route.h"
+
+namespace hybrid_slam::test {
+
+class SimulatedRobot {
+ public:
+  /// @param step  s of the route from one scan to the next
+  SimulatedRobot(const std::string& plan, const std::string& route, double step)
+      : plan_(FloorPlan::load(plan)), route_(Route::load(route)), step_(step), laser_(options()) {}
+
+  /// Moves on and looks: 541 beams of an LMS-100, right to left.
+  mrpt::obs::CObservation2DRangeScan scan() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    RandomStream random(1, scans_.size(), 0);
+    poses_.push_back(route_.poseAt(step_ * static_cast<double>(scans_.size())));
+    scans_.push_back(laser_.scan(plan_, poses_.back(), random));
+    return scans_.back();
+  }
+  /// Pose (m, rad) since the start, without error.
+  mrpt::math::TPose2D odometry() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return poses_.empty() ? mrpt::math::TPose2D() : poses_.back() - poses_.front();
+  }
+  std::vector<mrpt::obs::CObservation2DRangeScan> scans() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return scans_;
+  }
+
+ private:
+  static LaserOptions options() {
+    LaserOptions laser;
+    laser.x = 0.15;
+    return laser;
+  }
+
+  FloorPlan plan_;
+  Route route_;
+  double step_;
+  Laser laser_;
+  mutable std::mutex mutex_;
+  std::vector<mrpt::math::TPose2D> poses_;
+  std::vector<mrpt::obs::CObservation2DRangeScan> scans_;
+};
+
+}  // namespace hybrid_slam::test

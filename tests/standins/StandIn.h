@@ -1,0 +1,67 @@
+/// @file StandIn.h
+/// @brief What the devices for tests have in common: a TCP server of one client at a time, and its faults.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "live/TcpSocket.h"
+
+namespace hybrid_slam::test {
+
+class StandIn {
+ public:
+  /// What is wrong with the device, until it is set otherwise.
+  enum class Fault {
+    none,
+    silent,    ///< the connection is there, but nothing comes: a cable pulled
+    refusing,  ///< connections are closed as soon as they are made, and the present one
+    garbled,   ///< noise between telegrams, and a wrong checksum where there is one
+    cut,       ///< a telegram stops in its middle, the rest comes later
+  };
+
+  virtual ~StandIn() = default;
+  uint16_t port() const { return listener_.port(); }
+  void set(Fault fault) { fault_ = fault; }
+  size_t connections() const { return connections_; }
+
+ protected:
+  explicit StandIn(uint16_t port) : listener_("127.0.0.1", port) {}
+  /// To be called by a derived class once it is whole, and `join` before it goes.
+  void start() {
+    thread_ = std::thread([this] { serve(); });
+  }
+  void join() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  virtual void connected() = 0;
+  /// Bytes that came, may be none; called again and again. Throws where the connection is gone.
+  virtual void step(TcpSocket& socket, const std::string& bytes) = 0;
+  Fault fault() const { return fault_; }
+
+ private:
+  void serve() {
+    while (!stop_) {
+      TcpSocket socket = listener_.accept(0.01);
+      if (!socket.isOpen() || fault_ == Fault::refusing) continue;
+      ++connections_;
+      connected();
+      try {
+        while (!stop_ && fault_ != Fault::refusing) step(socket, socket.receive(0.005));
+      } catch (const std::runtime_error&) {  // the client has left
+      }
+    }
+  }
+
+  TcpListener listener_;
+  std::atomic<Fault> fault_{Fault::none};
+  std::atomic<size_t> connections_{0};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace hybrid_slam::test
