@@ -39,7 +39,7 @@ struct ImprovedProposalOptions : Options {
   double updateAngle = 5 * M_PI / 180;
   int samples = 20;
   double minFit = 0.02;
-  double lineSigma = 0.5 * M_PI / 180;
+  double lineSigma = 0.1 * M_PI / 180;
   double lineSigmaRho = 0.05;
   double slipDistance = 0.5;
   double slipAngle = 30 * M_PI / 180;

@@ -41,7 +41,7 @@ TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
   EXPECT_NEAR(lines({truth.x + 0.05, truth.y, truth.phi}).value, -0.5 * 0.05 * 0.05 * perDistance, 1e-9);
   EXPECT_NEAR(lines({truth.x, truth.y + 0.05, truth.phi}).value, 0, 1e-9);  // along the wall
   // Turning by d moves the wall's middle, which lies at (1.7, -0.2) from the robot.
-  const double d = 0.004, off = 1.7 * std::cos(d) + 0.2 * std::sin(d) - 1.7;
+  const double d = 0.001, off = 1.7 * std::cos(d) + 0.2 * std::sin(d) - 1.7;
   EXPECT_NEAR(lines({truth.x, truth.y, truth.phi + d}).value, -0.5 * (d * d * perAngle + off * off * perDistance),
               1e-9);
   EXPECT_NEAR(lines({truth.x + 0.4, truth.y, truth.phi}).value, -4.5, 1e-9);  // another wall
@@ -53,7 +53,7 @@ TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDominatingDirection) {
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
   const LineLikelihood lines(seen, truth, database, c);
-  const double d = 0.3 * kDegree;
+  const double d = 0.5 * c.improved.lineSigma;
   EXPECT_NEAR(lines({truth.x + 0.1, truth.y, truth.phi + d}).value, -0.5 * std::pow(d / c.improved.lineSigma, 2),
               1e-9);
 }
