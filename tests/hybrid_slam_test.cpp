@@ -15,6 +15,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -209,6 +210,30 @@ TEST_F(HybridSlam, ParticlesOfEveryNthUpdate) {
 TEST_F(HybridSlam, QuietSaysNothing) {
   expectDone(replay(test::laps(20), "-q"));
   EXPECT_THAT(out, IsEmpty());
+}
+
+TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
+  for (const std::string proposal : {"standard", "improved"}) {
+    SCOPED_TRACE(proposal);
+    // Of steps.csv all but step_ms, the third column from the end: the time that each step took.
+    const auto resultsOf = [&](const std::string& option) {
+      expectDone(replay(log, "-q -p " + proposal + option));
+      std::map<std::string, std::string> files;
+      for (const std::string& name : kResults)
+        if (name != "metrics.json" && name != "steps.csv") files[name] = result(name);
+      files["steps.csv"] =
+          std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*(,[^,\n]*,[^,\n]*\n)"), "$1");
+      return files;
+    };
+    const auto plain = resultsOf("");
+    EXPECT_THAT(out, IsEmpty());
+    const auto profiled = resultsOf(" --profile");
+    for (const auto& [name, content] : plain) EXPECT_TRUE(profiled.at(name) == content) << name;
+    for (const char* const stage : {"1 read log", "2 prepare scan, extract lines", "3 sample, weigh",
+                                    "4 resample", "5 update maps", "6 write results"})
+      EXPECT_THAT(out, HasSubstr(stage));
+  }
 }
 
 TEST_F(HybridSlam, AllMethodsAndProposals) {

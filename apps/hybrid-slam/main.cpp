@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   std::string config, rawlog, output, method, proposal;
   int particles = 0, seed = -1, threads = -1, refine = 0;
   std::vector<std::string> settings;
-  bool isQuiet = false, wantsManual = false;
+  bool isQuiet = false, wantsProfile = false, wantsManual = false;
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
   app.add_option("config", config, "INI file (doc/configuration.md)");
   app.add_option("dataset", rawlog, "rawlog, plain or gzipped; else [run] rawlog of the INI file");
@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
       ->type_name("SECTION.KEY=VALUE")
       ->allow_extra_args(false);
   app.add_flag("-q,--quiet", isQuiet, "no progress and no summary");
+  app.add_flag("--profile", wantsProfile, "prints how long each stage of the run took, and how often it ran");
   app.add_flag("--help-config", wantsManual, "prints every section and key of the INI file");
   app.footer(
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
@@ -86,10 +87,11 @@ int main(int argc, char** argv) {
     if (configuration.run.rawlog.empty())
       return fail(2,
                   "no rawlog: command line; expected hybrid-slam config.ini dataset.rawlog, or [run] rawlog");
-    const auto outcome = hybrid_slam::replay(configuration, isQuiet, stop, HYBRID_SLAM_VERSION);
+    const auto outcome = hybrid_slam::replay(configuration, isQuiet, stop, HYBRID_SLAM_VERSION, wantsProfile);
     for (const std::string& warning : outcome.warnings)
       std::cerr << "hybrid-slam: warning: " << warning << "\n";
     if (!isQuiet) std::cout << outcome.summary << "\n";
+    std::cout << outcome.profile;
     return outcome.incomplete.empty() ? 0 : fail(1, outcome.incomplete);
   } catch (const hybrid_slam::InputError& e) {
     return fail(2, e.what());

@@ -140,6 +140,7 @@ void FilterRun::refineResult(Result& result, RawlogSource& source) const {
 
 std::string FilterRun::finish(const std::string& file, const RawlogSummary& log, const std::string& version,
                               const nlohmann::ordered_json& more) {
+  const mrpt::system::CTimeLoggerEntry writing(profiler(), "6 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, view_->bestPath(), view_->bestGrid(), view_->bestLines()};
   result.trajectory = recorder_.trajectory(result.path);

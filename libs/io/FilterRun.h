@@ -44,6 +44,8 @@ class FilterRun {
   /// One line on the updates in which the odometry was far off; empty if there were none.
   std::string slipNote() const;
   const FilterView& view() const { return *view_; }
+  /// The times of the stages; enable it before the first scan. Changes no result.
+  mrpt::system::CTimeLogger& profiler() { return view_->profiler(); }
   const OutputFolder& folder() const { return folder_; }
 
   /// Writes the results.

@@ -33,14 +33,19 @@ std::string spreadNote(const FilterStep& step) {
 }  // namespace
 
 ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
-                     const std::string& version) {
+                     const std::string& version, bool wantsProfile) {
   const auto start = FilterRun::Clock::now();
   const std::string& file = configuration.run.rawlog;
   const RawlogSummary log = summarise(file, configuration.input);
   FilterRun run(configuration, start);
+  run.profiler().enable(wantsProfile);
   RawlogSource source(file, configuration.input, log);
+  const auto nextReading = [&] {
+    const mrpt::system::CTimeLoggerEntry reading(run.profiler(), "1 read log");
+    return source.next();
+  };
   Progress progress(log.scans, isQuiet);
-  while (const auto reading = stop ? std::nullopt : source.next())
+  while (const auto reading = stop ? std::nullopt : nextReading())
     if (run.process(*reading)) progress.update(run.scans(), spreadNote(run.view().lastStep()));
   progress.finish();
 
@@ -54,6 +59,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + file +
                          "; the results cover the log up to there";
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
+  run.profiler().clear(true);  // else MRPT prints it, too
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/math/TPose2D.h>
+#include <mrpt/system/CTimeLogger.h>
 
 #include <optional>
 #include <vector>
@@ -59,6 +60,12 @@ class FilterView {
   /// The best particle's line database; empty for a filter without lines.
   virtual std::vector<DatabaseLine> bestLines() const = 0;
   virtual std::vector<WeightedPose> particlePoses() const = 0;
+
+  /// Where the stages of an update note their times (s); off unless enabled, and then next to free.
+  mrpt::system::CTimeLogger& profiler() { return profiler_; }
+
+ private:
+  mrpt::system::CTimeLogger profiler_{false, "stages"};
 };
 
 }  // namespace hybrid_slam

@@ -14,6 +14,7 @@ namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
+using mrpt::system::CTimeLoggerEntry;
 
 namespace {
 
@@ -53,7 +54,7 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
 HybridMapBuilder::HybridMapBuilder(const FilterConfiguration& configuration)
     : configuration_(configuration),
       prepare_(configuration),
-      particles_(configuration) {
+      particles_(configuration, &profiler()) {
   particleFilter_.m_options = mrptOptions(configuration.filter);
   initialize();
 }
@@ -70,7 +71,9 @@ void HybridMapBuilder::processActionObservation(mrpt::obs::CActionCollection& ac
 // Fig. 1 from top to bottom.
 void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
                               mrpt::obs::CSensoryFrame& observations) {
+  CTimeLoggerEntry preparing(profiler(), "2 prepare scan, extract lines");
   const PreparedScan scan = prepare_(observation);  // line detection, Sec. III-B
+  preparing.stop();
   particles_.beginStep(scan);
   if (hasMap_) {
     mrpt::obs::CActionCollection motion;
@@ -79,7 +82,9 @@ void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
   } else {
     particles_.appendPose(odometry_);
   }
+  CTimeLoggerEntry mapping(profiler(), "5 update maps");
   particles_.updateMaps();  // map estimation: grids and line databases, Sec. III-C
+  mapping.stop();
 
   odometry_ = TPose2D();
   hasMap_ = true;

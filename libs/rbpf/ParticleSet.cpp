@@ -13,6 +13,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/RandomStream.h"
 #include "rbpf/Resampling.h"
@@ -45,10 +46,22 @@ TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
   return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>()->rawOdometryIncrementReading.asTPose();
 }
 
+/// Notes the time from here to the end of its scope, if there is a profiler.
+class StageTimer {
+ public:
+  StageTimer(mrpt::system::CTimeLogger* profiler, const char* stage) {
+    if (profiler) entry_.emplace(*profiler, stage);
+  }
+
+ private:
+  std::optional<mrpt::system::CTimeLoggerEntry> entry_;
+};
+
 }  // namespace
 
-ParticleSet::ParticleSet(const FilterConfiguration& configuration)
+ParticleSet::ParticleSet(const FilterConfiguration& configuration, mrpt::system::CTimeLogger* profiler)
     : configuration_(configuration),
+      profiler_(profiler),
       gridWeight_(configuration.gridWeight, configuration.grid.resolution),
       improvedProposal_(configuration),
       slipRecovery_(configuration),
@@ -121,6 +134,7 @@ double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry, 
 void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CActionCollection* action,
                                                            const mrpt::obs::CSensoryFrame* /*observation*/,
                                                            const PfOptions& /*PF_options*/) {
+  const StageTimer timer(profiler_, "3 sample, weigh");
   const TPose2D odometry = rawOdometry(*action);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
@@ -133,6 +147,7 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
 void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActionCollection* action,
                                                           const mrpt::obs::CSensoryFrame* /*observation*/,
                                                           const PfOptions& /*PF_options*/) {
+  const StageTimer timer(profiler_, "3 sample, weigh");
   const StepMotion motion = slipRecovery_.motionOf(best(), rawOdometry(*action), *scan_);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
@@ -153,6 +168,7 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
 void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::CActionCollection* action,
                                                               const mrpt::obs::CSensoryFrame* observation,
                                                               const PfOptions& PF_options) {
+  const StageTimer timer(profiler_, "3 sample, weigh");  // resampling among them
   step_.resampled = ESS() < PF_options.BETA;  // by the weights of the step before
   PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
@@ -162,6 +178,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::C
 void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CActionCollection* action,
                                                              const mrpt::obs::CSensoryFrame* observation,
                                                              const PfOptions& PF_options) {
+  const StageTimer timer(profiler_, "3 sample, weigh");  // resampling among them
   step_.resampled = ESS() < PF_options.BETA;
   PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
@@ -210,6 +227,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
 }
 
 void ParticleSet::performSubstitution(const std::vector<size_t>& indices) {
+  const StageTimer timer(profiler_, "4 resample");
   if (configuration_.filter.resampling == mrpt::bayes::CParticleFilter::prResidual) {
     std::vector<double> logWeights;
     for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);

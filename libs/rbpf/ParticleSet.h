@@ -4,6 +4,7 @@
 
 #include <mrpt/bayes/CParticleFilterData.h>
 #include <mrpt/slam/PF_implementations_data.h>
+#include <mrpt/system/CTimeLogger.h>
 #include <tbb/task_arena.h>
 
 #include "rbpf/FilterOptions.h"
@@ -20,7 +21,9 @@ class ParticleSet
       public mrpt::slam::PF_implementation<Particle, ParticleSet,
                                            mrpt::bayes::particle_storage_mode::POINTER> {
  public:
-  explicit ParticleSet(const FilterConfiguration& configuration);
+  /// @param profiler  takes the times of sampling and resampling; outlives the set
+  explicit ParticleSet(const FilterConfiguration& configuration,
+                       mrpt::system::CTimeLogger* profiler = nullptr);
   ParticleSet(const ParticleSet&) = delete;
   ParticleSet& operator=(const ParticleSet&) = delete;
 
@@ -86,6 +89,7 @@ class ParticleSet
   void forEachParticle(const Body& body);
 
   FilterConfiguration configuration_;
+  mrpt::system::CTimeLogger* profiler_;
   GridWeight gridWeight_;
   ImprovedProposal improvedProposal_;
   SlipRecovery slipRecovery_;

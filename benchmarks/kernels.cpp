@@ -1,0 +1,214 @@
+/// @file kernels.cpp
+/// @brief The kernels of an update, timed by Google Benchmark, beside the least time that this machine could
+/// take.
+///
+/// A kernel's lower bound is the greater of its arithmetic over the measured rate of additions and its bytes
+/// over the measured bandwidth of the cache that holds them. Arithmetic is counted in the source by hand:
+/// every floating-point and integer operation of the inner loop, index calculations included, table look-ups
+/// as bytes.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <map>
+
+#include "Machine.h"
+#include "grid/PenetrationModel.h"
+#include "grid/RayTraversal.h"
+#include "rbpf/HybridMapBuilder.h"
+#include "rbpf/MappedRoom.h"
+
+namespace hybrid_slam::bench {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// One run of a kernel: how many items it handles, and what each cannot do without.
+struct Kernel {
+  std::string name, item;
+  double items;
+  double operations, bytes;  ///< of one item
+  bool isVector;             ///< its operations are independent of each other: two in an SSE instruction
+  std::function<void()> run;
+  std::string why;
+};
+
+/// A particle that has mapped a room of 11 m x 8.5 m, and a scan of 181 beams seen there.
+struct Scene {
+  RandomStream random{1, 0, 0};
+  Particle particle = test::particleAt(test::room(), {});
+  PreparedScan scan = test::prepared(test::room(), {0.1, 0.1, 0.1}, random);
+  TPose2D pose{0.1, 0.1, 0.1};
+  FilterConfiguration options;
+};
+
+template <class Visit>
+void forEachCell(const Scene& s, double beyond, const Visit& visit) {
+  const double cell = s.particle.grid.resolution();
+  const GridPose frame(s.pose, s.scan.beams, cell);
+  for (const auto& ray : s.scan.beams.rays)
+    traverseRay(frame.originX, frame.originY, frame.dirX(ray), frame.dirY(ray), (ray.range + beyond) / cell,
+                visit);
+}
+
+double cells(const Scene& s, double beyond) {
+  double count = 0;
+  forEachCell(s, beyond, [&](int, int, double, double) { return ++count, true; });
+  return count;
+}
+
+std::vector<Kernel> kernelsOf(Scene& s) {
+  using benchmark::DoNotOptimize;
+  std::vector<Kernel> all;
+  const double beams = static_cast<double>(s.scan.beams.rays.size());
+
+  // Two min, one clip, the loop's test, two additions, the choice of the axis: 7.
+  all.push_back(
+      {"beam traversal", "cell", cells(s, 0), 7, 0, false,
+       [&s] {
+         int sum = 0;
+         forEachCell(s, 0, [&](int x, int y, double, double) { return sum += x ^ y, true; });
+         DoNotOptimize(sum);
+       },
+       "each cell waits for the one before (min, compare, add in a chain) and the branch between x and y "
+       "is guessed wrong now and then"});
+  // Traversal, four comparisons with the box, index (4), tile (6), index in the tile (5), compare, add, max.
+  all.push_back({"insertion", "cell", cells(s, 0), 7 + 4 + 4 + 6 + 5 + 3, 2 + 0.25, false,
+                 [&s] { s.particle.grid.insert(s.scan.beams, s.pose, s.options.grid); },
+                 "traversal's chain, and a cell is read, changed and written back before the next"});
+  static const PenetrationModel model(s.options.gridWeight, s.particle.grid.resolution());
+  // Traversal, tile (4), index in the tile (5), table (1), compare; the exponentials come on top and are not
+  // counted.
+  all.push_back(
+      {"penetration weight", "cell", cells(s, 0), 7 + 4 + 5 + 2, 1 + 8, false,
+       [&s] { DoNotOptimize(model.meanLogLikelihood(s.scan.weighedBeams, s.pose, s.particle.grid)); },
+       "traversal's chain, and the exponentials of the cells near the reading, which the bound leaves out"});
+  // End of the beam 12, floors 4, weights 24, columns 32, row 8, residual 3; 16 cells, their table entries,
+  // read twice.
+  static const ScanMatcher matcher(s.options.matcher);
+  constexpr double kValue = 83, kPatch = 16 + 3 * 16 * 8;
+  all.push_back(
+      {"logLikelihoodValue", "beam", beams, kValue, kPatch, true,
+       [&s] { DoNotOptimize(matcher.logLikelihoodValue(s.scan.matchedBeams, s.pose, s.particle.grid)); },
+       "16 look-ups in a table one by one, then stores that the SSE loads wait for"});
+  // The same with slopes: weights +14, columns +32, row +16, the products of gradient and information +30.
+  constexpr double kSlope = kValue + 92;
+  all.push_back({"logLikelihood", "beam", beams, kSlope, kPatch, true,
+                 [&s] { DoNotOptimize(matcher.logLikelihood(s.scan.matchedBeams, s.pose, s.particle.grid)); },
+                 "as above; ten sums are carried from beam to beam"});
+  const TPose2D start = s.pose + TPose2D(0.03, 0.02, 0.01);
+  double evaluations = -1;  // the prior is asked once more at the end
+  const auto match = [&s, start](const Prior& prior) {
+    DoNotOptimize(matcher.match(s.scan.matchedBeams, start, s.particle.grid, prior));
+  };
+  match([&](const TPose2D&) { return ++evaluations, LogDensity(); });
+  // Every step is one logLikelihood, the curvature six, the fit one value.
+  all.push_back(
+      {"match", "beam", beams, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7), true,
+       [match] { match([](const TPose2D&) { return LogDensity(); }); },
+       "that of logLikelihood, so often as the climb takes steps, and six times for the curvature"});
+  // What a copy reads and writes; the map itself is shared.
+  all.push_back(
+      {"particle copy", "copy", 1, 0, 2 * sizeof(Particle) + 4 * 2 * 8, false,
+       [&s] {
+         const Particle copy(s.particle);
+         DoNotOptimize(&copy);
+       },
+       "counting the owners of shared tiles is atomic (some 20 cycles each, up and down), and the window "
+       "of blocks is allocated anew"});
+  // Each beam votes once for every angle: 4 for rho, round, abs, compare, index, count; segmentation and
+  // fits 60.
+  const auto& hough = s.options.hough;
+  const double angles = 2 * std::round(hough.thetaWindow / hough.thetaResolution) + 1;
+  static const LineExtractor extractor(s.options.segmentation, s.options.lineFit, hough);
+  all.push_back(
+      {"line extraction", "beam", beams, 60 + 9 * angles, 16 + 24 * angles, false,
+       [&s] { DoNotOptimize(extractor.extract(s.scan.scan)); },
+       "votes go to memory one by one, std::round is a call without SSE4.1, and fits are made again for "
+       "every split"});
+  return all;
+}
+
+/// Prints as Google Benchmark does, and keeps the shortest time (ns of one core) by name.
+class Keeper : public benchmark::ConsoleReporter {
+ public:
+  Keeper() : ConsoleReporter(OO_Tabular) {}
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      double& best = shortest.try_emplace(run.run_name.function_name, 1e300).first->second;
+      best = std::min(best, run.GetAdjustedCPUTime());
+    }
+    ConsoleReporter::ReportRuns(runs);
+  }
+  std::map<std::string, double> shortest;
+};
+
+/// ns of a particle in an update of the filter (standard proposal), all stages together.
+void particleUpdate(benchmark::State& state) {
+  FilterConfiguration c = test::roomConfiguration();
+  c.filter.particles = static_cast<int>(state.range(0));
+  const auto steps = test::drive(4);
+  size_t updates = 0;
+  for (auto _ : state) {
+    HybridMapBuilder builder(c);
+    builder.rememberScans(false);
+    for (const auto& step : steps) test::feed(builder, step);
+    updates += builder.updates();
+  }
+  state.counters["ns/particle-update"] =
+      benchmark::Counter(1e-9 * static_cast<double>(updates) * static_cast<double>(c.filter.particles),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void printTable(const Machine& m, const std::vector<Kernel>& kernels,
+                const std::map<std::string, double>& ns) {
+  std::printf("\n| this machine, one core | rate |\n|---|---|\n");
+  std::printf("| additions of doubles, scalar | %.1f /ns |\n| the same, SSE2 | %.1f /ns |\n", m.scalar,
+              m.sse);
+  std::printf("| triad in L1, L2, L3, memory | %.0f, %.0f, %.0f, %.0f GB/s |\n", m.l1, m.l2, m.l3, m.memory);
+  std::printf(
+      "\n| kernel | per | measured (ns) | operations | bytes | lower bound (ns) | ratio | why |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  for (const Kernel& k : kernels) {
+    const auto found = ns.find(k.name);
+    if (found == ns.end()) continue;  // left out by --benchmark_filter
+    const double measured = found->second / k.items;
+    const double bound = std::max(k.operations / (k.isVector ? m.sse : m.scalar), k.bytes / m.l1);
+    std::printf("| %s | %s | %.2f | %.0f | %.0f | %.2f | %.1f | %s |\n", k.name.c_str(), k.item.c_str(),
+                measured, k.operations, k.bytes, bound, measured / bound, k.why.c_str());
+  }
+  std::printf(
+      "\nA room's tiles (about 200 kB) are in L2, those along one beam in L1, so the bounds take L1.\n"
+      "A particle: %zu B of its own; tiles of 1 kB and blocks are shared until one writes.\n",
+      sizeof(Particle));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::bench
+
+int main(int argc, char** argv) {
+  using namespace hybrid_slam::bench;
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  const Machine machine = measureMachine();
+  Scene scene;
+  const std::vector<Kernel> kernels = kernelsOf(scene);
+  for (const Kernel& kernel : kernels)
+    benchmark::RegisterBenchmark(
+        kernel.name.c_str(),
+        [&kernel](benchmark::State& state) {
+          for (auto _ : state) kernel.run();
+          const double items = kernel.items * static_cast<double>(state.iterations());
+          state.counters["ns/" + kernel.item] =
+              benchmark::Counter(1e-9 * items, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+        })
+        ->MinTime(0.1)
+        ->Repetitions(5);
+  benchmark::RegisterBenchmark("filter update", particleUpdate)
+      ->Arg(30)
+      ->Arg(300)
+      ->Unit(benchmark::kMillisecond);
+  Keeper keeper;
+  benchmark::RunSpecifiedBenchmarks(&keeper);
+  printTable(machine, kernels, keeper.shortest);
+}
