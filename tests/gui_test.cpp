@@ -2,20 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <wx/app.h>
-#include <wx/dcmemory.h>
-#include <wx/dcscreen.h>
-#include <wx/dirdlg.h>
 #include <wx/evtloop.h>
-#include <wx/filedlg.h>
 #include <wx/image.h>
 #include <wx/modalhook.h>
 #include <wx/msgdlg.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <deque>
 #include <filesystem>
 
+#include "Screen.h"
+#include "base/Errors.h"
 #include "gui/MainFrame.h"
 #include "gui/ParametersDialog.h"
 #include "io/TemporaryFolder.h"
@@ -33,19 +31,13 @@ using testing::HasSubstr;
 class Dialogs : public wxModalDialogHook {
  public:
   std::vector<std::string> messages;  ///< of message boxes
-  std::deque<std::string> paths;      ///< for file and folder dialogs
  protected:
   int Enter(wxDialog* dialog) override {
     if (auto* const message = dynamic_cast<wxMessageDialogBase*>(dialog)) {
       messages.push_back(message->GetMessage().utf8_string());
       return wxID_OK;
     }
-    if (paths.empty()) return wxID_CANCEL;
-    const std::string path = paths.front();
-    paths.pop_front();
-    if (auto* const file = dynamic_cast<wxFileDialog*>(dialog)) file->SetPath(path);
-    if (auto* const folder = dynamic_cast<wxDirDialog*>(dialog)) folder->SetPath(path);
-    return wxID_OK;
+    return wxID_CANCEL;
   }
 };
 
@@ -90,15 +82,11 @@ class GuiTest : public testing::Test {
   /// The screen; also a PNG in the folder that HYBRID_SLAM_SCREENSHOTS names.
   wxImage screenshot(const std::string& name) {
     settle(0.4);
-    const wxSize size = wxGetDisplaySize();
-    wxBitmap bitmap(size.x, size.y, 24);
-    wxScreenDC screen;
-    wxMemoryDC memory(bitmap);
-    memory.Blit(0, 0, size.x, size.y, &screen, 0, 0);
-    memory.SelectObject(wxNullBitmap);
-    wxImage image = bitmap.ConvertToImage();
+    const test::Screen screen = test::grabScreen();
+    wxImage image(screen.width, screen.height);
+    std::copy(screen.rgb.begin(), screen.rgb.end(), image.GetData());
     if (const char* const to = std::getenv("HYBRID_SLAM_SCREENSHOTS")) {
-      const wxRect all = frame->GetScreenRect().Intersect(wxRect(size));
+      const wxRect all = frame->GetScreenRect().Intersect(wxRect(image.GetSize()));
       image.GetSubImage(all).SaveFile(std::string(to) + "/" + name + ".png", wxBITMAP_TYPE_PNG);
     }
     return image;
@@ -141,16 +129,16 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
     const MapCanvas& canvas = *frame->replay()->canvas(i);
     const MapImage& map = canvas.shown()->map;
     size_t wall = 0, wallSeen = 0, free = 0, freeSeen = 0;
-    for (int y = 0; y < map.height; y += 3)
-      for (int x = 0; x < map.width; x += 3) {
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
         const int grey = map.grey[static_cast<size_t>(y * map.width + x)];
         const int seen = greyAt(screen, canvas, map.left + (x + 0.5) * map.resolution,
                                 map.top() - (y + 0.5) * map.resolution);
         if (grey < 40) ++wall, wallSeen += seen < 110 ? 1 : 0;
         if (grey > 230) ++free, freeSeen += seen > 190 ? 1 : 0;
       }
-    EXPECT_GT(wall, 30u);
-    EXPECT_GT(free, 1000u);
+    EXPECT_GT(wall, 100u);
+    EXPECT_GT(free, 3000u);
     EXPECT_GT(wallSeen, wall * 8 / 10);  // lines, path and caption cover some
     EXPECT_GT(freeSeen, free * 8 / 10);
     EXPECT_GT(count(screen, canvas, 220, 0, 0), 100u) << "path and particles";
@@ -201,15 +189,15 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   frame->replay()->seek(40);
   ASSERT_TRUE(stands(State::paused, 40));
   ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
-  dialogs.paths = {folder.path("map.png")};
-  menu(kExportPicture);
+  frame->exportPictureTo(folder.path("map.png"));
   const wxImage picture(folder.path("map.png"), wxBITMAP_TYPE_PNG);
   ASSERT_TRUE(picture.IsOk());
   EXPECT_EQ(picture.GetSize(), wxSize(1600, 1200));
+  EXPECT_THROW(frame->exportPictureTo("/proc/nowhere/map.png"), InputError);
+  menu(kExportPicture);  // cancelled
+  EXPECT_EQ(dialogs.messages.size(), 1u);
 
-  std::filesystem::create_directory(folder.path("out"));
-  dialogs.paths = {folder.path("out")};
-  menu(kExportResults);
+  frame->exportResultsTo(folder.path("out"));
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
   EXPECT_THAT(dialogs.messages.back(), HasSubstr("Results of 40 scans"));
   for (const char* name : {"hybrid/trajectory.tum", "general/trajectory.tum", "hybrid/lines.csv"})
@@ -244,8 +232,7 @@ TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
   EXPECT_THAT(dialog.changes(), testing::ElementsAre("particle_filter.particles=12", "run.method=general"));
   frame->applyChanges(dialog.changes());
   EXPECT_EQ(frame->settings()->configuration.filter.filter.particles, 12);
-  dialogs.paths = {folder.path("saved.ini")};
-  menu(kSaveIni);
+  frame->saveIniTo(folder.path("saved.ini"));
   const auto saved = Settings::fromFile(folder.path("saved.ini"));
   EXPECT_EQ(saved->configuration.filter.filter.particles, 12);
   EXPECT_EQ(saved->configuration.run.method, RunOptions::Method::general);

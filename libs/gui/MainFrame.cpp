@@ -196,30 +196,42 @@ void MainFrame::saveIni() {
   if (!settings_) throw InputError("no settings", "nothing to save", "open an INI file first: File, Open INI file");
   wxFileDialog dialog(this, "Save settings", "", "settings.ini", "INI files (*.ini)|*.ini",
                       wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
-  if (dialog.ShowModal() != wxID_OK) return;
-  const std::filesystem::path path = dialog.GetPath().utf8_string();
-  const auto text = settings_->copy()->configuration.text();
-  const auto folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  OutputFolder(folder).write(path.filename().string(), [&](std::ostream& out) { out << text; });
+  if (dialog.ShowModal() == wxID_OK) saveIniTo(dialog.GetPath().utf8_string());
+}
+
+void MainFrame::saveIniTo(const std::string& file) const {
+  const std::filesystem::path path = file;
+  const std::string text = settings_->copy()->configuration.text();
+  OutputFolder(path.has_parent_path() ? path.parent_path().string() : ".")
+      .write(path.filename().string(), [&](std::ostream& out) { out << text; });
+}
+
+std::shared_ptr<const FilterSnapshot> MainFrame::shownFilter() const {
+  const auto shown = pages_->GetSelection() == 0 ? replay_->canvas(0)->shown() : live_->canvas()->shown();
+  if (!shown) throw InputError("no picture yet", "before the first scan", "play or step the log first");
+  return shown;
 }
 
 void MainFrame::exportPicture() {
-  const auto shown = pages_->GetSelection() == 0 ? replay_->canvas(0)->shown() : live_->canvas()->shown();
-  if (!shown) throw InputError("no picture yet", "before the first scan", "play or step the log first");
+  shownFilter();
   wxFileDialog dialog(this, "Export picture", "", "map.png", "PNG (*.png)|*.png",
                       wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
-  if (dialog.ShowModal() != wxID_OK) return;
+  if (dialog.ShowModal() == wxID_OK) exportPictureTo(dialog.GetPath().utf8_string());
+}
+
+void MainFrame::exportPictureTo(const std::string& file) const {
   const wxLogNull silent;  // the error is told below
-  if (!pictureOf(*shown, {1600, 1200}, {}).SaveFile(dialog.GetPath(), wxBITMAP_TYPE_PNG))
-    throw InputError("cannot write the picture", dialog.GetPath().utf8_string(),
-                     "expected a folder that can be written to");
+  if (!pictureOf(*shownFilter(), {1600, 1200}, {}).SaveFile(wxString::FromUTF8(file), wxBITMAP_TYPE_PNG))
+    throw InputError("cannot write the picture", file, "expected a folder that can be written to");
 }
 
 void MainFrame::exportResults() {
   if (!replay_->session()) throw InputError("no results yet", "no log is open", "open a rawlog and play it");
   wxDirDialog dialog(this, "Folder for the results (hybrid/ and general/ in it)");
-  if (dialog.ShowModal() == wxID_OK) replay_->session()->exportResults(dialog.GetPath().utf8_string());
+  if (dialog.ShowModal() == wxID_OK) exportResultsTo(dialog.GetPath().utf8_string());
 }
+
+void MainFrame::exportResultsTo(const std::string& folder) { replay_->session()->exportResults(folder); }
 
 void MainFrame::askForScan() {
   if (!replay_->session()) throw InputError("no log", "the replay", "open a rawlog first: File, Open rawlog");

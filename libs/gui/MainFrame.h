@@ -51,6 +51,14 @@ class MainFrame : public wxFrame {
   void open(const std::string& ini, const std::string& rawlog);
   void applyChanges(const std::vector<std::string>& changes);
 
+  /// @name What the menus' entries do with the file that was chosen
+  /// @throws InputError if it cannot be written, or there is nothing to write yet
+  /// @{
+  void saveIniTo(const std::string& file) const;
+  void exportPictureTo(const std::string& file) const;  ///< PNG, 1600 x 1200
+  void exportResultsTo(const std::string& folder);
+  /// @}
+
   ReplayPage* replay() const { return replay_; }
   LivePage* live() const { return live_; }
   const Settings* settings() const { return settings_.get(); }
@@ -66,6 +74,7 @@ class MainFrame : public wxFrame {
   void saveIni();
   void exportPicture();
   void exportResults();
+  std::shared_ptr<const FilterSnapshot> shownFilter() const;
   void askForScan();
   void editParameters();
 
