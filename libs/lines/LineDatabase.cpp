@@ -10,6 +10,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
+}  // namespace
+
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
   constexpr int kEnough = 20;
   double sine = 0, cosine = 0, total = 0;
@@ -23,8 +25,6 @@ std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>&
   if (std::hypot(sine, cosine) <= 1e-9 * total) return std::nullopt;
   return std::atan2(sine, cosine) / 4;
 }
-
-}  // namespace
 
 void LineDatabaseOptions::describe(OptionTable& table) {
   table.add("min_length", minLength, 0, 100, "m", "a line that matches none is inserted if it is this long");

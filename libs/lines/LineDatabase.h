@@ -34,6 +34,12 @@ struct DatabaseLine : LineSegment {
 /// the two lines are parallel.
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen);
 
+/// The direction, modulo a right angle, that lines are parallel or perpendicular to, in rad in
+/// (-pi/4, pi/4]: atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w = length * min(count, 20), so that a
+/// long-known wall does not outweigh all the others for ever. Nothing while there is no line, or none
+/// prevails.
+std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines);
+
 /// The line database of one particle, in the map frame. Copied with its particle: one contiguous block.
 class LineDatabase {
  public:
@@ -50,10 +56,7 @@ class LineDatabase {
   /// The line that a segment seen now (map frame) belongs to, or null.
   const DatabaseLine* closestMatch(const LineSegment& seen, const AssociationOptions& association) const;
 
-  /// The direction, modulo a right angle, that the lines are parallel or perpendicular to, in rad in
-  /// (-pi/4, pi/4]: atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w = length * min(count, 20), so that a
-  /// long-known wall does not outweigh all the others for ever. Nothing while there is no line, or none
-  /// prevails. Computed once per update.
+  /// directionModuloRightAngle of the lines, computed once per update.
   std::optional<double> dominatingDirection() const { return dominatingDirection_; }
 
  private:

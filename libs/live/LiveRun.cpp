@@ -84,7 +84,8 @@ void LiveRun::filter() {
         log_.report("filter", "late: " + std::to_string(skipped_) + " scans skipped so far");
       }
       run_.skip(next->skipped);
-      run_.process(next->reading);
+      const bool isUpdate = run_.process(next->reading);
+      if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(millisecondsSince(next->arrival));
       if (!isQuiet_ && millisecondsSince(lastState_) >= 10000) tellState();
     }

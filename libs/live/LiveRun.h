@@ -5,6 +5,7 @@
 #include <atomic>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +32,11 @@ class LiveRun {
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
+
+  /// Called in the filter's thread after each scan with whether the filter was updated; to be set before the
+  /// first cycle.
+  using Watcher = std::function<void(const FilterView&, const Reading&, bool isUpdate)>;
+  void setWatcher(Watcher watcher) { watcher_ = std::move(watcher); }
 
   /// One cycle. Odometry that is not a number, and where the input requires odometry all but the last few
   /// observations before the first odometry, are left out, also of the recording.
@@ -60,6 +66,7 @@ class LiveRun {
   Configuration& configuration_;
   EventLog& log_;
   bool isQuiet_;
+  Watcher watcher_;
   FilterRun run_;
   Recording recording_;
   ReadingAssembler assembler_;

@@ -1,0 +1,289 @@
+/// The window on a screen of its own, driven by the events of its menus, and looked at pixel by pixel.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <wx/app.h>
+#include <wx/evtloop.h>
+#include <wx/image.h>
+#include <wx/modalhook.h>
+#include <wx/msgdlg.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "Screen.h"
+#include "base/Errors.h"
+#include "gui/MainFrame.h"
+#include "gui/ParametersDialog.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+#include "live/ObservationServer.h"
+#include "live/TestEvents.h"
+
+namespace hybrid_slam {
+namespace {
+
+using State = ReplaySnapshot::State;
+using testing::HasSubstr;
+
+/// Answers dialogs in the user's place.
+class Dialogs : public wxModalDialogHook {
+ public:
+  std::vector<std::string> messages;  ///< of message boxes
+ protected:
+  int Enter(wxDialog* dialog) override {
+    if (auto* const message = dynamic_cast<wxMessageDialogBase*>(dialog)) {
+      messages.push_back(message->GetMessage().utf8_string());
+      return wxID_OK;
+    }
+    return wxID_CANCEL;
+  }
+};
+
+class GuiTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    dialogs.Register();
+    frame = new MainFrame;
+    frame->Move(0, 0);
+    frame->Show();
+    ini = folder.write("run.ini",
+                       "[particle_filter]\nparticles = 8\nupdate_distance = 0.2\n[grid]\nresolution = 0.05\n");
+    log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(60));
+  }
+  void TearDown() override {
+    delete frame;
+    dialogs.Unregister();
+  }
+  /// The window goes on until something has happened. @return whether it has, within a minute
+  bool happens(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      wxYield();
+      wxMilliSleep(2);
+    }
+    return true;
+  }
+  void settle(double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    happens([&] { return std::chrono::steady_clock::now() > end; });
+  }
+  void menu(int command) {
+    wxCommandEvent event(wxEVT_MENU, command);
+    event.SetEventObject(frame);
+    frame->ProcessWindowEvent(event);
+  }
+  ReplaySnapshot now() { return *frame->replay()->session()->snapshot(); }
+  bool stands(State state, size_t scans) {
+    return happens([&] { return now().state == state && now().scans == scans; });
+  }
+  /// The screen; also a PNG in the folder that HYBRID_SLAM_SCREENSHOTS names.
+  wxImage screenshot(const std::string& name) {
+    settle(0.4);
+    const test::Screen screen = test::grabScreen();
+    wxImage image(screen.width, screen.height);
+    std::copy(screen.rgb.begin(), screen.rgb.end(), image.GetData());
+    if (const char* const to = std::getenv("HYBRID_SLAM_SCREENSHOTS")) {
+      const wxRect all = frame->GetScreenRect().Intersect(wxRect(image.GetSize()));
+      image.GetSubImage(all).SaveFile(std::string(to) + "/" + name + ".png", wxBITMAP_TYPE_PNG);
+    }
+    return image;
+  }
+  /// How many pixels of a window on the screen have a colour.
+  static size_t count(const wxImage& screen, const wxWindow& window, int red, int green, int blue) {
+    const wxRect area(window.ClientToScreen(wxPoint(0, 0)), window.GetClientSize());
+    size_t found = 0;
+    for (int y = area.GetTop(); y <= area.GetBottom(); ++y)
+      for (int x = area.GetLeft(); x <= area.GetRight(); ++x)
+        found += std::abs(screen.GetRed(x, y) - red) < 40 && std::abs(screen.GetGreen(x, y) - green) < 40 &&
+                         std::abs(screen.GetBlue(x, y) - blue) < 40
+                     ? 1
+                     : 0;
+    return found;
+  }
+  /// The grey of the screen at a place of the map.
+  static int greyAt(const wxImage& screen, const MapCanvas& canvas, double x, double y) {
+    const auto at = canvas.view().toPicture(x, y, canvas.GetClientSize());
+    const wxPoint p = canvas.ClientToScreen(wxPoint(wxRound(at.m_x), wxRound(at.m_y)));
+    return screen.GetRed(p.x, p.y);
+  }
+
+  TemporaryFolder folder;
+  Dialogs dialogs;
+  MainFrame* frame = nullptr;
+  std::string ini, log;
+};
+
+TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
+  frame->open(ini, log);
+  ASSERT_TRUE(stands(State::paused, 0));
+  menu(kStep);
+  ASSERT_TRUE(stands(State::paused, 1));
+  frame->replay()->seek(60);
+  ASSERT_TRUE(stands(State::ended, 60));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  const wxImage screen = screenshot("room");
+  for (size_t i : {0, 1}) {
+    const MapCanvas& canvas = *frame->replay()->canvas(i);
+    const MapImage& map = canvas.shown()->map;
+    size_t wall = 0, wallSeen = 0, free = 0, freeSeen = 0;
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        const int grey = map.grey[static_cast<size_t>(y * map.width + x)];
+        const int seen = greyAt(screen, canvas, map.left + (x + 0.5) * map.resolution,
+                                map.top() - (y + 0.5) * map.resolution);
+        if (grey < 40) ++wall, wallSeen += seen < 110 ? 1 : 0;
+        if (grey > 230) ++free, freeSeen += seen > 190 ? 1 : 0;
+      }
+    EXPECT_GT(wall, 100u);
+    EXPECT_GT(free, 3000u);
+    EXPECT_GT(wallSeen, wall * 8 / 10);  // lines, path and caption cover some
+    EXPECT_GT(freeSeen, free * 8 / 10);
+    EXPECT_GT(count(screen, canvas, 220, 0, 0), 100u) << "path and particles";
+    EXPECT_GT(count(screen, canvas, 80, 180, 255), 30u) << "robot";
+  }
+  EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 70, 230), 200u) << "matched lines of the scan";
+  EXPECT_EQ(count(screen, *frame->replay()->canvas(1), 0, 70, 230), 0u) << "the general filter has none";
+
+  menu(kScanLines);
+  EXPECT_EQ(count(screenshot("room-without-scan-lines"), *frame->replay()->canvas(0), 0, 70, 230), 0u);
+}
+
+TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
+  frame->open(SOURCE_DIR "/config-ini/csie-lms100.ini", SOURCE_DIR "/datasets/csie/csie-loop.rawlog");
+  ASSERT_TRUE(stands(State::paused, 0));
+  const size_t target = now().total * 6 / 10;
+  frame->replay()->seek(target);
+  ASSERT_TRUE(stands(State::paused, target));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  const wxImage screen = screenshot("replay");
+  EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 150, 0), 300u) << "the line database";
+  EXPECT_GT(count(screen, *frame->replay()->canvas(1), 255, 255, 255), 3000u) << "free space";
+}
+
+TEST_F(GuiTest, PlaysPausesAndGoesBackWhileTheWindowAnswers) {
+  frame->open(ini, log);
+  ASSERT_TRUE(stands(State::paused, 0));
+  menu(kPlay);
+  ASSERT_TRUE(happens([&] { return now().state == State::playing && now().scans > 3; }));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  settle(0.1);
+  menu(kPlay);
+  ASSERT_TRUE(happens([&] { return now().state == State::paused; }));
+  const size_t there = now().scans;
+  EXPECT_LT(there, 60u);
+  menu(kRestart);
+  ASSERT_TRUE(stands(State::paused, 0));
+  frame->replay()->seek(there);
+  ASSERT_TRUE(stands(State::paused, there));
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
+TEST_F(GuiTest, ExportsThePictureAndTheResults) {
+  menu(kExportPicture);
+  ASSERT_EQ(dialogs.messages.size(), 1u);
+  EXPECT_THAT(dialogs.messages.back(), HasSubstr("play or step the log first"));
+  frame->open(ini, log);
+  frame->replay()->seek(40);
+  ASSERT_TRUE(stands(State::paused, 40));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  frame->exportPictureTo(folder.path("map.png"));
+  const wxImage picture(folder.path("map.png"), wxBITMAP_TYPE_PNG);
+  ASSERT_TRUE(picture.IsOk());
+  EXPECT_EQ(picture.GetSize(), wxSize(1600, 1200));
+  EXPECT_THROW(frame->exportPictureTo("/proc/nowhere/map.png"), InputError);
+  menu(kExportPicture);  // cancelled
+  EXPECT_EQ(dialogs.messages.size(), 1u);
+
+  frame->exportResultsTo(folder.path("out"));
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
+  EXPECT_THAT(dialogs.messages.back(), HasSubstr("Results of 40 scans"));
+  for (const char* name : {"hybrid/trajectory.tum", "general/trajectory.tum", "hybrid/lines.csv"})
+    EXPECT_FALSE(test::contentOf(folder.path(std::string("out/") + name)).empty()) << name;
+}
+
+TEST_F(GuiTest, SaysWhatIsWrongWithTheFiles) {
+  menu(kOpenRawlog);
+  frame->open(folder.path("missing.ini"), "");
+  frame->open(folder.write("typo.ini", "[particle_filter]\nparticle = 3\n"), "");
+  ASSERT_EQ(dialogs.messages.size(), 3u);
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("open an INI file first"));
+  EXPECT_THAT(dialogs.messages[1], HasSubstr("missing.ini"));
+  EXPECT_THAT(dialogs.messages[2], HasSubstr("`particles`"));
+  frame->open(ini, folder.write("no.rawlog", "this is none"));
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 4; }));
+  EXPECT_THAT(dialogs.messages[3], HasSubstr("no.rawlog"));
+}
+
+TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
+  frame->open(ini, log);
+  EXPECT_EQ(ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "12"), "");
+  EXPECT_THAT(ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "-1"),
+              HasSubstr("expected a whole number"));
+  ParametersDialog dialog(frame, *frame->settings());
+  dialog.Show();
+  screenshot("parameters");
+  auto* const grid = dynamic_cast<wxPropertyGrid*>(dialog.GetChildren().front());
+  ASSERT_NE(grid, nullptr);
+  EXPECT_TRUE(grid->ChangePropertyValue("particle_filter.particles", "12"));
+  EXPECT_TRUE(grid->ChangePropertyValue("run.method", "general"));
+  EXPECT_THAT(dialog.changes(), testing::ElementsAre("particle_filter.particles=12", "run.method=general"));
+  frame->applyChanges(dialog.changes());
+  EXPECT_EQ(frame->settings()->configuration.filter.filter.particles, 12);
+  frame->saveIniTo(folder.path("saved.ini"));
+  const auto saved = Settings::fromFile(folder.path("saved.ini"));
+  EXPECT_EQ(saved->configuration.filter.filter.particles, 12);
+  EXPECT_EQ(saved->configuration.run.method, RunOptions::Method::general);
+  EXPECT_EQ(saved->configuration.run.rawlog, log);
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
+TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
+  menu(kLivePage);
+  frame->live()->connectOrStop();
+  ASSERT_EQ(dialogs.messages.size(), 1u);
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("open an INI file first"));
+  frame->open(ini, "");
+  test::Events events;
+  ObservationServer server("127.0.0.1", 0, {}, events.log());
+  frame->live()->setServer("127.0.0.1");
+  frame->live()->connectOrStop();
+  ASSERT_EQ(dialogs.messages.size(), 2u);
+  EXPECT_THAT(dialogs.messages[1], HasSubstr("HOST:PORT"));
+
+  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
+  frame->live()->setOutput(folder.path("live"));
+  frame->live()->connectOrStop();
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  const test::Log all = test::laps(60);
+  for (size_t i = 0; i + 1 < all.size(); i += 2) {
+    mrpt::obs::CSensoryFrame cycle;
+    for (const size_t j : {i, i + 1}) cycle.insert(std::dynamic_pointer_cast<mrpt::obs::CObservation>(all[j]));
+    server.publish(cycle);
+    settle(0.03);
+  }
+  ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
+  const wxImage screen = screenshot("live");
+  EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);
+  EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
+  frame->live()->connectOrStop();
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
+  EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
+
+/// wxWidgets without a main loop of its own: the tests turn it.
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  wxApp::SetInstance(new wxApp);
+  if (!wxEntryStart(argc, argv)) return 1;
+  wxInitAllImageHandlers();
+  wxGUIEventLoop loop;
+  const wxEventLoopActivator active(&loop);
+  return RUN_ALL_TESTS();
+}
