@@ -137,7 +137,8 @@ MapView wholeMap(const MapImage& map, const wxSize& size) {
   if (map.width == 0) return view;
   view.centreX = (map.left + map.right()) / 2;
   view.centreY = (map.bottom + map.top()) / 2;
-  view.scale = std::min(size.x / (map.right() - map.left), size.y / (map.top() - map.bottom));
+  const double free = std::max(size.y - 60, 1);  // the caption above, and as much below
+  view.scale = std::min(size.x / (map.right() - map.left), free / (map.top() - map.bottom));
   view.scale = std::max(view.scale, 0.01);
   return view;
 }

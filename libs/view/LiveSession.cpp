@@ -19,7 +19,7 @@ LiveSession::LiveSession(const Configuration& configuration, const LiveOptions& 
     : configuration_(configuration),
       options_(options),
       server_(hostAndPort(server, "the live view's server")),
-      log_("",
+      log_("live",
            [this](const std::string& line) {
              publish([&line](LiveSnapshot& next) {
                next.events.push_back(line);
