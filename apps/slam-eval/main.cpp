@@ -1,19 +1,24 @@
 /// @file main.cpp
-/// @brief slam-eval: a trajectory against a reference, JSON on standard output (doc/slam-eval.md).
+/// @brief slam-eval: a trajectory against a reference or against itself, JSON on standard output
+/// (doc/slam-eval.md).
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "base/Errors.h"
+#include "base/LaserScan.h"
 #include "evaluation/AbsoluteTrajectoryError.h"
 #include "evaluation/RelationErrors.h"
 #include "evaluation/RelativePoseError.h"
+#include "evaluation/RevisitError.h"
 #include "evaluation/Trajectory.h"
+#include "io/RawlogSource.h"
 
 namespace {
 
@@ -23,10 +28,12 @@ using Json = nlohmann::ordered_json;
 constexpr double kRadToDeg = 180 / M_PI;
 
 struct CommandLine {
-  std::string trajectory, relations, odometry, reference;
+  std::string trajectory, relations, odometry, reference, rawlog;
   std::string delta = "1m";
   double relationTolerance = 0.006;  // s
   double referenceTolerance = 0.02;  // s
+  RevisitOptions revisits;
+  double maxRange = std::numeric_limits<double>::infinity();  // m
 };
 
 /// "1.5s" or "0.5m".
@@ -90,16 +97,57 @@ Json rpeJson(const CommandLine& line) {
   return json;
 }
 
+/// The scans of the log's first laser.
+/// @throws InputError for a log that is cut off too: its figures would be those of another drive
+std::vector<EndPoints> loadEndPoints(const std::string& rawlog, double maxRange) {
+  InputOptions options;
+  options.requireOdometry = false;
+  const RawlogSummary summary = summarise(rawlog, options);
+  if (!summary.defect.empty())
+    throw InputError("log " + summary.defect,
+                     "entry " + std::to_string(summary.entries + 1) + " of " + rawlog,
+                     "expected a whole rawlog");
+  RawlogSource source(rawlog, options, summary);
+  std::vector<EndPoints> scans;
+  while (const auto reading = source.next()) {
+    const LaserScan scan = toLaserScan(*reading->scan, maxRange);
+    EndPoints ends{reading->timestamp, {}};
+    for (const Beam& beam : scan.beams)
+      if (beam.valid)
+        ends.points.push_back(scan.sensorPose.composePoint(
+            {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
+    scans.push_back(std::move(ends));
+  }
+  return scans;
+}
+
+Json revisitsJson(const CommandLine& line) {
+  const Trajectory trajectory = loadTum(line.trajectory);
+  const RevisitErrors errors =
+      revisitErrors(trajectory, loadEndPoints(line.rawlog, line.maxRange), line.revisits);
+  const auto figure = [&](double value) { return errors.revisits > 0 ? Json(value) : Json(); };
+  return {{"scans", errors.scans},
+          {"revisits", errors.revisits},
+          {"median_m", figure(errors.error.median)},
+          {"mean_m", figure(errors.error.mean)},
+          {"p95_m", figure(errors.p95)},
+          {"max_m", figure(errors.error.max)},
+          {"apart", errors.apart}};
+}
+
 int run(int argc, char** argv) {
   CommandLine line;
-  CLI::App app("A trajectory against a reference; prints JSON. Files: doc/slam-eval.md.", "slam-eval");
+  CLI::App app("A trajectory against a reference or against itself; prints JSON. Files: doc/slam-eval.md.",
+               "slam-eval");
   app.set_version_flag("--version", "slam-eval " HYBRID_SLAM_VERSION);
   app.require_subcommand(1);
 
   auto* relations = app.add_subcommand("relations", "relations metric of Kuemmerle et al. 2009");
   auto* ate = app.add_subcommand("ate", "absolute trajectory error after rigid alignment");
   auto* rpe = app.add_subcommand("rpe", "relative pose error over a stretch of time or way");
-  for (CLI::App* command : {relations, ate, rpe})
+  auto* revisits =
+      app.add_subcommand("revisits", "does the map close: walls seen again, without a reference");
+  for (CLI::App* command : {relations, ate, rpe, revisits})
     command->add_option("--trajectory", line.trajectory, "what is judged, TUM file")->required();
   relations->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
   relations->add_option(
@@ -115,6 +163,12 @@ int run(int argc, char** argv) {
         ->capture_default_str();
   }
   rpe->add_option("--delta", line.delta, "length of the stretch, `1s` or `0.5m`")->capture_default_str();
+  revisits->add_option("--rawlog", line.rawlog, "the log that the trajectory was made from")->required();
+  revisits
+      ->add_option("--distance", line.revisits.distance, "between the poses of scans that see the same, m")
+      ->capture_default_str();
+  revisits->add_option("--path", line.revisits.path, "way driven between the two, m")->capture_default_str();
+  revisits->add_option("--max-range", line.maxRange, "of the beams, m; default: the log's own");
 
   try {
     app.parse(argc, argv);
@@ -127,8 +181,16 @@ int run(int argc, char** argv) {
   for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
     if (!(tolerance >= 0))
       throw InputError("wrong value", "option --tolerance", "expected a number of seconds, 0 or more");
+  for (const auto& [option, metres] : {std::pair("--distance", line.revisits.distance),
+                                       {"--path", line.revisits.path},
+                                       {"--max-range", line.maxRange}})
+    if (!(metres > 0))
+      throw InputError("wrong value", std::string("option ") + option, "expected a number of metres above 0");
 
-  const Json json = *relations ? relationsJson(line) : *ate ? ateJson(line) : rpeJson(line);
+  const Json json = *relations  ? relationsJson(line)
+                    : *ate      ? ateJson(line)
+                    : *revisits ? revisitsJson(line)
+                                : rpeJson(line);
   std::cout << json.dump(2) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
   return 0;
@@ -143,7 +205,7 @@ int main(int argc, char** argv) {
     std::cerr << "slam-eval: error: " << error.what() << '\n';
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "slam-eval: error: " << error.what() << '\n';
+    std::cerr << "slam-eval: error: " << hybrid_slam::messageOf(error) << '\n';
     return 1;
   }
 }
