@@ -19,7 +19,8 @@ LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose
     const DatabaseLine* const wall =
         database.closestMatch(transformed(line, predicted), configuration.association);
     if (wall && wall->count >= configuration.database.minCount)
-      walls_.push_back({&line, wall, line.length});
+      walls_.push_back({middle(line), line.theta, wall->rho, wall->theta, std::cos(wall->theta),
+                        std::sin(wall->theta), line.length});
     else
       newLines_.push_back(line);
   }
@@ -31,16 +32,15 @@ LogDensity LineLikelihood::operator()(const TPose2D& pose) const {
   LogDensity density = lineLogDensity(newLines_, pose.phi, database_, weight_);
   const double perAngle = 1 / (weight_.sigma * weight_.sigma), perDistance = 1 / (sigmaRho_ * sigmaRho_);
   for (const KnownWall& wall : walls_) {
-    const double theta = wall.known->theta;
-    const double angle = std::remainder(wall.seen->theta + pose.phi - theta, M_PI);
-    const TPoint2D at = pose.composePoint(middle(*wall.seen));
-    const double distance = signedDistance(at, wall.known->rho, theta);
+    const double angle = std::remainder(wall.theta + pose.phi - wall.knownTheta, M_PI);
+    const TPoint2D at = pose.composePoint(wall.middle);
+    const double distance = at.x * wall.normalX + at.y * wall.normalY - wall.knownRho;
     const double squares = angle * angle * perAngle + distance * distance * perDistance;
     density.value -= 0.5 * wall.share * std::min(squares, kMostSquares);
     if (squares > kMostSquares) continue;
     const Eigen::Vector3d byAngle(0, 0, 1);
-    const Eigen::Vector3d byDistance(std::cos(theta), std::sin(theta),
-                                     (at.x - pose.x) * std::sin(theta) - (at.y - pose.y) * std::cos(theta));
+    const Eigen::Vector3d byDistance(wall.normalX, wall.normalY,
+                                     (at.x - pose.x) * wall.normalY - (at.y - pose.y) * wall.normalX);
     density.gradient -= wall.share * (angle * perAngle * byAngle + distance * perDistance * byDistance);
     density.information += wall.share * (perAngle * byAngle * byAngle.transpose() +
                                          perDistance * byDistance * byDistance.transpose());

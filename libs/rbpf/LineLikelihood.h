@@ -21,7 +21,7 @@ namespace hybrid_slam {
 /// Lines are associated once, at the predicted pose.
 class LineLikelihood {
  public:
-  /// @param seen       robot frame; must outlive this
+  /// @param seen       robot frame
   /// @param database   map frame; must outlive this
   LineLikelihood(const std::vector<LineSegment>& seen, const mrpt::math::TPose2D& predicted,
                  const LineDatabase& database, const FilterConfiguration& configuration);
@@ -30,9 +30,11 @@ class LineLikelihood {
 
  private:
   struct KnownWall {
-    const LineSegment* seen;    ///< robot frame
-    const DatabaseLine* known;  ///< map frame
-    double share;               ///< l / L
+    mrpt::math::TPoint2D middle;   ///< of the line seen, robot frame, m
+    double theta;                  ///< of the line seen, robot frame, rad
+    double knownRho, knownTheta;   ///< of the wall, map frame
+    double normalX, normalY;       ///< cosine and sine of knownTheta
+    double share;                  ///< l / L
   };
   const LineDatabase& database_;
   LineWeightOptions weight_;

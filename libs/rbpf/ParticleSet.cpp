@@ -85,6 +85,7 @@ void ParticleSet::reset(const TPose2D& start) {
     m_particles.back().log_w = 0;
   }
   stepNumber_ = 0;
+  slipRecovery_ = SlipRecovery(configuration_);  // what fits usually is known of the old map alone
 }
 
 void ParticleSet::beginStep(const PreparedScan& scan) {

@@ -11,15 +11,25 @@ namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 
+namespace {
+
+OccupancyGrid gridOf(const std::vector<PosedScan>& scans, const GridOptions& options) {
+  OccupancyGrid grid(options.resolution);
+  for (const PosedScan& posed : scans)
+    if (posed.isMapped)
+      grid.insert(ScanBeams(toLaserScan(*posed.scan, options.maxRange), 1), posed.pose, options);
+  return grid;
+}
+
+}  // namespace
+
 ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration) {
   const ScanPreparation prepare(configuration);
-  ScanMap map{OccupancyGrid(configuration.grid.resolution), {}};
+  ScanMap map{gridOf(scans, configuration.grid), {}};
   for (const PosedScan& posed : scans) {
     if (!posed.isMapped) continue;
-    const PreparedScan scan = prepare(*posed.scan);
-    map.grid.insert(scan.beams, posed.pose, configuration.grid);
     std::vector<LineSegment> lines;
-    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, posed.pose));
+    for (const LineSegment& line : prepare(*posed.scan).lines) lines.push_back(transformed(line, posed.pose));
     map.lines.update(lines, configuration.database, configuration.association);
   }
   return map;
@@ -31,7 +41,7 @@ void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configurat
   const ScanMatcher matcher(configuration.matcher);
   tbb::task_arena arena(arenaThreads(configuration.filter.threads));
   for (int pass = 0; pass < passes; ++pass) {
-    const OccupancyGrid grid = mapOf(scans, configuration).grid;
+    const OccupancyGrid grid = gridOf(scans, configuration.grid);
     arena.execute([&] {
       tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
         TPose2D& pose = scans[i].pose;

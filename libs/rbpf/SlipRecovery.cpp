@@ -53,11 +53,10 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
       const double value = logWeight(there.pose) + std::max(modelled, slip);
       if (value <= highest) continue;
       highest = value, match = there;
-      motion.start = there.pose - before;
       motion.hasSlipped = slip > modelled;
     }
   }
-  if (!motion.hasSlipped && match.fit >= options.minFit) motion.start = match.pose - before;
+  if (motion.hasSlipped || match.fit >= options.minFit) motion.start = match.pose - before;
   usualFit_ = usualFit_ == 0 ? match.fit : (1 - kForgetting) * usualFit_ + kForgetting * match.fit;
   return motion;
 }

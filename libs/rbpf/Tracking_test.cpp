@@ -152,6 +152,47 @@ TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
   }
 }
 
+/// 30 deg too much in the middle of a side of the square.
+std::vector<DriveStep> driveWithSlip() {
+  auto steps = drive(8);
+  steps[30].odometry.phi += 30 * kDegree;
+  return steps;
+}
+
+TEST(Tracking, TheImprovedProposalSurvivesASlip) {
+  for (const bool useLines : {true, false}) {
+    HybridMapBuilder builder(with(Proposal::improved, useLines));
+    const auto steps = driveWithSlip();
+    std::vector<TPose2D> truth;
+    std::vector<size_t> slips;
+    for (size_t i = 0; i < steps.size(); ++i) {
+      const size_t before = builder.updates();
+      feed(builder, steps[i]);
+      if (builder.updates() == before) continue;
+      truth.push_back(steps[i].truth);
+      if (builder.lastStep().slipped.value_or(false)) slips.push_back(i);
+    }
+    EXPECT_EQ(slips, std::vector<size_t>{30}) << useLines;
+    EXPECT_LT(rms(builder.bestPath(), truth), 0.05) << useLines;
+
+    FilterConfiguration blind = with(Proposal::improved, useLines);
+    blind.improved.slipDistance = 0;
+    EXPECT_GT(run(blind, steps).error, 0.5) << useLines;  // the slip is one that has to be searched for
+  }
+}
+
+TEST(Tracking, StartedAnewItIsTheSameRun) {
+  for (const auto proposal : {Proposal::standard, Proposal::improved}) {
+    HybridMapBuilder builder(with(proposal, true));
+    const auto steps = driveWithSlip();
+    for (const DriveStep& step : steps) feed(builder, step);
+    const auto path = builder.bestPath();
+    builder.initialize();
+    for (const DriveStep& step : steps) feed(builder, step);
+    EXPECT_EQ(builder.bestPath(), path);
+  }
+}
+
 TEST(Tracking, LinesMakeADifference) {
   const auto steps = drive(2);
   const Outcome hybrid = run(with(Proposal::standard, true), steps);
