@@ -38,11 +38,10 @@ OccupancyGrid fromMrpt(const mrpt::maps::COccupancyGridMap2D& in) {
   if (std::abs(firstX - x0) > 0.01 || std::abs(firstY - y0) > 0.01)
     throw InputError("grid not aligned", "origin of the occupancy grid",
                      "expected a whole number of cells from (0, 0)");
-  TileWriter cells(grid.tiles());
   for (int y = 0; y < static_cast<int>(in.getSizeY()); ++y) {
     const auto* row = in.getRow(y);
     for (int x = 0; x < static_cast<int>(in.getSizeX()); ++x)
-      if (row[x] != 0) cells.at(x0 + x, y0 + y) = static_cast<int8_t>(-std::max<int>(row[x], -127));
+      if (row[x] != 0) grid.tiles().set({x0 + x, y0 + y}, static_cast<int8_t>(-std::max<int>(row[x], -127)));
   }
   return grid;
 }

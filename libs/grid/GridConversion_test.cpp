@@ -25,11 +25,11 @@ OccupancyGrid randomGrid(RandomStream& random, double resolution, int n, int rea
 void expectSameCells(const OccupancyGrid& a, const OccupancyGrid& b) {
   EXPECT_EQ(a.resolution(), b.resolution());
   for (const auto& [grid, other] : {std::pair(&a, &b), std::pair(&b, &a)})
-    grid->tiles().forEachTile([&other = other](int tx, int ty, const TileGrid::Tile& tile) {
-      for (int i = 0; i < TileGrid::kTileSize * TileGrid::kTileSize; ++i) {
-        const CellIndex cell{tx * TileGrid::kTileSize + i % TileGrid::kTileSize,
-                             ty * TileGrid::kTileSize + i / TileGrid::kTileSize};
-        ASSERT_EQ(other->tiles().at(cell), tile.cells[static_cast<size_t>(i)]) << cell.x << " " << cell.y;
+    grid->tiles().forEachTile([&other = other](int tx, int ty, const Tile& tile) {
+      for (int i = 0; i < Tile::kSize * Tile::kSize; ++i) {
+        const CellIndex cell{tx * Tile::kSize + i % Tile::kSize,
+                             ty * Tile::kSize + i / Tile::kSize};
+        ASSERT_EQ(other->tiles().at(cell), tile.cells()[static_cast<size_t>(i)]) << cell.x << " " << cell.y;
       }
     });
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 #include "grid/RayTraversal.h"
 
@@ -12,42 +14,90 @@ int logOdds(double p) {
   return static_cast<int>(std::lround(std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale));
 }
 
-/// The cells that one scan hits: a bitmap over their bounding box, kept between calls to save the allocation.
-class HitCells {
+/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. The
+/// memory is kept between calls.
+class Footprint {
  public:
-  explicit HitCells(const std::vector<CellIndex>& cells) : bits_(buffer()) {
-    if (cells.empty()) return;
-    box_ = {cells.front(), cells.front()};
-    for (const CellIndex& c : cells) {
-      box_.min = {std::min(box_.min.x, c.x), std::min(box_.min.y, c.y)};
-      box_.max = {std::max(box_.max.x, c.x), std::max(box_.max.y, c.y)};
+  static constexpr uint8_t kHit = 255;
+
+  Footprint(const ScanBeams& scan, const GridPose& pose, double cellSize) : counts_(buffer()) {
+    std::vector<CellIndex> ends;
+    ends.reserve(scan.rays.size());
+    CellIndex low{static_cast<int>(std::floor(pose.originX)), static_cast<int>(std::floor(pose.originY))};
+    CellIndex high = low;
+    for (const auto& ray : scan.rays) {
+      const double range = ray.range / cellSize;
+      const CellIndex end{static_cast<int>(std::floor(pose.originX + range * pose.dirX(ray))),
+                          static_cast<int>(std::floor(pose.originY + range * pose.dirY(ray)))};
+      low = {std::min(low.x, end.x), std::min(low.y, end.y)};
+      high = {std::max(high.x, end.x), std::max(high.y, end.y)};
+      ends.push_back(end);
     }
-    width_ = box_.max.x - box_.min.x + 1;
-    bits_.assign(static_cast<size_t>(width_) * static_cast<size_t>(box_.max.y - box_.min.y + 1), false);
-  }
-  bool contains(int x, int y) const {
-    return x >= box_.min.x && x <= box_.max.x && y >= box_.min.y && y <= box_.max.y && bits_[index(x, y)];
-  }
-  /// Whether the cell was not there yet.
-  bool add(CellIndex c) {
-    const bool isNew = !bits_[index(c.x, c.y)];
-    bits_[index(c.x, c.y)] = true;
-    return isNew;
+    // A cell more on each side: where a beam ends on a border, rounding may take it over.
+    first_ = {(low.x - 1) >> Tile::kBits, (low.y - 1) >> Tile::kBits};
+    last_ = {(high.x + 1) >> Tile::kBits, (high.y + 1) >> Tile::kBits};
+    width_ = static_cast<size_t>(last_.x - first_.x + 1) * Tile::kSize;
+    counts_.assign(width_ * static_cast<size_t>(last_.y - first_.y + 1) * Tile::kSize, 0);
+
+    for (const CellIndex& end : ends) at(end.x, end.y) = kHit;
+    for (const auto& ray : scan.rays)
+      traverseRay(pose.originX, pose.originY, pose.dirX(ray), pose.dirY(ray), ray.range / cellSize,
+                  [&](int x, int y, double, double) {
+                    uint8_t& count = at(x, y);
+                    count = static_cast<uint8_t>(count + (count < kHit - 1));  // so many reach any floor
+                    return true;
+                  });
   }
 
+  CellIndex firstTile() const { return first_; }
+  CellIndex lastTile() const { return last_; }
+  /// 32 counts: a row of cells of one tile.
+  const uint8_t* row(int tileX, int y) const { return &counts_[index(tileX << Tile::kBits, y)]; }
+
  private:
+  uint8_t& at(int x, int y) { return counts_[index(x, y)]; }
   size_t index(int x, int y) const {
-    return static_cast<size_t>(y - box_.min.y) * static_cast<size_t>(width_) +
-           static_cast<size_t>(x - box_.min.x);
+    return static_cast<size_t>(y - first_.y * Tile::kSize) * width_ +
+           static_cast<size_t>(x - first_.x * Tile::kSize);
   }
-  static std::vector<bool>& buffer() {
-    thread_local std::vector<bool> bits;
-    return bits;
+  static std::vector<uint8_t>& buffer() {
+    thread_local std::vector<uint8_t> counts;
+    return counts;
   }
-  std::vector<bool>& bits_;
-  CellBox box_;
-  int width_ = 0;
+
+  std::vector<uint8_t>& counts_;  ///< row by row
+  CellIndex first_, last_;        ///< tiles
+  size_t width_;
 };
+
+/// The update of a cell, in log-odds.
+struct Steps {
+  explicit Steps(const GridOptions& o)
+      // A probability nearer to 0.5 than the smallest step still counts as one.
+      : hit(std::max(logOdds(o.pHit), 1)),
+        miss(std::min(logOdds(o.pMiss), -1)),
+        lowest(logOdds(o.pMin)),
+        highest(logOdds(o.pMax)) {}
+  int hit, miss, lowest, highest;
+};
+
+/// A row of cells of a tile by what the scan says of them; a loop that compilers vectorise.
+void update(int8_t* cells, const uint8_t* counts, const Steps& steps) {
+  const auto hit = static_cast<int16_t>(steps.hit), miss = static_cast<int16_t>(steps.miss);
+  const auto lowest = static_cast<int16_t>(steps.lowest), highest = static_cast<int16_t>(steps.highest);
+  for (int i = 0; i < Tile::kSize; ++i) {
+    const int16_t cell = cells[i], count = counts[i];
+    const auto afterHit = std::min(static_cast<int16_t>(cell + hit), highest);
+    const auto afterMisses = std::max(static_cast<int16_t>(cell + count * miss), std::min(cell, lowest));
+    cells[i] = static_cast<int8_t>(count == Footprint::kHit ? afterHit : afterMisses);
+  }
+}
+
+bool isZero(const uint8_t* counts) {
+  std::array<uint64_t, Tile::kSize / 8> words;
+  std::memcpy(words.data(), counts, sizeof words);
+  return (words[0] | words[1] | words[2] | words[3]) == 0;
+}
 
 }  // namespace
 
@@ -72,33 +122,23 @@ CellIndex OccupancyGrid::cellOf(double x, double y) const {
 
 void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot,
                            const GridOptions& options) {
-  // A probability nearer to 0.5 than the smallest step still counts as one.
-  const int hit = std::max(logOdds(options.pHit), 1), miss = std::min(logOdds(options.pMiss), -1);
-  const int lowest = logOdds(options.pMin), highest = logOdds(options.pMax);
-  const GridPose pose(robot, scan, resolution_);
-
-  std::vector<CellIndex> ends;
-  ends.reserve(scan.rays.size());
-  for (const auto& ray : scan.rays) {
-    const double range = ray.range / resolution_;
-    ends.push_back({static_cast<int>(std::floor(pose.originX + range * pose.dirX(ray))),
-                    static_cast<int>(std::floor(pose.originY + range * pose.dirY(ray)))});
-  }
-  HitCells hits(ends);
-  TileWriter cells(tiles_);
-  for (const CellIndex& end : ends)
-    if (hits.add(end)) {
-      int8_t& cell = cells.at(end.x, end.y);
-      cell = static_cast<int8_t>(std::min<int>(cell + hit, highest));
+  const Steps steps(options);
+  const Footprint footprint(scan, GridPose(robot, scan, resolution_), resolution_);
+  const CellIndex first = footprint.firstTile(), last = footprint.lastTile();
+  for (int ty = first.y; ty <= last.y; ++ty)
+    for (int tx = first.x; tx <= last.x; ++tx) {
+      const Tile* const tile = tiles_.tileAt(tx, ty);
+      Tile::Cells cells = tile ? tile->cells() : Tile::Cells{};
+      bool isTouched = false;
+      for (int row = 0; row < Tile::kSize; ++row) {
+        const uint8_t* const counts = footprint.row(tx, (ty << Tile::kBits) + row);
+        if (isZero(counts)) continue;
+        isTouched = true;
+        update(&cells[Tile::index(0, row)], counts, steps);
+      }
+      // What has come to its bounds stays shared with other particles.
+      if (isTouched && !(tile && cells == tile->cells())) tiles_.writableTile(tx, ty).assign(cells);
     }
-  for (const auto& ray : scan.rays)
-    traverseRay(pose.originX, pose.originY, pose.dirX(ray), pose.dirY(ray), ray.range / resolution_,
-                [&](int x, int y, double, double) {
-                  if (hits.contains(x, y)) return true;
-                  int8_t& cell = cells.at(x, y);
-                  if (cell > lowest) cell = static_cast<int8_t>(std::max<int>(cell + miss, lowest));
-                  return true;
-                });
 }
 
 }  // namespace hybrid_slam

@@ -46,7 +46,7 @@ class PenetrationModel {
  private:
   std::array<double, 256> opacity_;  ///< by cell value + 128, per cell length
   double resolution_, outlier_;
-  double halfInverseVariance_, window_;  ///< in cells
+  double perSigma_, window_;  ///< sigmas per cell; 3 sigma in cells
 };
 
 }  // namespace hybrid_slam

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "grid/CubicSpline.h"
+#include "grid/RayTraversal.h"
 
 namespace hybrid_slam {
 
@@ -19,25 +20,19 @@ struct MapSample {
   double m = 0, dx = 0, dy = 0;
 };
 
-/// std::floor is a function call where the processor's own rounding cannot be taken for granted.
-int floorOf(double x) {
-  const int towardsZero = static_cast<int>(x);
-  return towardsZero - (x < towardsZero);
-}
-
 /// m of the 4 x 4 cells from (x, y) on, row by row. @return false if all are 0, and then leaves `m` alone
 inline bool readPatch(TileReader& cells, const std::array<double, 256>& occupied, int x, int y,
                       std::array<double, 16>& m) {
-  constexpr int kLastInside = TileGrid::kTileSize - 4;
-  const int inX = x & (TileGrid::kTileSize - 1), inY = y & (TileGrid::kTileSize - 1);
+  constexpr int kLastInside = Tile::kSize - 4;
+  const int inX = x & (Tile::kSize - 1), inY = y & (Tile::kSize - 1);
   int8_t copied[16];
   const int8_t* first = copied;
   size_t stride = 4;
   if (inX <= kLastInside && inY <= kLastInside) {  // all in one tile
-    const TileGrid::Tile* const tile = cells.tile(x >> TileGrid::kTileBits, y >> TileGrid::kTileBits);
+    const Tile* const tile = cells.tile(x >> Tile::kBits, y >> Tile::kBits);
     if (!tile) return false;
-    first = &tile->cells[TileGrid::inTile({x, y})];
-    stride = TileGrid::kTileSize;
+    first = &tile->cells()[Tile::index(x, y)];
+    stride = Tile::kSize;
   } else {
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) copied[4 * row + column] = cells.at(x + column, y + row);

@@ -4,7 +4,7 @@
 
 namespace hybrid_slam {
 
-TileGrid::Tile& TileGrid::writableTile(int tx, int ty) {
+Tile& TileGrid::writableTile(int tx, int ty) {
   const int bx = tx >> kBlockBits, by = ty >> kBlockBits;
   if (!findBlock(bx, by)) growTo(bx, by);
   CowPtr<Block>& block = blocks_[static_cast<size_t>((by - firstY_) * columns_ + (bx - firstX_))];
@@ -40,8 +40,8 @@ void TileGrid::forEachTile(const std::function<void(int, int, const Tile&)>& vis
 CellBox TileGrid::bounds() const {
   CellBox box;
   forEachTile([&box](int tx, int ty, const Tile&) {
-    const CellIndex low{tx * kTileSize, ty * kTileSize};
-    const CellIndex high{low.x + kTileSize - 1, low.y + kTileSize - 1};
+    const CellIndex low{tx * Tile::kSize, ty * Tile::kSize};
+    const CellIndex high{low.x + Tile::kSize - 1, low.y + Tile::kSize - 1};
     if (box.empty()) {
       box = {low, high};
     } else {

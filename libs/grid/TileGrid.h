@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/CowPtr.h"
+#include "grid/Tile.h"
 
 namespace hybrid_slam {
 
@@ -23,27 +24,22 @@ struct CellBox {
   bool empty() const { return max.x < min.x || max.y < min.y; }
 };
 
-/// Log-odds of occupancy in steps of 1/16 (MRPT's scale, sign reversed: positive is occupied), 0 = unknown.
+/// The cells of a map (see Tile) without bounds.
 ///
 /// The idea is DP-SLAM's: particles of one ancestry share what they agree on. A grid is a window of blocks of
 /// 16 x 16 tiles of 32 x 32 cells; blocks and tiles are copied on write, so that copying a grid costs a few
 /// pointers whatever the size of the map, and it grows in any direction without moving a cell.
 class TileGrid {
  public:
-  static constexpr int kTileBits = 5, kTileSize = 1 << kTileBits;
   static constexpr int kBlockBits = 4, kBlockSize = 1 << kBlockBits;
-
-  struct Tile {
-    alignas(64) std::array<int8_t, kTileSize * kTileSize> cells{};
-  };
 
   /// The log-odds of a cell; 0 where nothing was ever written.
   int8_t at(CellIndex cell) const {
-    const Tile* tile = tileAt(cell.x >> kTileBits, cell.y >> kTileBits);
-    return tile ? tile->cells[inTile(cell)] : int8_t{0};
+    const Tile* tile = tileAt(cell.x >> Tile::kBits, cell.y >> Tile::kBits);
+    return tile ? tile->cells()[Tile::index(cell.x, cell.y)] : int8_t{0};
   }
   void set(CellIndex cell, int8_t value) {
-    writableTile(cell.x >> kTileBits, cell.y >> kTileBits).cells[inTile(cell)] = value;
+    writableTile(cell.x >> Tile::kBits, cell.y >> Tile::kBits).set(cell.x, cell.y, value);
   }
 
   /// The tile that holds cells [32 tx, 32 tx + 31] x [32 ty, 32 ty + 31], or null.
@@ -58,10 +54,6 @@ class TileGrid {
   CellBox bounds() const;
   /// Calls visit(tx, ty, tile) for each tile that exists, in a fixed order.
   void forEachTile(const std::function<void(int, int, const Tile&)>& visit) const;
-
-  static size_t inTile(CellIndex cell) {
-    return static_cast<size_t>(((cell.y & (kTileSize - 1)) << kTileBits) | (cell.x & (kTileSize - 1)));
-  }
 
  private:
   struct Block {
@@ -86,11 +78,11 @@ class TileReader {
  public:
   explicit TileReader(const TileGrid& grid) : grid_(&grid) {}
   int8_t at(int x, int y) {
-    const TileGrid::Tile* const found = tile(x >> TileGrid::kTileBits, y >> TileGrid::kTileBits);
-    return found ? found->cells[TileGrid::inTile({x, y})] : int8_t{0};
+    const Tile* const found = tile(x >> Tile::kBits, y >> Tile::kBits);
+    return found ? found->cells()[Tile::index(x, y)] : int8_t{0};
   }
   /// As TileGrid::tileAt.
-  const TileGrid::Tile* tile(int tx, int ty) {
+  const Tile* tile(int tx, int ty) {
     if (tx != tx_ || ty != ty_ || first_) {
       tile_ = grid_->tileAt(tx, ty);
       tx_ = tx, ty_ = ty, first_ = false;
@@ -100,28 +92,9 @@ class TileReader {
 
  private:
   const TileGrid* grid_;
-  const TileGrid::Tile* tile_ = nullptr;
+  const Tile* tile_ = nullptr;
   int tx_ = 0, ty_ = 0;
   bool first_ = true;
-};
-
-/// Writes cells along a path: remembers the tile of the last cell.
-class TileWriter {
- public:
-  explicit TileWriter(TileGrid& grid) : grid_(&grid) {}
-  int8_t& at(int x, int y) {
-    const int tx = x >> TileGrid::kTileBits, ty = y >> TileGrid::kTileBits;
-    if (!tile_ || tx != tx_ || ty != ty_) {
-      tile_ = &grid_->writableTile(tx, ty);
-      tx_ = tx, ty_ = ty;
-    }
-    return tile_->cells[TileGrid::inTile({x, y})];
-  }
-
- private:
-  TileGrid* grid_;
-  TileGrid::Tile* tile_ = nullptr;
-  int tx_ = 0, ty_ = 0;
 };
 
 }  // namespace hybrid_slam

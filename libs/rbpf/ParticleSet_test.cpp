@@ -22,16 +22,16 @@ FilterConfiguration fourParticles() {
 }
 
 /// The tile where the robot starts.
-const TileGrid::Tile* tileOf(const ParticleSet& particles, size_t i) {
+const Tile* tileOf(const ParticleSet& particles, size_t i) {
   return particles.m_particles[i].d->grid.tiles().tileAt(0, 0);
 }
 
 bool sameCells(const OccupancyGrid& a, const OccupancyGrid& b) {
   bool isSame = true;
   for (const auto& [grid, other] : {std::pair(&a, &b), std::pair(&b, &a)})
-    grid->tiles().forEachTile([&, other = other](int tx, int ty, const TileGrid::Tile& tile) {
+    grid->tiles().forEachTile([&, other = other](int tx, int ty, const Tile& tile) {
       const auto* twin = other->tiles().tileAt(tx, ty);
-      isSame &= twin && twin->cells == tile.cells;
+      isSame &= twin && twin->cells() == tile.cells();
     });
   return isSame;
 }

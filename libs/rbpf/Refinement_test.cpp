@@ -68,9 +68,9 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
     if (s.isMapped) grid.insert(ScanBeams(toLaserScan(*s.scan, c.grid.maxRange), 1), s.pose, c.grid);
   const ScanMap map = mapOf(scans, c);
   size_t cells = 0;
-  grid.tiles().forEachTile([&](int tx, int ty, const TileGrid::Tile& tile) {
+  grid.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
     ASSERT_TRUE(map.grid.tiles().tileAt(tx, ty));
-    EXPECT_EQ(map.grid.tiles().tileAt(tx, ty)->cells, tile.cells);
+    EXPECT_EQ(map.grid.tiles().tileAt(tx, ty)->cells(), tile.cells());
     ++cells;
   });
   EXPECT_GT(cells, 20u);

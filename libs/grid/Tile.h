@@ -1,0 +1,61 @@
+/// @file Tile.h
+/// @brief 32 x 32 cells of a grid, and where in them a beam meets nothing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace hybrid_slam {
+
+/// Log-odds of occupancy in steps of 1/16 (MRPT's scale, sign reversed: positive is occupied), 0 = unknown.
+/// Each of its squares of 8 x 8 cells is known to be free, or not: a beam need not be followed through free
+/// squares cell by cell.
+class Tile {
+ public:
+  static constexpr int kBits = 5, kSize = 1 << kBits;
+  static constexpr int kSquareBits = 3, kSquareSize = 1 << kSquareBits;
+  using Cells = std::array<int8_t, kSize * kSize>;
+
+  /// The place of a cell in `cells`, row by row; x and y are those of the whole grid.
+  static size_t index(int x, int y) {
+    return static_cast<size_t>(((y & (kSize - 1)) << kBits) | (x & (kSize - 1)));
+  }
+  const Cells& cells() const { return cells_; }
+  /// Whether every cell of a square was seen and is more likely free than not.
+  /// @param x,y  of the square in the whole grid: those of its cells divided by 8
+  bool isFree(int x, int y) const { return freeSquares_ >> squareIndex(x, y) & 1; }
+
+  void set(int x, int y, int8_t value) {
+    cells_[index(x, y)] = value;
+    lookForFree(x >> kSquareBits, y >> kSquareBits);
+  }
+  void assign(const Cells& cells) {
+    cells_ = cells;
+    for (int y = 0; y < kSize / kSquareSize; ++y)
+      for (int x = 0; x < kSize / kSquareSize; ++x) lookForFree(x, y);
+  }
+
+ private:
+  static int squareIndex(int x, int y) {
+    constexpr int kSquares = kSize / kSquareSize;
+    return (y & (kSquares - 1)) * kSquares + (x & (kSquares - 1));
+  }
+  void lookForFree(int x, int y) {
+    uint64_t negative = ~uint64_t{0};  // the sign bits of a row of eight cells at a time
+    for (int row = 0; row < kSquareSize; ++row) {
+      uint64_t eight;
+      std::memcpy(&eight, &cells_[index(x << kSquareBits, (y << kSquareBits) + row)], sizeof eight);
+      negative &= eight;
+    }
+    const bool isFree = (negative & 0x8080808080808080u) == 0x8080808080808080u;
+    const auto bit = static_cast<uint16_t>(1u << squareIndex(x, y));
+    freeSquares_ = static_cast<uint16_t>(isFree ? freeSquares_ | bit : freeSquares_ & ~bit);
+  }
+
+  alignas(64) Cells cells_{};
+  uint16_t freeSquares_ = 0;
+};
+
+}  // namespace hybrid_slam
