@@ -13,20 +13,24 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr int kStep = 2;                      // cells
-constexpr double kStepAngle = M_PI / 180;     // rad
+constexpr int kStep = 2;                   // cells
+constexpr double kStepAngle = M_PI / 180;  // rad
 constexpr size_t kMostBeams = 120;
 
 /// A rectangle of cells with max(0, 2 p - 1) in steps of 1/255, the highest of each cell and its neighbours.
 class WidenedMap {
  public:
   WidenedMap(const OccupancyGrid& grid, const CellBox& box)
-      : minX_(box.min.x - 1), minY_(box.min.y - 1), width_(box.max.x - box.min.x + 3),
-        height_(box.max.y - box.min.y + 3), cells_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
+      : minX_(box.min.x - 1),
+        minY_(box.min.y - 1),
+        width_(box.max.x - box.min.x + 3),
+        height_(box.max.y - box.min.y + 3),
+        cells_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
     std::array<uint8_t, 256> occupied;
     for (int value = -128; value < 128; ++value) {
       const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
-      occupied[static_cast<size_t>(value + 128)] = static_cast<uint8_t>(std::lround(255 * std::max(0.0, 2 * p - 1)));
+      occupied[static_cast<size_t>(value + 128)] =
+          static_cast<uint8_t>(std::lround(255 * std::max(0.0, 2 * p - 1)));
     }
     TileReader reader(grid.tiles());
     for (int y = 0; y < height_; ++y)
@@ -37,7 +41,8 @@ class WidenedMap {
   }
   /// Of a cell inside of the box.
   const uint8_t* cell(int x, int y) const {
-    return &cells_[static_cast<size_t>(y - minY_) * static_cast<size_t>(width_) + static_cast<size_t>(x - minX_)];
+    return &cells_[static_cast<size_t>(y - minY_) * static_cast<size_t>(width_) +
+                   static_cast<size_t>(x - minX_)];
   }
   int width() const { return width_; }
 
@@ -45,7 +50,8 @@ class WidenedMap {
   uint8_t& at(int x, int y) {
     return cells_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
   }
-  /// The highest of three along lines of `length` cells that lie `stride` apart; `lines` of them, `next` apart.
+  /// The highest of three along lines of `length` cells that lie `stride` apart; `lines` of them, `next`
+  /// apart.
   void widen(int stride, int length, int next, int lines) {
     for (int line = 0; line < lines; ++line) {
       uint8_t* cell = &cells_[static_cast<size_t>(line) * static_cast<size_t>(next)];
@@ -64,8 +70,8 @@ class WidenedMap {
 
 }  // namespace
 
-std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& centre, const OccupancyGrid& grid,
-                                       const SearchWindow& window, size_t count) {
+std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& centre,
+                                       const OccupancyGrid& grid, const SearchWindow& window, size_t count) {
   const size_t every = (scan.rays.size() + kMostBeams - 1) / kMostBeams;
   const int n = static_cast<int>(std::ceil(window.distance / (kStep * grid.resolution())));
   const int a = static_cast<int>(std::ceil(window.angle / kStepAngle));
@@ -88,7 +94,8 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
   }
   if (box.empty()) return {};
   const int reach = n * kStep;
-  const WidenedMap map(grid, {{box.min.x - reach, box.min.y - reach}, {box.max.x + reach, box.max.y + reach}});
+  const WidenedMap map(grid,
+                       {{box.min.x - reach, box.min.y - reach}, {box.max.x + reach, box.max.y + reach}});
 
   std::vector<uint32_t> scores(static_cast<size_t>(angles * side * side));
   const auto score = [&](int k, int j, int i) -> uint32_t& {
@@ -127,7 +134,8 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
                              centre.y + (j - n) * kStep * grid.resolution(),
                              mrpt::math::wrapToPi(centre.phi + (k - a) * kStepAngle)}});
       }
-  std::stable_sort(places.begin(), places.end(), [](const Place& x, const Place& y) { return x.score > y.score; });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& x, const Place& y) { return x.score > y.score; });
   std::vector<TPose2D> poses;
   for (size_t i = 0; i < std::min(count, places.size()); ++i) poses.push_back(places[i].pose);
   return poses;

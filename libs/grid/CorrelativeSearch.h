@@ -1,6 +1,6 @@
 /// @file CorrelativeSearch.h
-/// @brief Where a scan may lie in a grid when the odometry cannot be trusted: E. Olson, "Real-time correlative
-/// scan matching", ICRA 2009.
+/// @brief Where a scan may lie in a grid when the odometry cannot be trusted: E. Olson, "Real-time
+/// correlative scan matching", ICRA 2009.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ struct SearchWindow {
 };
 
 /// The places (map frame), best first, where the ends of the beams meet most of the map, each the best among
-/// its neighbours: on a lattice of 2 cells and 1 deg around `centre`, over the map of ScanMatcher widened by a
-/// cell, so that each place is within a climb's reach. At most about 120 beams are taken.
+/// its neighbours: on a lattice of 2 cells and 1 deg around `centre`, over the map of ScanMatcher widened by
+/// a cell, so that each place is within a climb's reach. At most about 120 beams are taken.
 /// @param count  at most so many
 std::vector<mrpt::math::TPose2D> correlativeSearch(const ScanBeams& scan, const mrpt::math::TPose2D& centre,
                                                    const OccupancyGrid& grid, const SearchWindow& window,

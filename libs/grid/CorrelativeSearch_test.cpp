@@ -26,9 +26,11 @@ TEST(CorrelativeSearch, OneOfItsPlacesIsWithinAClimbOfTheTruth) {
     const TPose2D centre(truth.x + within(0.5), truth.y + within(0.5), truth.phi + within(30 * kDegree));
     const auto places = correlativeSearch(beamsAt(kRoom, truth, random), centre, grid, kWindow, 8);
     EXPECT_LE(places.size(), 8u);
-    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const TPose2D& place) {
-      return away(place, truth) < 0.15 && turned(place, truth) < 2 * kDegree;
-    })) << truth.asString() << " from " << centre.asString();
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(),
+                            [&](const TPose2D& place) {
+                              return away(place, truth) < 0.15 && turned(place, truth) < 2 * kDegree;
+                            }))
+        << truth.asString() << " from " << centre.asString();
   }
 }
 
@@ -59,7 +61,7 @@ TEST(CorrelativeSearch, TheBestComesFirst) {
 TEST(CorrelativeSearch, NothingSeenOrMappedIsNowhere) {
   RandomStream random(4, 0, 0);
   EXPECT_TRUE(correlativeSearch(beamsAt(kRoom, {}, random), {}, OccupancyGrid(0.05), kWindow, 8).empty());
-  EXPECT_TRUE(correlativeSearch(ScanBeams(LaserScan(), 1), {}, gridOf(kRoom), kWindow, 8).empty());
+  EXPECT_TRUE(correlativeSearch(ScanBeams(LaserScan()), {}, gridOf(kRoom), kWindow, 8).empty());
 }
 
 }  // namespace

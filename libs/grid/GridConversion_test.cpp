@@ -27,8 +27,7 @@ void expectSameCells(const OccupancyGrid& a, const OccupancyGrid& b) {
   for (const auto& [grid, other] : {std::pair(&a, &b), std::pair(&b, &a)})
     grid->tiles().forEachTile([&other = other](int tx, int ty, const Tile& tile) {
       for (int i = 0; i < Tile::kSize * Tile::kSize; ++i) {
-        const CellIndex cell{tx * Tile::kSize + i % Tile::kSize,
-                             ty * Tile::kSize + i / Tile::kSize};
+        const CellIndex cell{tx * Tile::kSize + i % Tile::kSize, ty * Tile::kSize + i / Tile::kSize};
         ASSERT_EQ(other->tiles().at(cell), tile.cells()[static_cast<size_t>(i)]) << cell.x << " " << cell.y;
       }
     });

@@ -61,8 +61,9 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, cons
   auto& options = local.likelihoodOptions;
   options.likelihoodMethod = mrptMethod(options_.method);
   options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
-  options.LF_decimation = static_cast<uint32_t>(options_.beamStep);
-  options.rayTracing_decimation = options.consensus_takeEachRange = options_.beamStep;
+  const size_t step = beamStep(scan.beams.size(), options_.beams);
+  options.LF_decimation = static_cast<uint32_t>(step);
+  options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
   // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
   const double logLikelihood =
       local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));

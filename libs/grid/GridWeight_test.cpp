@@ -45,7 +45,7 @@ OccupancyGrid roomGrid() {
   OccupancyGrid grid(0.05);
   for (int i = 0; i < 40; ++i) {
     const TPose2D robot(4 * random.uniform() - 2, 3 * random.uniform() - 1.5, 2 * M_PI * random.uniform());
-    grid.insert(ScanBeams(toLaserScan(scanAt(robot, random), 20), 1), robot, GridOptions());
+    grid.insert(ScanBeams(toLaserScan(scanAt(robot, random), 20)), robot, GridOptions());
   }
   return grid;
 }
@@ -59,7 +59,7 @@ class GridWeightMethods : public testing::TestWithParam<NamedMethod> {
  protected:
   double weight(const CObservation2DRangeScan& observation, const TPose2D& robot) const {
     const LaserScan scan = toLaserScan(observation, 20);
-    return GridWeight(options(), 0.05).logWeight(ScanBeams(scan, 1), scan, robot, grid());
+    return GridWeight(options(), 0.05).logWeight(ScanBeams(scan), scan, robot, grid());
   }
   static const OccupancyGrid& grid() {
     static const OccupancyGrid room = roomGrid();

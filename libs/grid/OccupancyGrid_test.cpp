@@ -31,7 +31,7 @@ ScanBeams beams(const std::vector<Reading>& readings, const TPose2D& sensor = {}
   LaserScan scan;
   scan.sensorPose = sensor;
   for (const Reading& r : readings) scan.beams.push_back({r.angle, r.range, true});
-  return ScanBeams(scan, 1);
+  return ScanBeams(scan);
 }
 
 /// Cells [x0, x1] of row y.
@@ -111,8 +111,8 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   LaserScan scan;
   scan.beams = {{0, 3, false}, {1, 0, false}};
   OccupancyGrid grid(1);
-  grid.insert(ScanBeams(scan, 1), {}, update());
-  grid.insert(ScanBeams(LaserScan(), 1), {}, update());
+  grid.insert(ScanBeams(scan), {}, update());
+  grid.insert(ScanBeams(LaserScan()), {}, update());
   EXPECT_TRUE(grid.tiles().bounds().empty());
 }
 

@@ -18,7 +18,7 @@ void GridWeightOptions::describe(OptionTable& t) {
   t.add("exponent", exponent, 0, 1000, "",
         "tempering: w_grid = (geometric mean of the beams' likelihoods)^exponent, as if so many beams were "
         "independent");
-  t.add("beam_step", beamStep, 1, 100, "weighs every n-th beam");
+  t.add("beams", beams, 0, 10000, "weighs about so many beams of a scan, evenly spread; 0: all");
   t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a range against the grid");
   t.add("unknown_depth", unknownDepth, 0.1, 1000, "m", "mean distance that a beam travels in unseen cells");
   t.add("outlier", outlier, 1e-6, 0.99, "",

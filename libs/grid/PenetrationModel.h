@@ -14,9 +14,9 @@ struct GridWeightOptions : Options {
   /// methods that find the true pose (doc/mrpt-notes.md tells of the others).
   enum class Method { penetration, likelihoodField, rayTracing, consensus };
   Method method = Method::penetration;
-  double exponent = 60;
-  int beamStep = 1;
-  double sigma = 0.25;
+  double exponent = 30;
+  int beams = 90;
+  double sigma = 0.13;
   double unknownDepth = 8;
   double outlier = 0.1;
   void describe(OptionTable& table) override;

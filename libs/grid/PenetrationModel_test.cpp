@@ -173,7 +173,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
 ScanBeams beams(const std::vector<std::pair<double, double>>& readings) {
   LaserScan scan;
   for (const auto& [angle, range] : readings) scan.beams.push_back({angle, range, true});
-  return ScanBeams(scan, 1);
+  return ScanBeams(scan);
 }
 
 TEST(PenetrationModel, AScanIsTheMeanOfItsBeamsWithTheirShareOfOutliers) {

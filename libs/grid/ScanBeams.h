@@ -4,12 +4,19 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/LaserScan.h"
 
 namespace hybrid_slam {
+
+/// Every so many-th of `count` beams leaves about `beams`, evenly spread; 0 leaves all.
+inline size_t beamStep(size_t count, int beams) {
+  if (beams == 0) return 1;
+  return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
+}
 
 /// The valid beams of one scan in the robot frame; no trigonometry is left to do for a particle but that of
 /// its own heading.
@@ -21,8 +28,10 @@ struct ScanBeams {
   double originX = 0, originY = 0;  ///< the sensor, robot frame, m
   std::vector<Ray> rays;
 
-  /// @param step  takes every step-th beam of the scan
-  ScanBeams(const LaserScan& scan, size_t step) : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
+  /// @param beams  of those of the scan, valid or not, takes about so many; 0: all
+  explicit ScanBeams(const LaserScan& scan, int beams = 0)
+      : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
+    const size_t step = beamStep(scan.beams.size(), beams);
     for (size_t i = 0; i < scan.beams.size(); i += step) {
       const Beam& beam = scan.beams[i];
       const double heading = scan.sensorPose.phi + beam.angle;

@@ -16,7 +16,7 @@ namespace hybrid_slam {
 /// Section [scan_matcher].
 struct ScanMatcherOptions : Options {
   double sigma = 0.5;
-  int beamStep = 1;
+  int beams = 0;
   int iterations = 20;
   void describe(OptionTable& table) override;
 };

@@ -185,7 +185,7 @@ class NothingToMatch : public testing::TestWithParam<bool> {};
 
 TEST_P(NothingToMatch, GivesBackThePrior) {
   RandomStream random(10, 0, 0);
-  const ScanBeams scan = GetParam() ? ScanBeams(LaserScan(), 1) : beamsAt(kRoom, {}, random);
+  const ScanBeams scan = GetParam() ? ScanBeams(LaserScan()) : beamsAt(kRoom, {}, random);
   const OccupancyGrid grid = GetParam() ? room() : OccupancyGrid(0.05);
   const TPose2D mean(0.4, -0.3, 3.1);
   Eigen::Matrix3d information;

@@ -56,7 +56,7 @@ inline LaserScan scanAt(const Box& room, const mrpt::math::TPose2D& robot, Rando
 }
 
 inline ScanBeams beamsAt(const Box& room, const mrpt::math::TPose2D& robot, RandomStream& random) {
-  return ScanBeams(scanAt(room, robot, random), 1);
+  return ScanBeams(scanAt(room, robot, random));
 }
 
 /// The map that 60 scans from all over the robot's place make.

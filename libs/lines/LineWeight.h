@@ -18,7 +18,7 @@ struct LineWeightOptions : Options {
     paper                 ///< eq. (9): any database line parallel or perpendicular within a threshold
   };
   Method method = Method::dominatingDirection;
-  double sigma = 1 * M_PI / 180;      ///< rad
+  double sigma = 0.5 * M_PI / 180;    ///< rad
   double threshold = 3 * M_PI / 180;  ///< rad
   double floor = 0.001;
 

@@ -105,8 +105,9 @@ TEST(LineWeight, OnlyTheGradedOneTellsSmallHeadingErrorsApart) {
   double previous = 2;
   for (const double error : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
     EXPECT_EQ(lineWeight(seen, error * kDegree, database, method(Method::paper)).value, 1);
-    const double graded =
-        lineWeight(seen, error * kDegree, database, method(Method::dominatingDirection)).value;
+    LineWeightOptions options = method(Method::dominatingDirection);
+    options.sigma = 1 * kDegree;
+    const double graded = lineWeight(seen, error * kDegree, database, options).value;
     EXPECT_LT(graded, previous - 1e-3 * error);
     previous = graded;
   }

@@ -19,6 +19,9 @@ void describeTerm(OptionTable& t, MotionTerm& term, const std::string& name, con
         "variance of the " + what + " per squared metre of odometry");
   t.add(name + "_var_t", term.varianceT, 0, 100, square(perRadian),
         "variance of the " + what + " per squared radian of odometry");
+  t.add(name + "_mean_std", term.meanStd, 0, 1, perMetre + ", " + perRadian,
+        "how far the means of the " + what +
+            " may lie off: each particle learns its own on the way; 0: they are known");
 }
 
 }  // namespace
@@ -71,10 +74,12 @@ mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelO
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions out;
   out.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
   auto& g = out.gaussianModel;
-  g.a1 = std::sqrt((o.distance.varianceD + o.drift.varianceD) / 2);
-  g.a2 = std::sqrt((o.distance.varianceT + o.drift.varianceT) / 2);
-  g.a3 = std::sqrt(o.turn.varianceD);
-  g.a4 = std::sqrt(o.turn.varianceT);
+  const auto byDistance = [](const MotionTerm& t) { return t.varianceD + t.meanStd * t.meanStd; };
+  const auto byTurn = [](const MotionTerm& t) { return t.varianceT + t.meanStd * t.meanStd; };
+  g.a1 = std::sqrt((byDistance(o.distance) + byDistance(o.drift)) / 2);
+  g.a2 = std::sqrt((byTurn(o.distance) + byTurn(o.drift)) / 2);
+  g.a3 = std::sqrt(byDistance(o.turn));
+  g.a4 = std::sqrt(byTurn(o.turn));
   g.minStdXY = o.minStdXY;
   g.minStdPHI = o.minStdPhi;
   return out;

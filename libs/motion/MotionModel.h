@@ -27,23 +27,26 @@ struct MotionStep {
 };
 
 /// One of D, C, T: normal with a mean and a variance that grow with the odometry's translation d (m) and
-/// rotation t (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2.
+/// rotation t (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2, and
+/// 2 covariance d t beside where the means are not quite known (MotionBelief).
 struct MotionTerm {
   double mean(const MotionStep& odometry) const { return meanD * odometry.distance + meanT * odometry.turn; }
   double variance(const MotionStep& odometry, double minStd) const {
     return varianceD * odometry.distance * odometry.distance + varianceT * odometry.turn * odometry.turn +
-           minStd * minStd;
+           2 * covariance * odometry.distance * odometry.turn + minStd * minStd;
   }
 
   double meanD, meanT;
   double varianceD, varianceT;
+  double meanStd = 0;     ///< how far meanD and meanT may lie off (their units); 0: they are known
+  double covariance = 0;  ///< of meanD and meanT, where they are learnt
 };
 
 /// Section [motion_model].
 struct MotionModelOptions : Options {
-  MotionTerm distance{1, 0, 0.0025, 0.0016};  ///< D, along heading + T / 2 (m)
-  MotionTerm drift{0, 0, 0.0025, 0.0016};     ///< C, perpendicular to D, positive to the left (m)
-  MotionTerm turn{0, 1, 0.01, 0.01};          ///< T (rad)
+  MotionTerm distance{1, 0, 0.0015, 0.0016, 0.01};  ///< D, along heading + T / 2 (m)
+  MotionTerm drift{0, 0, 0.0015, 0.0016, 0.03};     ///< C, perpendicular to D, positive to the left (m)
+  MotionTerm turn{0, 1, 0.004, 0.006, 0.03};        ///< T (rad)
   double minStdXY = 0.005, minStdPhi = 0.1 * M_PI / 180;
   void describe(OptionTable& table) override;
 };
@@ -63,7 +66,7 @@ MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mr
                                       const MotionModelOptions& options);
 
 /// MRPT's Gaussian motion model nearest to this one, for code of MRPT that draws by itself: it knows one
-/// deviation for both axes and no systematic error.
+/// deviation for both axes, and a systematic error only as a part of it.
 mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& options);
 
 /// The action that MRPT's filters take for an odometry increment.

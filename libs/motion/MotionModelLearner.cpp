@@ -4,10 +4,11 @@
 
 namespace hybrid_slam {
 
-LearntMotionModel learnMotionModel(const MotionModelOptions& prior, const EStep& eStep, int maxIterations,
+LearntMotionModel learnMotionModel(MotionModelOptions prior, const EStep& eStep, int maxIterations,
                                    const std::string& where,
                                    const std::function<void(const EmIteration&)>& report) {
   constexpr double kLeastGain = 1e-4;
+  for (MotionTerm* term : {&prior.distance, &prior.drift, &prior.turn}) term->meanStd = 0;
   Expectation expectation = eStep(prior);
   LearntMotionModel learnt;
   learnt.determined = determine(expectation.samples);

@@ -33,10 +33,11 @@ struct LearntMotionModel {
 /// E-step and M-step in turns until the likelihood stops rising: two iterations in a row do not exceed the
 /// best so far by 1e-4 nats per step. Not one, because a particle filter's likelihood is an estimate, which
 /// wavers where the true one rises.
-/// @param prior       where it starts; what the log does not determine stays as it is here
+/// @param prior       where it starts; what the log does not determine stays as it is here, but its means
+///                    are taken as known (mean_std = 0), and so are those learnt
 /// @param report      called for the prior and each iteration
 /// @throws InputError  if the log is too short to determine anything; @param where  names it
-LearntMotionModel learnMotionModel(const MotionModelOptions& prior, const EStep& eStep, int maxIterations,
+LearntMotionModel learnMotionModel(MotionModelOptions prior, const EStep& eStep, int maxIterations,
                                    const std::string& where,
                                    const std::function<void(const EmIteration&)>& report);
 

@@ -186,6 +186,8 @@ TEST(MotionModel, MrptsGaussianModelGetsTheDeviations) {
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.a4, 0.1);               // rad/rad
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.minStdXY, 0.007);
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.minStdPHI, 0.3 * kDegree);
+  o.turn.meanStd = 0.2;  // it does not learn: for it, that is noise
+  EXPECT_DOUBLE_EQ(toMrpt(o).gaussianModel.a3, std::sqrt(0.0025 + 0.04));
 }
 
 TEST(MotionModel, AnActionKeepsTheRawIncrementAndHasItAsItsMean) {

@@ -27,18 +27,20 @@ void ParticleFilterOptions::describe(OptionTable& t) {
 }
 
 void ImprovedProposalOptions::describe(OptionTable& t) {
-  t.add("update_distance", updateDistance, 0, 100, "m",
-        "instead of [particle_filter] update_distance: a match wants scans that overlap well, and has no need "
-        "to spare the particles");
+  t.add(
+      "update_distance", updateDistance, 0, 100, "m",
+      "instead of [particle_filter] update_distance: a match wants scans that overlap well, and has no need "
+      "to spare the particles");
   t.addAngle("update_angle_deg", updateAngle, 0, 360, "instead of that of [particle_filter]");
   t.add("samples", samples, 2, 10000,
         "poses around the scan match that make out the proposal and the weight");
   t.add(
       "min_fit", minFit, 0, 1, "",
       "a match that fits the map less is not used: the motion model is sampled; a map of one scan fits 0.04");
-  t.addAngle("line_sigma_deg", lineSigma, 0.05, 22.5,
-             "deviation of a line's direction, instead of that of [line_weight]: a matched heading is surer than "
-             "an odometry's");
+  t.addAngle(
+      "line_sigma_deg", lineSigma, 0.05, 22.5,
+      "deviation of a line's direction, instead of that of [line_weight]: a matched heading is surer than "
+      "an odometry's");
   t.add("line_sigma_rho", lineSigmaRho, 0.001, 10, "m",
         "deviation of a line's distance from its wall in the database");
   t.add("slip_distance", slipDistance, 0, 5, "m",

@@ -64,9 +64,7 @@ struct FilterConfiguration {
   ScanMatcherOptions matcher;
 
   /// How far the robot moves (m) or turns (rad) from one update to the next.
-  double updateDistance() const {
-    return usesMatches() ? improved.updateDistance : filter.updateDistance;
-  }
+  double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
   double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
   bool usesMatches() const { return filter.proposal == ParticleFilterOptions::Proposal::improved; }
 

@@ -30,9 +30,9 @@ struct FilterStep {
   std::optional<double> gridWeight;     ///< w_grid of the best particle before tempering
   std::optional<double> lineWeight;     ///< w_line of the best particle
   int linesSeen = 0, linesMatched = 0;  ///< of the best particle
-  std::optional<double> matched;        ///< share of the particles whose scan match was used; improved proposal
-  std::optional<bool> slipped;          ///< the odometry was off, and the motion found by a search; likewise
-  std::vector<WeightedPose> poses;      ///< those that the spreads are of
+  std::optional<double> matched;    ///< share of the particles whose scan match was used; improved proposal
+  std::optional<bool> slipped;      ///< the odometry was off, and the motion found by a search; likewise
+  std::vector<WeightedPose> poses;  ///< those that the spreads are of
 
   /// @name Of our own filter, from its second update on
   /// @{

@@ -52,9 +52,7 @@ mrpt::bayes::CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleF
 }  // namespace
 
 HybridMapBuilder::HybridMapBuilder(const FilterConfiguration& configuration)
-    : configuration_(configuration),
-      prepare_(configuration),
-      particles_(configuration, &profiler()) {
+    : configuration_(configuration), prepare_(configuration), particles_(configuration, &profiler()) {
   particleFilter_.m_options = mrptOptions(configuration.filter);
   initialize();
 }

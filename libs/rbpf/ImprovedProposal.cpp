@@ -30,7 +30,7 @@ ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
                                    const PreparedScan& scan, RandomStream& random) const {
-  const MotionDistribution motion = motionAfter(particle.path.back(), stepMotion, configuration_);
+  const MotionDistribution motion = motionAfter(particle, stepMotion, configuration_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   std::optional<LineLikelihood> lines;
   if (configuration_.useLines) lines.emplace(scan.lines, motion.mean, *particle.lines, configuration_);
@@ -49,7 +49,11 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   proposed.fit = match.fit;
   proposed.isMatched = match.fit >= configuration_.improved.minFit;
   if (!proposed.isMatched) {
-    proposed.pose = particle.path.back() + sampleMotion(stepMotion.start, configuration_.motion, random);
+    const TPose2D drawn =
+        stepMotion.hasSlipped
+            ? sampleMotion(stepMotion.start, configuration_.motion, random)
+            : sampleMotion(stepMotion.odometry, particle.motion.model(configuration_.motion), random);
+    proposed.pose = particle.path.back() + drawn;
     proposed.logWeight = matcher_.logLikelihoodValue(scan.matchedBeams, proposed.pose, particle.grid);
     if (lines) {
       proposed.lineWeight = lineWeightAt(proposed.pose);

@@ -16,15 +16,15 @@ struct Proposed {
   LineWeight lineWeight;
 };
 
-/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).  A match finds
-/// its top; poses drawn from the normal distribution that the match makes out there, each weighed by p over
-/// that distribution, give the proposal its mean and covariance, and their mean weight is the particle's own:
-/// the integral of p, which does not depend on the pose that is drawn in the end. Where the scan says
-/// nothing, as along a corridor, the motion model keeps its uncertainty.
+/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).  A
+/// match finds its top; poses drawn from the normal distribution that the match makes out there, each weighed
+/// by p over that distribution, give the proposal its mean and covariance, and their mean weight is the
+/// particle's own: the integral of p, which does not depend on the pose that is drawn in the end. Where the
+/// scan says nothing, as along a corridor, the motion model keeps its uncertainty.
 ///
 /// A match that fits the map less than min_fit is not used: the pose is drawn from the motion model, and the
-/// weight is p(scan | x, grid) p(lines | x, database) there. Its mean over such draws is the same integral, so that
-/// matched and unmatched particles can be compared.
+/// weight is p(scan | x, grid) p(lines | x, database) there. Its mean over such draws is the same integral,
+/// so that matched and unmatched particles can be compared.
 class ImprovedProposal {
  public:
   explicit ImprovedProposal(const FilterConfiguration& configuration);

@@ -35,10 +35,11 @@ struct Moments {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// p(scan | x, grid) p(lines | x, database) p(x | x', odometry) over a lattice that spans 4.5 deviations of the motion
-/// model.
+/// p(scan | x, grid) p(lines | x, database) p(x | x', odometry) over a lattice that spans 4.5 deviations of
+/// the motion model.
 Moments integrated(const FilterConfiguration& c, const Particle& particle, const PreparedScan& scan) {
-  const MotionDistribution motion = motionDistribution(particle.path.back(), kOdometry, c.motion);
+  const MotionDistribution motion =
+      motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion));
   const Eigen::Matrix3d root = motion.covariance.llt().matrixL();
   const ScanMatcher matcher(c.matcher);
   const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, c);
@@ -65,7 +66,8 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
 
 Moments proposed(const FilterConfiguration& c, const Particle& particle, const PreparedScan& scan,
                  int streams) {
-  const TPose2D centre = motionDistribution(particle.path.back(), kOdometry, c.motion).mean;
+  const TPose2D centre =
+      motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion)).mean;
   const ImprovedProposal proposal(c);
   Moments all;
   double squares = 0;
@@ -108,7 +110,7 @@ TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
   const Moments unmatched = proposed(c, particle, scan, 20000);
   EXPECT_NEAR(unmatched.mass / expected, 1, 5 * unmatched.massError / expected + 0.01);
   EXPECT_LT(unmatched.massError / expected, 0.05);
-  const MotionDistribution motion = motionDistribution(kStart, kOdometry, c.motion);
+  const MotionDistribution motion = motionDistribution(kStart, kOdometry, MotionBelief().model(c.motion));
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(unmatched.covariance(k, k) / motion.covariance(k, k), 1, 5 * std::sqrt(2.0 / 20000) + 0.01);
 }
@@ -136,7 +138,8 @@ TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
   const TPose2D start(-0.3, 0.1, 0);
   const Particle particle = particleAt(kCorridor, start);
   const Moments drawn = proposed(c, particle, scanAfterwards(kCorridor, start), 500);
-  const Eigen::Matrix3d motion = motionDistribution(start, kOdometry, c.motion).covariance;
+  const Eigen::Matrix3d motion =
+      motionDistribution(start, kOdometry, MotionBelief().model(c.motion)).covariance;
   EXPECT_GT(std::sqrt(drawn.covariance(0, 0) / motion(0, 0)), 0.7);
   EXPECT_LT(std::sqrt(drawn.covariance(1, 1) / motion(1, 1)), 0.5);
 }
@@ -160,7 +163,7 @@ TEST_P(ImprovedProposals, NothingSeenOrMappedLeavesTheMotionModel) {
 TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   FilterConfiguration c = configuration(GetParam());
   for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn})
-    term->varianceD = term->varianceT = 0;
+    term->varianceD = term->varianceT = term->meanStd = 0;
   c.motion.minStdXY = c.motion.minStdPhi = 0;
   const Particle particle = particleAt(room(), kStart);
   RandomStream random(6, 0, 0);

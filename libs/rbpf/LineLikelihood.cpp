@@ -9,9 +9,7 @@ using mrpt::math::TPose2D;
 
 LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose2D& predicted,
                                const LineDatabase& database, const FilterConfiguration& configuration)
-    : database_(database),
-      weight_(configuration.lineWeight),
-      sigmaRho_(configuration.improved.lineSigmaRho) {
+    : database_(database), weight_(configuration.lineWeight), sigmaRho_(configuration.improved.lineSigmaRho) {
   weight_.sigma = configuration.improved.lineSigma;
   double total = 0;
   for (const LineSegment& line : seen) {

@@ -30,11 +30,11 @@ class LineLikelihood {
 
  private:
   struct KnownWall {
-    mrpt::math::TPoint2D middle;   ///< of the line seen, robot frame, m
-    double theta;                  ///< of the line seen, robot frame, rad
-    double knownRho, knownTheta;   ///< of the wall, map frame
-    double normalX, normalY;       ///< cosine and sine of knownTheta
-    double share;                  ///< l / L
+    mrpt::math::TPoint2D middle;  ///< of the line seen, robot frame, m
+    double theta;                 ///< of the line seen, robot frame, rad
+    double knownRho, knownTheta;  ///< of the wall, map frame
+    double normalX, normalY;      ///< cosine and sine of knownTheta
+    double share;                 ///< l / L
   };
   const LineDatabase& database_;
   LineWeightOptions weight_;

@@ -36,14 +36,15 @@ TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
   const LineLikelihood lines(seen, truth, database, c);
-  const double perAngle = std::pow(c.improved.lineSigma, -2), perDistance = std::pow(c.improved.lineSigmaRho, -2);
+  const double perAngle = std::pow(c.improved.lineSigma, -2),
+               perDistance = std::pow(c.improved.lineSigmaRho, -2);
   EXPECT_NEAR(lines(truth).value, 0, 1e-12);
   EXPECT_NEAR(lines({truth.x + 0.05, truth.y, truth.phi}).value, -0.5 * 0.05 * 0.05 * perDistance, 1e-9);
   EXPECT_NEAR(lines({truth.x, truth.y + 0.05, truth.phi}).value, 0, 1e-9);  // along the wall
   // Turning by d moves the wall's middle, which lies at (1.7, -0.2) from the robot.
   const double d = 0.001, off = 1.7 * std::cos(d) + 0.2 * std::sin(d) - 1.7;
-  EXPECT_NEAR(lines({truth.x, truth.y, truth.phi + d}).value, -0.5 * (d * d * perAngle + off * off * perDistance),
-              1e-9);
+  EXPECT_NEAR(lines({truth.x, truth.y, truth.phi + d}).value,
+              -0.5 * (d * d * perAngle + off * off * perDistance), 1e-9);
   EXPECT_NEAR(lines({truth.x + 0.4, truth.y, truth.phi}).value, -4.5, 1e-9);  // another wall
 }
 
@@ -54,8 +55,8 @@ TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDominatingDirection) {
   const auto seen = wallFrom(truth);
   const LineLikelihood lines(seen, truth, database, c);
   const double d = 0.5 * c.improved.lineSigma;
-  EXPECT_NEAR(lines({truth.x + 0.1, truth.y, truth.phi + d}).value, -0.5 * std::pow(d / c.improved.lineSigma, 2),
-              1e-9);
+  EXPECT_NEAR(lines({truth.x + 0.1, truth.y, truth.phi + d}).value,
+              -0.5 * std::pow(d / c.improved.lineSigma, 2), 1e-9);
 }
 
 TEST(LineLikelihood, NoLinesSayNothing) {
@@ -82,8 +83,10 @@ TEST(LineLikelihood, TheGradientIsThatOfTheValue) {
                          kStart.phi + 0.02 * random.gaussian());
       const LogDensity density = lines(pose);
       constexpr double kStep = 1e-6;
-      const double dx = lines({pose.x + kStep, pose.y, pose.phi}).value - lines({pose.x - kStep, pose.y, pose.phi}).value;
-      const double dy = lines({pose.x, pose.y + kStep, pose.phi}).value - lines({pose.x, pose.y - kStep, pose.phi}).value;
+      const double dx =
+          lines({pose.x + kStep, pose.y, pose.phi}).value - lines({pose.x - kStep, pose.y, pose.phi}).value;
+      const double dy =
+          lines({pose.x, pose.y + kStep, pose.phi}).value - lines({pose.x, pose.y - kStep, pose.phi}).value;
       const double dphi =
           lines({pose.x, pose.y, pose.phi + kStep}).value - lines({pose.x, pose.y, pose.phi - kStep}).value;
       const Eigen::Vector3d differences = Eigen::Vector3d(dx, dy, dphi) / (2 * kStep);

@@ -6,15 +6,18 @@
 #include "grid/OccupancyGrid.h"
 #include "lines/LineDatabase.h"
 #include "lines/LineWeight.h"
+#include "motion/MotionBelief.h"
 #include "rbpf/Path.h"
 
 namespace hybrid_slam {
 
-/// {path, grid, line database}, and what its last weighing gave. Copying shares all three.
+/// {path, grid, line database}, which copies share; what it has learnt of the odometry, and what its last
+/// weighing gave.
 struct Particle {
   Path path;
   OccupancyGrid grid;
   CowPtr<LineDatabase> lines{LineDatabase()};
+  MotionBelief motion;
 
   double logWeight = 0;   ///< after the last weighing, before any resampling; best particle = its argmax
   double gridWeight = 1;  ///< w_grid before tempering, in [0, 1]

@@ -126,7 +126,9 @@ void ParticleSet::startPathAt(const TPose2D& start) {
 
 // Sec. III-A, steps 1 and 2, as in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
 double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry, RandomStream& random) const {
-  particle.path.push(particle.path.back() + sampleMotion(odometry, configuration_.motion, random));
+  const MotionModelOptions model = particle.motion.model(configuration_.motion);
+  particle.path.push(particle.path.back() + sampleMotion(odometry, model, random));
+  particle.motion.learn(odometry, particle.path.lastMotion(), configuration_.motion);
   const Weight weight = weigh(particle, particle.path.back());
   setWeight(particle, weight);
   return weight.log(configuration_.gridWeight.exponent);
@@ -154,6 +156,8 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
     RandomStream random = stream(i);
     const auto proposed = improvedProposal_.propose(particle, motion, *scan_, random);
     particle.path.push(proposed.pose);
+    if (!motion.hasSlipped)
+      particle.motion.learn(motion.odometry, particle.path.lastMotion(), configuration_.motion);
     particle.gridWeight = proposed.fit;
     particle.lineWeight = proposed.lineWeight;
     particle.isMatched = proposed.isMatched;
@@ -170,7 +174,7 @@ void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::C
                                                               const mrpt::obs::CSensoryFrame* observation,
                                                               const PfOptions& PF_options) {
   const StageTimer timer(profiler_, "3 sample, weigh");  // resampling among them
-  step_.resampled = ESS() < PF_options.BETA;  // by the weights of the step before
+  step_.resampled = ESS() < PF_options.BETA;             // by the weights of the step before
   PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
   summarise(rawOdometry(*action));

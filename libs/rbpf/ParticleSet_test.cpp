@@ -12,7 +12,7 @@ using namespace test;
 PreparedScan prepared(const TPose2D& robot, uint64_t seed) {
   RandomStream random(seed, 0, 0);
   const LaserScan scan = scanOf(room(), robot, {}, 181, M_PI, 0.01, random);
-  return {scan, ScanBeams(scan, 1), ScanBeams(scan, 1), ScanBeams(scan, 1), {}};
+  return {scan, ScanBeams(scan), ScanBeams(scan), ScanBeams(scan), {}};
 }
 
 FilterConfiguration fourParticles() {

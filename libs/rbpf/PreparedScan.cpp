@@ -8,8 +8,8 @@ ScanPreparation::ScanPreparation(const FilterConfiguration& configuration)
 
 PreparedScan ScanPreparation::operator()(const mrpt::obs::CObservation2DRangeScan& observation) const {
   const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
-  return {scan, ScanBeams(scan, 1), ScanBeams(scan, static_cast<size_t>(configuration_.gridWeight.beamStep)),
-          ScanBeams(scan, static_cast<size_t>(configuration_.matcher.beamStep)),
+  return {scan, ScanBeams(scan), ScanBeams(scan, configuration_.gridWeight.beams),
+          ScanBeams(scan, configuration_.matcher.beams),
           configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
 }
 

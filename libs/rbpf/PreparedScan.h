@@ -15,8 +15,8 @@ namespace hybrid_slam {
 struct PreparedScan {
   LaserScan scan;
   ScanBeams beams;                 ///< every beam, for insertion
-  ScanBeams weighedBeams;          ///< every beam_step-th of [grid_weight]
-  ScanBeams matchedBeams;          ///< every beam_step-th of [scan_matcher]
+  ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
+  ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
   std::vector<LineSegment> lines;  ///< robot frame; none without lines
 };
 

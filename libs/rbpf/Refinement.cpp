@@ -17,7 +17,7 @@ OccupancyGrid gridOf(const std::vector<PosedScan>& scans, const GridOptions& opt
   OccupancyGrid grid(options.resolution);
   for (const PosedScan& posed : scans)
     if (posed.isMapped)
-      grid.insert(ScanBeams(toLaserScan(*posed.scan, options.maxRange), 1), posed.pose, options);
+      grid.insert(ScanBeams(toLaserScan(*posed.scan, options.maxRange)), posed.pose, options);
   return grid;
 }
 
@@ -46,7 +46,7 @@ void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configurat
       tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
         TPose2D& pose = scans[i].pose;
         const ScanBeams beams(toLaserScan(*scans[i].scan, configuration.grid.maxRange),
-                              static_cast<size_t>(configuration.matcher.beamStep));
+                              configuration.matcher.beams);
         const Prior prior = [&, before = pose](const TPose2D& at) {
           return gaussianLogDensity(at, before, information);
         };

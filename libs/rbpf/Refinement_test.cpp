@@ -65,7 +65,7 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
   const FilterConfiguration c = roomConfiguration();
   OccupancyGrid grid(c.grid.resolution);
   for (const PosedScan& s : scans)
-    if (s.isMapped) grid.insert(ScanBeams(toLaserScan(*s.scan, c.grid.maxRange), 1), s.pose, c.grid);
+    if (s.isMapped) grid.insert(ScanBeams(toLaserScan(*s.scan, c.grid.maxRange)), s.pose, c.grid);
   const ScanMap map = mapOf(scans, c);
   size_t cells = 0;
   grid.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {

@@ -27,9 +27,11 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
   const TPose2D before = best.path.back();
   StepMotion motion{odometry, odometry, false};
   if (options.slipDistance <= 0) return motion;
-  const MotionDistribution expected = motionAfter(before, motion, configuration_);
+  const MotionDistribution expected = motionAfter(best, motion, configuration_);
   const Eigen::Matrix3d information = expected.covariance.inverse();
-  const auto asExpected = [&](const TPose2D& pose) { return gaussianLogDensity(pose, expected.mean, information); };
+  const auto asExpected = [&](const TPose2D& pose) {
+    return gaussianLogDensity(pose, expected.mean, information);
+  };
   ScanMatch match = matcher_.match(scan.matchedBeams, expected.mean, best.grid, asExpected);
 
   if (match.fit < kPoorFit * usualFit_) {
@@ -61,13 +63,16 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
   return motion;
 }
 
-MotionDistribution motionAfter(const TPose2D& before, const StepMotion& motion,
+MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
                                const FilterConfiguration& configuration) {
-  MotionDistribution distribution = motionDistribution(before, motion.odometry, configuration.motion);
-  distribution.covariance.diagonal().array() += 1e-8;  // (0.1 mm, 0.1 mrad)^2: without noise it has no inverse
+  MotionDistribution distribution =
+      motionDistribution(before.path.back(), motion.odometry, before.motion.model(configuration.motion));
+  distribution.covariance.diagonal().array() +=
+      1e-8;  // (0.1 mm, 0.1 mrad)^2: without noise it has no inverse
   if (motion.hasSlipped) {
     const double distance = configuration.improved.slipDistance, angle = configuration.improved.slipAngle;
-    distribution.covariance.diagonal() += Eigen::Vector3d(distance * distance, distance * distance, angle * angle);
+    distribution.covariance.diagonal() +=
+        Eigen::Vector3d(distance * distance, distance * distance, angle * angle);
   }
   return distribution;
 }

@@ -16,9 +16,9 @@ struct StepMotion {
   bool hasSlipped = false;       ///< the odometry is worth nothing
 };
 
-/// Once a step, in the best particle's map: the scan is matched from where the odometry says, which is where the
-/// other particles' matches then begin. If it fits much worse than the scans before, a wide window around is
-/// searched.
+/// Once a step, in the best particle's map: the scan is matched from where the odometry says, which is where
+/// the other particles' matches then begin. If it fits much worse than the scans before, a wide window around
+/// is searched.
 ///
 /// The motion is a mixture: that of the motion model, or (slip_probability) a slip, anywhere in the window. A
 /// place far off the motion model is taken if, with these odds, scan and motion are more likely there.
@@ -35,7 +35,7 @@ class SlipRecovery {
 };
 
 /// The motion model's distribution of the pose after a step; after a slip as wide as the searched window.
-MotionDistribution motionAfter(const mrpt::math::TPose2D& before, const StepMotion& motion,
+MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
                                const FilterConfiguration& configuration);
 
 }  // namespace hybrid_slam

@@ -17,7 +17,8 @@ SlipRecovery used(const FilterConfiguration& c, Particle& particle, const Walls&
   const TPose2D end = particle.path.back();
   RandomStream random(3, 0, 0);
   for (int i = 0; i < 5; ++i) {
-    const StepMotion motion = recovery.motionOf(particle, kOdometry, prepared(walls, end + kOdometry, random));
+    const StepMotion motion =
+        recovery.motionOf(particle, kOdometry, prepared(walls, end + kOdometry, random));
     EXPECT_FALSE(motion.hasSlipped);
     EXPECT_LT(offset(motion.start, kOdometry).head<2>().norm(), 0.02);  // the scan was taken there
     EXPECT_LT(std::abs(offset(motion.start, kOdometry).z()), 0.3 * kDegree);
@@ -82,12 +83,15 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNoSlip) {
 }
 
 TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
-  const FilterConfiguration c;
+  FilterConfiguration c;
+  for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn}) term->meanStd = 0;
+  Particle particle;
+  particle.path.push(kStart);
   const MotionDistribution model = motionDistribution(kStart, kOdometry, c.motion);
-  const MotionDistribution usual = motionAfter(kStart, {kOdometry, kOdometry, false}, c);
+  const MotionDistribution usual = motionAfter(particle, {kOdometry, kOdometry, false}, c);
   EXPECT_EQ(usual.mean, model.mean);
   EXPECT_LT((usual.covariance - model.covariance).norm(), 1e-7);
-  const MotionDistribution slipped = motionAfter(kStart, {kOdometry, {0.5, 0, 0}, true}, c);
+  const MotionDistribution slipped = motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c);
   EXPECT_EQ(slipped.mean, model.mean);
   EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
   EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * kDegree, 2), 1e-6);

@@ -69,7 +69,7 @@ class Proposals : public testing::TestWithParam<std::pair<Proposal, bool>> {
     FilterConfiguration c = with(GetParam().first, GetParam().second);
     if (GetParam().first == Proposal::auxiliaryOptimal) {  // weighs each particle some hundred times
       c.filter.particles = 6;
-      c.gridWeight.beamStep = 5;
+      c.gridWeight.beams = 36;
     }
     return c;
   }
@@ -274,7 +274,7 @@ TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
     ParticleSet particles(c);
     particles.reset({});
     const PreparedScan nothing{
-        LaserScan(), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), ScanBeams(LaserScan(), 1), {}};
+        LaserScan(), ScanBeams(LaserScan()), ScanBeams(LaserScan()), ScanBeams(LaserScan()), {}};
     particles.beginStep(nothing);
     for (size_t i = 0; i < 4; ++i) {
       particles.m_particles[i].d->path.push({static_cast<double>(i), 0, 0});
