@@ -38,10 +38,12 @@ function(hybrid_slam_test name)
   gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST)
 endfunction()
 
-# hybrid_slam_app(NAME TARGET...): apps/NAME/main.cpp -> program NAME.
+# hybrid_slam_app(NAME TARGET...): apps/NAME/main.cpp, with what is beside it in apps/ -> program NAME.
 function(hybrid_slam_app name)
   add_executable(${name} main.cpp)
-  target_compile_definitions(${name} PRIVATE HYBRID_SLAM_VERSION="${PROJECT_VERSION}")
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/apps)
+  target_compile_definitions(${name} PRIVATE
+    HYBRID_SLAM_PROGRAM="${name}" HYBRID_SLAM_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARGN} CLI11::CLI11 hybrid_slam_flags)
   install(TARGETS ${name} RUNTIME DESTINATION bin)
 endfunction()

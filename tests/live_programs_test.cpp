@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "ResultFiles.h"
+#include "Shell.h"
 #include "io/RawlogReader.h"
 #include "io/TemporaryFolder.h"
 #include "io/TestLogs.h"
@@ -23,10 +25,6 @@ using test::contentOf;
 using test::happens;
 using testing::HasSubstr;
 using testing::MatchesRegex;
-
-const std::vector<std::string> kResults{"trajectory.tum", "map.png",          "map.pgm",         "map.yaml",
-                                        "map.gridmap.gz", "map.simplemap.gz", "lines.csv",       "steps.csv",
-                                        "metrics.json",   "config.ini",       "recording.rawlog"};
 
 /// A program that runs beside the test; it is killed if the test ends before it.
 class Program {
@@ -99,13 +97,13 @@ class LivePrograms : public testing::Test {
     return contentOf(folder.path(to + "/trajectory.tum"));
   }
   std::string result(const std::string& name) const { return contentOf(output + "/" + name); }
-  std::vector<std::string> results() const {
-    std::vector<std::string> names;
-    if (std::filesystem::is_directory(output))
-      for (const auto& entry : std::filesystem::directory_iterator(output))
-        names.push_back(entry.path().filename().string());
-    return names;
+  /// All that a replay writes, and the recording.
+  void expectAllResults() const {
+    std::vector<std::string> all = test::kResults;
+    all.push_back("recording.rawlog");
+    EXPECT_THAT(results(), testing::UnorderedElementsAreArray(all));
   }
+  std::vector<std::string> results() const { return test::namesIn(output); }
   size_t recorded() const {
     RawlogReader reader(output + "/recording.rawlog");
     size_t scans = 0;
@@ -116,7 +114,7 @@ class LivePrograms : public testing::Test {
   }
   void expectError(Program& program, const std::string& name, const std::string& text) {
     EXPECT_EQ(program.wait(), 2) << text;
-    EXPECT_THAT(program.err(), MatchesRegex(name + ": error: [^\n]*: [^\n]*; [^\n]*\n"));
+    EXPECT_THAT(program.err(), MatchesRegex(test::errorLineOf(name)));
     EXPECT_THAT(program.err(), HasSubstr(text));
   }
 
@@ -134,7 +132,7 @@ TEST_F(LivePrograms, TheLiveMapIsThatOfTheLogAndThatOfTheRecording) {
   EXPECT_EQ(robot->wait(), 0) << robot->err();
   EXPECT_THAT(robot->out(), HasSubstr("100 cycles served, 0 dropped"));
   EXPECT_THAT(map->out(), HasSubstr("100 scans"));
-  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
+  expectAllResults();
   const std::string trajectory = result("trajectory.tum");
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 100);
   EXPECT_EQ(trajectory, replay(output + "/recording.rawlog", "again")) << "the recording's replay";
@@ -155,7 +153,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
   ::usleep(300000);
   map->signal(SIGINT);
   EXPECT_EQ(map->wait(), 0) << map->err();
-  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
+  expectAllResults();
   const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
   EXPECT_GT(scans, 0u);
   EXPECT_LT(scans, 5000u);

@@ -2,31 +2,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CRawlog.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <zlib.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "Shell.h"
 #include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contentOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
-
-std::string contentOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string scanRow(const std::string& time, const std::string& range = "2.5") {
   std::string row = "FLASER 181";
@@ -38,22 +30,17 @@ class Log2Rawlog : public testing::Test {
  protected:
   /// Runs the program; `before` is shell code that runs first.
   int run(const std::string& arguments, const std::string& before = "") {
-    const std::string command = before + "'" LOG2RAWLOG "' " + arguments + " >'" + folder.path("stdout") +
-                                "' 2>'" + folder.path("stderr") + "'";
-    const int status = std::system(command.c_str());
-    out = contentOf(folder.path("stdout"));
-    err = contentOf(folder.path("stderr"));
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const test::Outcome outcome = test::shell(folder, before + "'" LOG2RAWLOG "' " + arguments);
+    out = outcome.out;
+    err = outcome.err;
+    return outcome.status;
   }
   int convert(const std::string& input, const std::string& options = "", const std::string& before = "") {
     return run(options + " '" + input + "' '" + rawlog + "'", before);
   }
   /// Exit 2, one line that says so, and no file.
   void expectError(int exitCode, const std::string& text) {
-    EXPECT_EQ(exitCode, 2);
-    EXPECT_THAT(err, MatchesRegex("log2rawlog: error: [^\n]*: [^\n]*; [^\n]*\n"));
-    EXPECT_THAT(err, HasSubstr(text));
-    EXPECT_THAT(out, IsEmpty());
+    test::expectInputError({exitCode, out, err}, "log2rawlog", text);
     EXPECT_FALSE(fs::exists(rawlog));
     EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
   }

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
-#include <vector>
 
+#include "ResultFiles.h"
 #include "evaluation/Trajectory.h"
+#include "io/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -35,22 +34,13 @@ class Malaga : public testing::Test {
 
   /// Mean of a column of steps.csv over the updates that have it, the first (no map yet) left out.
   double meanOf(const std::string& column) const {
-    std::ifstream in(folder_ / "steps.csv");
-    const auto cells = [](const std::string& line) {
-      std::vector<std::string> all;
-      std::istringstream text(line);
-      for (std::string cell; std::getline(text, cell, ',');) all.push_back(cell);
-      return all;
-    };
-    std::string line;
-    std::getline(in, line);
-    const auto header = cells(line);
+    const auto rows = test::csv(test::contentOf(folder_ / "steps.csv"));
+    const auto& header = rows.at(0);
     const auto index = std::find(header.begin(), header.end(), column) - header.begin();
     double sum = 0;
     int count = 0;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-      const std::string cell = cells(line).at(static_cast<size_t>(index));
+    for (size_t row = 2; row < rows.size(); ++row) {
+      const std::string& cell = rows[row].at(static_cast<size_t>(index));
       if (!cell.empty()) sum += std::stod(cell), ++count;
     }
     return sum / count;

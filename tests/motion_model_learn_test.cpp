@@ -1,13 +1,12 @@
 /// What a user of the program sees: exit code, messages, the learnt section.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <sstream>
 
+#include "Shell.h"
 #include "evaluation/Trajectory.h"
 #include "io/Configuration.h"
 #include "io/TemporaryFolder.h"
@@ -30,16 +29,12 @@ const std::string kCorridor = SOURCE_DIR "/datasets/csie/csie-corridor.rawlog";
 
 class MotionModelLearn : public testing::Test {
  protected:
-  /// Runs the program; `before` is shell code that runs first, `after` follows the command.
-  int run(const std::string& arguments, const std::string& before = "", const std::string& after = "") {
-    const std::string command = before + "'" MOTION_MODEL_LEARN "' " + arguments + " >'" +
-                                folder.path("stdout") + "' 2>'" + folder.path("stderr") + "'" + after;
-    const int status = std::system(command.c_str());
-    out = contentOf(folder.path("stdout"));
-    // A run of more than ten seconds, on a busy machine, says how far it is.
-    err = std::regex_replace(contentOf(folder.path("stderr")), std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"),
-                             "");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  /// Runs the program; `after` is shell code that follows the command.
+  int run(const std::string& arguments, const std::string& after = "") {
+    const test::Outcome outcome = test::shell(folder, "'" MOTION_MODEL_LEARN "' " + arguments, after);
+    out = outcome.out;
+    err = test::withoutProgress(outcome.err);
+    return outcome.status;
   }
   std::string arguments(const std::string& log, const std::string& options = "") const {
     return "'" + ini + "' '" + log + "' -o '" + output + "' " + options;
@@ -48,10 +43,7 @@ class MotionModelLearn : public testing::Test {
   std::string logOf(size_t steps) { return test::writeGzipped(folder.path("log.rawlog"), test::laps(steps)); }
   /// Exit 2, one line that says so, and no file.
   void expectError(int exitCode, const std::string& text) {
-    EXPECT_EQ(exitCode, 2);
-    EXPECT_THAT(err, MatchesRegex("motion-model-learn: error: [^\n]*: [^\n]*; [^\n]*\n"));
-    EXPECT_THAT(err, HasSubstr(text));
-    EXPECT_THAT(out, IsEmpty());
+    test::expectInputError({exitCode, out, err}, "motion-model-learn", text);
     EXPECT_FALSE(fs::exists(output));
     EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
   }
@@ -219,9 +211,8 @@ TEST_F(MotionModelLearn, CtrlCLeavesNothingHalfWritten) {
   for (const std::string signal : {"INT", "TERM"}) {
     const std::string wait =
         "while [ ! -e '" + folder.path(".partial.motion.ini") + "' ]; do sleep 0.05; done; ";
-    EXPECT_EQ(
-        run(arguments(log, "-q -n 300"), "", " & pid=$!; " + wait + "kill -" + signal + " $pid; wait $pid"),
-        1);
+    EXPECT_EQ(run(arguments(log, "-q -n 300"), " & pid=$!; " + wait + "kill -" + signal + " $pid; wait $pid"),
+              1);
     EXPECT_THAT(err,
                 MatchesRegex("motion-model-learn: error: interrupted: entry [0-9]+ of [^\n]*; nothing was "
                              "written\n"));

@@ -4,11 +4,8 @@
 #include <mrpt/io/zip.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CRawlog.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,66 +13,41 @@
 #include <string>
 #include <vector>
 
+#include "Shell.h"
+#include "io/TemporaryFolder.h"
 #include "simulation/Simulation.h"
 
+namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contentOf;
+using test::Outcome;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-std::string contentOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
 
 /// A folder of its own for each test, with a small room, a short route and their INI file in it.
 class SimulFloorplan : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("simul-floorplan-" + std::string(info->name()) + "-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
+  SimulFloorplan() {
     write("room.plan", "rectangle 0 0 8 6\ncircle 6 4 0.5\n");
     write("room.route", "start 1 1 0\nspeed 0.5\ngo 6 1\ngo 6 2.5\n");
     write("room.ini", "[simulation]\nplan = room.plan\nroute = room.route\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
+  void write(const std::string& name, const std::string& text) const { folder.write(name, text); }
 
-  Outcome call(const std::string& command) const {
-    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const int code = std::system(("cd '" + folder_.string() + "' && " + command + " > '" + out.string() +
-                                  "' 2> '" + err.string() + "'")
-                                     .c_str());
-    return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, contentOf(out), contentOf(err)};
-  }
-  Outcome simulate(const std::string& arguments) const {
-    return call(std::string("'") + SIMUL_FLOORPLAN + "' " + arguments);
-  }
+  Outcome call(const std::string& command) const { return test::shell(folder, command); }
+  Outcome simulate(const std::string& arguments) const { return call("'" SIMUL_FLOORPLAN "' " + arguments); }
 
   /// One clear line, exit 2, no file.
   void expectInputError(const std::string& arguments, const std::string& part) const {
-    const Outcome outcome = simulate(arguments);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_THAT(outcome.err, StartsWith("simul-floorplan: error: "));
-    EXPECT_THAT(outcome.err, HasSubstr(part));
-    EXPECT_THAT(outcome.err, HasSubstr("; "));
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
-    EXPECT_FALSE(fs::exists(folder_ / "out.part.rawlog"));
+    test::expectInputError(simulate(arguments), "simul-floorplan", part);
+    EXPECT_FALSE(fs::exists(folder.path("out.rawlog")));
+    EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
   }
 
-  fs::path folder_;
+  TemporaryFolder folder;
 };
 
 constexpr const char* kRun = "room.ini -o out.rawlog";
@@ -85,10 +57,10 @@ TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("scans"));
   mrpt::obs::CRawlog rawlog;
-  ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "out.rawlog").string()));
+  ASSERT_TRUE(rawlog.loadFromRawLogFile(folder.path("out.rawlog")));
   size_t scans = 0;
   for (const auto& entry : rawlog) scans += IS_CLASS(*entry, mrpt::obs::CObservation2DRangeScan);
-  std::ifstream truth(folder_ / "out.tum");
+  std::ifstream truth(folder.path("out.tum"));
   size_t rows = 0;
   for (std::string line; std::getline(truth, line); ++rows) {
     std::istringstream parts(line);
@@ -102,8 +74,8 @@ TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
   }
   EXPECT_EQ(scans, 76u);  // 5 m and 1.5 m at 0.5 m/s, 2 s of turning, at 5 Hz, both ends counted
   EXPECT_EQ(rows, scans);
-  EXPECT_THAT(contentOf(folder_ / "out.png"), StartsWith("\x89PNG"));
-  EXPECT_FALSE(fs::exists(folder_ / "out.part.rawlog"));
+  EXPECT_THAT(contentOf(folder.path("out.png")), StartsWith("\x89PNG"));
+  EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
 }
 
 TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
@@ -112,11 +84,11 @@ TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
   ASSERT_EQ(simulate("room.ini -q -s 1 -o b.rawlog").status, 0);
   ASSERT_EQ(simulate("room.ini -s 2 -o c.rawlog").status, 0);
   for (const char* extension : {".rawlog", ".tum", ".png"})
-    EXPECT_TRUE(contentOf(folder_ / ("a" + std::string(extension))) ==
-                contentOf(folder_ / ("b" + std::string(extension))))
+    EXPECT_TRUE(contentOf(folder.path("a" + std::string(extension))) ==
+                contentOf(folder.path("b" + std::string(extension))))
         << extension;
-  EXPECT_FALSE(contentOf(folder_ / "a.rawlog") == contentOf(folder_ / "c.rawlog"));
-  const std::string header = contentOf(folder_ / "a.rawlog").substr(4, 4);
+  EXPECT_FALSE(contentOf(folder.path("a.rawlog")) == contentOf(folder.path("c.rawlog")));
+  const std::string header = contentOf(folder.path("a.rawlog")).substr(4, 4);
   EXPECT_EQ(header, std::string(4, '\0'));  // gzip's MTIME
 }
 
@@ -130,7 +102,7 @@ TEST_F(SimulFloorplan, QuietHelpAndVersion) {
 TEST_F(SimulFloorplan, SettingsOverrideTheFile) {
   ASSERT_EQ(simulate(std::string(kRun) + " --set simulation.form=pairs --set simulation.scans=7").status, 0);
   mrpt::obs::CRawlog rawlog;
-  ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "out.rawlog").string()));
+  ASSERT_TRUE(rawlog.loadFromRawLogFile(folder.path("out.rawlog")));
   EXPECT_EQ(rawlog.size(), 14u);
   EXPECT_EQ(rawlog.getType(0), mrpt::obs::CRawlog::etActionCollection);
 }
@@ -173,7 +145,7 @@ TEST_F(SimulFloorplan, WrongFloorPlans) {
   expectInputError(kRun, "unknown word `window`: file room.plan, line 2");
   write("room.plan", "");
   expectInputError(kRun, "floor plan without walls");
-  fs::remove(folder_ / "room.plan");
+  fs::remove(folder.path("room.plan"));
   expectInputError(kRun, "cannot be read: file room.plan");
 }
 
@@ -192,7 +164,7 @@ TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNothingBehind) {
                                "' room.ini -o out.rawlog\"");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("simul-floorplan: error: cannot write"));
-  for (const auto& entry : fs::directory_iterator(folder_))
+  for (const auto& entry : fs::directory_iterator(folder.path("")))
     EXPECT_NE(entry.path().stem().string().substr(0, 3), "out") << entry.path();
 }
 
@@ -213,13 +185,13 @@ std::string differenceOf(const fs::path& made, const fs::path& committed) {
 
 TEST_F(SimulFloorplan, TheCommittedCsieLogsAreRemadeByteForByte) {
   const fs::path source = SOURCE_DIR, committed = source / "datasets/csie";
-  const Outcome outcome = call("'" + (source / "scripts/make-csie.sh").string() + "' '" + folder_.string() +
+  const Outcome outcome = call("'" + (source / "scripts/make-csie.sh").string() + "' '" + folder.path("") +
                                "' '" + SIMUL_FLOORPLAN + "'");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const char* route : {"csie-loop", "csie-doorways", "csie-corridor"})
     for (const char* extension : {".rawlog", ".tum", ".png"}) {
       const std::string name = std::string(route) + extension;
-      EXPECT_EQ(differenceOf(folder_ / name, committed / name), "none");
+      EXPECT_EQ(differenceOf(folder.path(name), committed / name), "none");
     }
   for (const auto& entry : fs::directory_iterator(committed))
     EXPECT_LT(fs::file_size(entry.path()), 1000000u) << entry.path();
@@ -232,7 +204,7 @@ TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {
 }
 
 /// The rows of doc/simulation.md, from the options themselves.
-std::string rowsOf(const hybrid_slam::Options& options) {
+std::string rowsOf(const Options& options) {
   std::string rows;
   for (const auto& option : options.table()) {
     std::string range = option.range;
@@ -245,9 +217,10 @@ std::string rowsOf(const hybrid_slam::Options& options) {
 
 TEST(SimulationDocument, ListsEveryKeyWithItsDefaultUnitAndBounds) {
   const std::string document = contentOf(std::string(SOURCE_DIR) + "/doc/simulation.md");
-  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::SimulationOptions())));
-  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::LaserOptions())));
-  EXPECT_THAT(document, HasSubstr(rowsOf(hybrid_slam::OdometryOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(SimulationOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(LaserOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(OdometryOptions())));
 }
 
 }  // namespace
+}  // namespace hybrid_slam

@@ -3,17 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
+#include "ResultFiles.h"
+#include "Shell.h"
 #include "comparison/XmlCheck.h"
 #include "evaluation/Trajectory.h"
 #include "io/TemporaryFolder.h"
@@ -22,6 +20,8 @@ namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
+using test::contentOf;
+using test::Outcome;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -33,58 +33,29 @@ const std::string kLog = kCsie + "csie-corridor.rawlog";
 const std::string kTruth = " --reference " + kCsie + "csie-corridor.tum --floorplan " + kCsie + "csie.plan";
 const std::string kSmall = " --methods hybrid,general --particles 4 --seeds 2 -q";
 
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
 struct SlamCompare : testing::Test {
   TemporaryFolder folder;
   std::string config = folder.write("small.ini", "[particle_filter]\nparticles = 3\nupdate_distance = 1\n");
 
-  Outcome shell(const std::string& command) const {
-    const int status = std::system(("cd '" + folder.path("") + "' && " + command + " >.out 2>.err").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path(".out")),
-            contents(folder.path(".err"))};
-  }
+  Outcome shell(const std::string& command) const { return test::shell(folder, command); }
   std::string call(const std::string& arguments) const {
     return std::string("'") + SLAM_COMPARE + "' " + config + " " + kLog + " -o out " + arguments;
   }
   Outcome run(const std::string& arguments) const { return shell(call(arguments)); }
   /// Exit 2, nothing on standard output, no run started; the one line on standard error.
   std::string errorLine(const Outcome& o) const {
-    EXPECT_EQ(o.status, 2) << o.err;
-    EXPECT_EQ(o.out, "");
-    EXPECT_THAT(o.err, StartsWith("slam-compare: error: "));
-    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
+    test::expectInputError(o, "slam-compare", "");
     return o.err;
   }
-  std::vector<std::string> runs() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder.path("out/runs")))
-      names.push_back(entry.path().filename().string());
-    return names;
-  }
+  std::vector<std::string> runs() const { return test::namesIn(folder.path("out/runs")); }
   std::vector<std::map<std::string, std::string>> table(const std::string& name) const {
-    std::ifstream in(folder.path("out/" + name));
+    const auto cells = test::csv(contentOf(folder.path("out/" + name)));
     std::vector<std::map<std::string, std::string>> rows;
-    std::vector<std::string> columns;
-    for (std::string line; std::getline(in, line);) {
-      std::vector<std::string> cells;
-      std::istringstream fields(line + ",");
-      for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
-      if (columns.empty()) {
-        columns = cells;
-        continue;
-      }
-      EXPECT_EQ(cells.size(), columns.size()) << line;
+    for (size_t row = 1; row < cells.size(); ++row) {
+      EXPECT_EQ(cells[row].size(), cells[0].size()) << name << ", row " << row;
       rows.emplace_back();
-      for (size_t i = 0; i < std::min(cells.size(), columns.size()); ++i) rows.back()[columns[i]] = cells[i];
+      for (size_t i = 0; i < std::min(cells[row].size(), cells[0].size()); ++i)
+        rows.back()[cells[0][i]] = cells[row][i];
     }
     return rows;
   }
@@ -120,8 +91,8 @@ TEST_F(SlamCompare, AWholeComparison) {
     EXPECT_TRUE(fs::exists(one / name)) << name;
   for (const char* name : {"map.simplemap.gz", "map.pgm", "map.yaml"})
     EXPECT_FALSE(fs::exists(one / name)) << name;
-  EXPECT_THAT(contents(one / "config.ini"), HasSubstr("seed = 2"));
-  EXPECT_THAT(contents(one / "config.ini"), HasSubstr("method = paper"));
+  EXPECT_THAT(contentOf(one / "config.ini"), HasSubstr("seed = 2"));
+  EXPECT_THAT(contentOf(one / "config.ini"), HasSubstr("method = paper"));
 
   const auto rows = table("results.csv");
   ASSERT_EQ(rows.size(), 6u);
@@ -138,14 +109,14 @@ TEST_F(SlamCompare, AWholeComparison) {
     EXPECT_GT(std::stod(row.at("peak_rss_mb")), 1);
     EXPECT_THAT((std::vector<std::string>{"0", "1"}), testing::Contains(row.at("success")));
   }
-  const auto json = nlohmann::json::parse(contents(folder.path("out/summary.json")));
+  const auto json = nlohmann::json::parse(contentOf(folder.path("out/summary.json")));
   EXPECT_EQ(json.at("groups").size(), 3u);
   EXPECT_GT(table("summary.csv").size(), 20u);
 }
 
 TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
   ASSERT_EQ(run(kSmall + kTruth).status, 0);
-  const std::string report = contents(folder.path("out/report.html"));
+  const std::string report = contentOf(folder.path("out/report.html"));
   EXPECT_EQ(xmlDefect(report), "");
   for (const char* part :
        {"--methods hybrid,general --particles 4 --seeds 2", "Success rates",
@@ -168,14 +139,14 @@ TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
     EXPECT_EQ(row.at("success"), "");
     EXPECT_GT(std::stod(row.at("std_phi_deg")), 0);
   }
-  const std::string report = contents(folder.path("out/report.html"));
+  const std::string report = contentOf(folder.path("out/report.html"));
   EXPECT_EQ(xmlDefect(report), "");
   EXPECT_THAT(report, Not(HasSubstr("Success rates")));
 }
 
 TEST_F(SlamCompare, ParticlesArePicturedWhereTheRunsHaveThem) {
   ASSERT_EQ(run(kSmall + kTruth + " --set run.particles_every=2").status, 0);
-  const std::string report = contents(folder.path("out/report.html"));
+  const std::string report = contentOf(folder.path("out/report.html"));
   EXPECT_EQ(xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
   EXPECT_THAT(report, HasSubstr("particles of general-4, "));
@@ -264,10 +235,10 @@ TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersGoOn) {
   EXPECT_EQ(rows[0].at("status"), "done");
   EXPECT_EQ(rows[3].at("status"), "failed");
   EXPECT_EQ(rows[3].at("ate_rmse_m"), "");
-  const std::string report = contents(folder.path("out/report.html"));
+  const std::string report = contentOf(folder.path("out/report.html"));
   EXPECT_EQ(xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("no scans of the laser `NONE`"));
-  const auto json = nlohmann::json::parse(contents(folder.path("out/summary.json")));
+  const auto json = nlohmann::json::parse(contentOf(folder.path("out/summary.json")));
   EXPECT_EQ(json["groups"][1]["success"]["successes"], 0);
 }
 
@@ -280,7 +251,7 @@ TEST_F(SlamCompare, ReportOnlyStartsNothing) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].at("status"), "done");
   EXPECT_EQ(rows[2].at("status"), "missing");
-  EXPECT_EQ(xmlDefect(contents(folder.path("out/report.html"))), "");
+  EXPECT_EQ(xmlDefect(contentOf(folder.path("out/report.html"))), "");
 }
 
 TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {

@@ -2,85 +2,28 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "SlamEvalProgram.h"
 #include "base/RandomStream.h"
 #include "evaluation/RelationErrors.h"
 #include "evaluation/Trajectory.h"
-#include "io/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::Outcome;
 using testing::HasSubstr;
-using testing::StartsWith;
 
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
-/// A folder of its own for each test, and slam-eval called in it.
-struct SlamEval : testing::Test {
-  fs::path folder;
-
-  SlamEval() {
-    std::string name = (fs::temp_directory_path() / "slam-eval-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    folder = name;
-  }
-  ~SlamEval() override { fs::remove_all(folder); }
-
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder / file) << text; }
-
-  Outcome shell(const std::string& command) const {
-    const std::string whole = "cd '" + folder.string() + "' && " + command + " >.out 2>.err";
-    const int status = std::system(whole.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / ".out"),
-            contents(folder / ".err")};
-  }
-  Outcome run(const std::string& arguments) const {
-    return shell(std::string("'") + SLAM_EVAL_PROGRAM + "' " + arguments);
-  }
-  json figures(const std::string& arguments) const {
-    const Outcome o = run(arguments);
-    EXPECT_EQ(o.status, 0) << o.err;
-    EXPECT_EQ(o.err, "");
-    return o.status == 0 ? json::parse(o.out) : json();
-  }
-  /// Exit 2, nothing on standard output, and one line on standard error, which is returned.
-  std::string errorLine(const std::string& arguments) const {
-    const Outcome o = run(arguments);
-    EXPECT_EQ(o.status, 2) << o.out;
-    EXPECT_EQ(o.out, "");
-    EXPECT_THAT(o.err, StartsWith("slam-eval: error: "));
-    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
-    return o.err.substr(0, o.err.size() - 1);
-  }
-};
-
-const char* const kStraight =
-    "0 0 0 0 0 0 0 1\n"
-    "1 1 0 0 0 0 0 1\n"
-    "2 2 0 0 0 0 0 1\n"
-    "3 3 0 0 0 0 0 1\n";
 const char* const kLonger =  // 10 % longer, turned by 90 deg, shifted by (5, 6)
     "0 5 6 0 0 0 0.7071067811865476 0.7071067811865476\n"
     "1 5 7.1 0 0 0 0.7071067811865476 0.7071067811865476\n"
@@ -155,81 +98,6 @@ TEST_F(SlamEval, RelationsByHandWithAndWithoutOdometry) {
     EXPECT_NEAR(with.at("rot_mean_deg"), 0.5, 1e-12);
     EXPECT_NEAR(with.at("rot_std_deg"), 0.5, 1e-12);
   }
-}
-
-/// Three laps, 9.7 m each, as a rawlog and as the trajectory of it, whose third lap is `shift` aside in y.
-struct Revisits : SlamEval {
-  void writeLaps(size_t steps, double shift) const {
-    const test::Log log = test::laps(steps);
-    test::writeGzipped((folder / "laps.rawlog").string(), log);
-    Trajectory trajectory;
-    for (size_t i = 0; i < steps; ++i) {
-      StampedPose p{1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80)};
-      if (i >= 160) p.pose.y += shift;
-      trajectory.push_back(p);
-    }
-    std::ofstream text(folder / "laps.tum");
-    saveTum(trajectory, text);
-  }
-  const std::string call = "revisits --trajectory laps.tum --rawlog laps.rawlog ";
-};
-
-TEST_F(Revisits, ClosedAndDoubled) {
-  writeLaps(240, 0);
-  const json closed = figures(call);
-  EXPECT_EQ(closed.size(), 7u);
-  EXPECT_EQ(closed.at("scans"), 240);
-  EXPECT_GT(closed.at("revisits"), 60);
-  EXPECT_EQ(closed.at("apart"), 0);
-  EXPECT_LT(closed.at("max_m"), 1e-5);  // readings and stamps are rounded
-
-  writeLaps(240, 0.3);
-  const json doubled = figures(call);
-  EXPECT_NEAR(doubled.at("max_m"), 0.3, 0.01);
-  EXPECT_GT(doubled.at("p95_m"), 0.25);
-  EXPECT_GE(doubled.at("mean_m"), 0.05);
-  EXPECT_LE(doubled.at("median_m"), doubled.at("p95_m"));
-}
-
-TEST_F(Revisits, OptionsAreTheDefinitions) {
-  writeLaps(240, 0.3);
-  const int revisits = figures(call).at("revisits");
-  EXPECT_EQ(figures(call + "--distance 3 --path 20").at("revisits"), revisits);
-  EXPECT_LT(figures(call + "--distance 0.1").at("revisits"), revisits);
-  EXPECT_GT(figures(call + "--path 10").at("revisits"), revisits);
-  EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is so near
-}
-
-TEST_F(Revisits, NoneIsAFinding) {
-  writeLaps(80, 0);
-  const json j = figures(call);
-  EXPECT_EQ(j.at("scans"), 80);
-  EXPECT_EQ(j.at("revisits"), 0);
-  EXPECT_EQ(j.at("apart"), 0);
-  for (const char* figure : {"median_m", "mean_m", "p95_m", "max_m"})
-    EXPECT_TRUE(j.at(figure).is_null()) << figure;
-}
-
-TEST_F(Revisits, BadInput) {
-  writeLaps(80, 0);
-  write("other.tum", kStraight);
-  EXPECT_EQ(errorLine("revisits --trajectory other.tum --rawlog laps.rawlog"),
-            "slam-eval: error: no scan has a pose: trajectory 0.000..3.000 s, scans 1000.000..1015.800 s; "
-            "expected poses within 0.001 s of the scans");
-  EXPECT_THAT(errorLine("revisits --trajectory laps.tum --rawlog missing.rawlog"),
-              HasSubstr("missing.rawlog"));
-  EXPECT_THAT(errorLine("revisits --trajectory laps.tum --rawlog laps.tum"), HasSubstr("laps.tum"));
-  EXPECT_THAT(errorLine("revisits --trajectory missing.tum --rawlog laps.rawlog"), HasSubstr("missing.tum"));
-  test::writePlain((folder / "whole.rawlog").string(), test::laps(80));
-  ASSERT_EQ(shell("(head -c 50000 whole.rawlog >cut.rawlog)").status, 0);
-  EXPECT_THAT(errorLine("revisits --trajectory laps.tum --rawlog cut.rawlog"),
-              HasSubstr("of cut.rawlog; expected"));
-  EXPECT_THAT(errorLine("revisits --trajectory laps.tum"), HasSubstr("--rawlog"));
-  for (const char* option : {"--distance", "--path", "--max-range"})
-    for (const char* value : {"0", "-1", "nan"})
-      EXPECT_EQ(errorLine(call + option + "=" + value),
-                std::string("slam-eval: error: wrong value: option ") + option +
-                    "; expected a number of metres above 0");
 }
 
 TEST_F(SlamEval, ToleranceDecidesWhichPosesBelongTogether) {
@@ -314,7 +182,7 @@ struct ReferenceEvaluator : SlamEval {
     if (!fs::exists(evaluator / "evalrel.py")) GTEST_SKIP() << "no evalrel.py in " << evaluator;
     if (shell("python3 --version").status != 0) GTEST_SKIP() << "no python3";
     odometry = loadOdometry((datasets / "intel-lab.odom.gz").string());
-    std::ofstream text(folder / "odometry.txt");  // it reads plain text only
+    std::ofstream text(folder.path("odometry.txt"));  // it reads plain text only
     text << std::setprecision(17);
     for (const StampedPose& o : odometry)
       text << o.timestamp << ' ' << o.pose.x << ' ' << o.pose.y << ' ' << o.pose.phi << '\n';
@@ -336,7 +204,7 @@ struct ReferenceEvaluator : SlamEval {
 
   json expected(const Trajectory& trajectory, bool bridge, double tolerance) const {
     {
-      std::ofstream text(folder / "trajectory.txt");
+      std::ofstream text(folder.path("trajectory.txt"));
       text << std::setprecision(17);
       for (const StampedPose& p : trajectory)
         text << p.timestamp << ' ' << p.pose.x << ' ' << p.pose.y << ' ' << p.pose.phi << '\n';
@@ -362,7 +230,7 @@ struct ReferenceEvaluator : SlamEval {
     const json theirs = expected(trajectory, bridge, tolerance);
     ASSERT_TRUE(theirs.is_object());
     {
-      std::ofstream text(folder / "trajectory.tum");
+      std::ofstream text(folder.path("trajectory.tum"));
       saveTum(trajectory, text);
     }
     const json ours =

@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "base/Errors.h"
+#include "Program.h"
 #include "io/LogConversion.h"
 
 namespace {
@@ -17,10 +17,9 @@ namespace {
 using hybrid_slam::LogFormat;
 using hybrid_slam::LogTime;
 
-int fail(int code, std::string text) {
+int failInOneLine(int code, std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  std::cerr << "log2rawlog: error: " << text << std::endl;
-  return code;
+  return hybrid_slam::fail(code, text);
 }
 
 /// CLI::Range lets `nan` pass.
@@ -108,12 +107,7 @@ int main(int argc, char** argv) try {
                "write (action, sensory frame) pairs instead of one observation for each row");
   app.add_flag("--strict", options.strict, "stop at the first broken line");
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    return fail(2, std::string(e.what()) + ": command line; see log2rawlog --help");
-  }
+  if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
   const std::map<std::string, LogFormat> formats{
       {"carmen", LogFormat::carmen}, {"gfs", LogFormat::gfs}, {"dpslam", LogFormat::dpslam}};
   if (!format.empty()) options.format = formats.at(format);
@@ -129,7 +123,7 @@ int main(int argc, char** argv) try {
   printSummary(output, summary);
   return 0;
 } catch (const hybrid_slam::InputError& e) {
-  return fail(2, e.what());
+  return failInOneLine(2, e.what());
 } catch (const std::exception& e) {
-  return fail(1, e.what());
+  return failInOneLine(1, e.what());
 }

@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 
-#include "base/Errors.h"
+#include "FilterArguments.h"
+#include "Program.h"
+#include "Settings.h"
+#include "Stop.h"
 #include "io/FilteredMotions.h"
 #include "io/MotionModelText.h"
 #include "io/OutputFolder.h"
@@ -17,22 +19,10 @@ namespace {
 
 using namespace hybrid_slam;
 
-std::atomic<bool> stop{false};
-
-/// The first asks to end, the second ends the program at once.
-void onSignal(int signal) {
-  stop = true;
-  std::signal(signal, SIG_DFL);
-}
-
-int fail(int code, const std::string& message) {
-  std::cerr << "motion-model-learn: error: " << message << "\n";
-  return code;
-}
-
 struct CommandLine {
   std::string config, log, output;
-  int iterations = 10, particles = 0, seed = -1, threads = -1;
+  int iterations = 10;
+  FilterArguments filter;
   std::vector<std::string> settings;
   bool isQuiet = false;
 };
@@ -49,12 +39,8 @@ void describe(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()
       ->type_name("N");
-  app.add_option("-n,--particles", line.particles, "number of particles")->type_name("N");
-  app.add_option("-s,--seed", line.seed, "same seed, same results to the byte")->type_name("N");
-  app.add_option("-j,--threads", line.threads, "threads over particles; 0: all cores")->type_name("N");
-  app.add_option("--set", line.settings, "sets a key of the INI file; repeatable")
-      ->type_name("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
+  line.filter.addParticles(app);
+  addSettings(app, line.settings);
   app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
   app.footer(
       "Learn with the proposal and the update_distance and update_angle_deg that you will run with, then\n"
@@ -65,13 +51,8 @@ void describe(CLI::App& app, CommandLine& line) {
 
 Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
   std::vector<std::string> settings = line.settings;
-  const auto set = [&settings](const std::string& key, const std::string& value) {
-    settings.push_back(key + "=" + value);
-  };
-  set("run.rawlog", line.log);
-  if (app.count("--particles")) set("particle_filter.particles", std::to_string(line.particles));
-  if (app.count("--seed")) set("particle_filter.seed", std::to_string(line.seed));
-  if (app.count("--threads")) set("particle_filter.threads", std::to_string(line.threads));
+  set(settings, "run.rawlog", line.log);
+  line.filter.addTo(settings, app);
   return Configuration(line.config, settings);
 }
 
@@ -140,24 +121,15 @@ int learn(const CommandLine& line, Configuration configuration) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Learns the motion model of a robot from a log by EM (Eliazar & Parr)"};
   CommandLine line;
-  describe(app, line);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    return fail(2, std::string(e.what()) + ": command line; see motion-model-learn --help");
-  }
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
-  try {
+  const auto parseAndLearn = [&] {
+    CLI::App app{"Learns the motion model of a robot from a log by EM (Eliazar & Parr)"};
+    describe(app, line);
+    if (const auto code = parse(app, argc, argv)) return *code;
+    stopOnSignals();
     return learn(line, configurationOf(line, app));
-  } catch (const InputError& e) {
-    return fail(2, e.what());
-  } catch (const std::exception& e) {
-    if (stop) return fail(1, messageOf(e) + "; nothing was written");
-    return fail(1, "run failed: " + line.config + "; " + messageOf(e));
-  }
+  };
+  return exitCodeOf(parseAndLearn, [&](const std::exception& e) {
+    return stop ? messageOf(e) + "; nothing was written" : runFailed(line.config, e);
+  });
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Errors.h"
+#include "Program.h"
 #include "simulation/FloorPlan.h"
 #include "simulation/Route.h"
 #include "simulation/SimulationOutput.h"
@@ -130,13 +130,7 @@ int parseAndRun(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("-q,--quiet", line.quiet, "print nothing but errors");
   app.set_version_flag("--version", HYBRID_SLAM_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::Error& e) {
-    throw InputError(e.what(), "command line", "see simul-floorplan --help");
-  }
+  if (const auto code = parse(app, argc, argv)) return *code;
   run(line);
   return 0;
 }
@@ -144,16 +138,7 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const InputError& e) {
-    std::fprintf(stderr, "simul-floorplan: error: %s\n", e.what());
-    return 2;
-  } catch (const std::exception& e) {
-    std::fputs("simul-floorplan: error: ", stderr);
-    // MRPT's own messages run over several lines.
-    for (const char* c = e.what(); *c != '\0' && *c != '\n'; ++c) std::fputc(*c, stderr);
-    std::fputc('\n', stderr);
-    return 1;
-  }
+  // MRPT's own messages run over several lines.
+  return exitCodeOf([&] { return parseAndRun(argc, argv); },
+                    [](const std::exception& e) { return firstLineOf(e.what()); });
 }

@@ -11,7 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/Errors.h"
+#include "Program.h"
+#include "Settings.h"
 #include "comparison/Comparison.h"
 #include "comparison/Report.h"
 #include "io/Configuration.h"
@@ -57,9 +58,7 @@ void describe(CLI::App& app, CommandLine& line) {
                  "another INI file; repeatable")
       ->type_name("[METHOD/]NAME:SECTION.KEY=VALUE[,...]")
       ->allow_extra_args(false);
-  app.add_option("--set", line.settings, "sets a key of the INI file for all runs; repeatable")
-      ->type_name("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
+  addSettings(app, line.settings, "sets a key of the INI file for all runs; repeatable");
   app.add_option("-j,--jobs", line.jobs, "runs at a time; 0: one for each core")->capture_default_str();
   app.add_option("--reference", line.reference, "true poses, TUM file: ATE, return error, success");
   app.add_option("--relations", line.relations, "relations file: relations metric");
@@ -121,20 +120,17 @@ struct Setup {
 
 Setup setupOf(const CommandLine& line, const Group& group, int seed) {
   Setup setup{group.variant.iniFile.empty() ? line.config : group.variant.iniFile, line.settings};
-  const auto set = [&setup](const std::string& key, const std::string& value) {
-    setup.settings.push_back(key + "=" + value);
-  };
-  setup.settings.insert(setup.settings.end(), group.variant.settings.begin(), group.variant.settings.end());
+  std::vector<std::string>& settings = setup.settings;
+  settings.insert(settings.end(), group.variant.settings.begin(), group.variant.settings.end());
   const std::string particles = std::to_string(group.particles);
-  set("run.rawlog", fs::weakly_canonical(fs::absolute(line.log)).string());
-  set("run.method", group.method);
-  set("particle_filter.particles", particles);
-  set("particle_filter.seed", std::to_string(seed));
-  set("particle_filter.threads", "1");
+  set(settings, "run.rawlog", fs::weakly_canonical(fs::absolute(line.log)).string());
+  set(settings, "run.method", group.method);
+  set(settings, "particle_filter.particles", particles);
+  set(settings, "particle_filter.seed", std::to_string(seed));
+  set(settings, "particle_filter.threads", "1");
   // MRPT's own filter reads its own section where there is one, with its own name for the particles.
-  if (group.method == "stock" &&
-      Configuration(setup.config, setup.settings).source.sectionExists(kStockSection))
-    set(std::string(kStockSection) + ".sampleSize", particles);
+  if (group.method == "stock" && Configuration(setup.config, settings).source.sectionExists(kStockSection))
+    set(settings, std::string(kStockSection) + ".sampleSize", particles);
   return setup;
 }
 
@@ -226,10 +222,8 @@ std::string quoted(const std::vector<std::string>& arguments) {
   return command;
 }
 
-int fail(int code, const std::string& text) {
-  std::cerr << "slam-compare: error: " << text.substr(0, text.find('\n')) << std::endl;
-  return code;
-}
+/// The user's words, which may hold line ends, are in many of its messages.
+int failInOneLine(int code, const std::string& text) { return fail(code, firstLineOf(text)); }
 
 int run(const CommandLine& line, const std::string& command) {
   check(line);
@@ -277,8 +271,9 @@ int run(const CommandLine& line, const std::string& command) {
     outcome = runSweep(sweep, jobs, stop, tell);
   }
   if (outcome.isInterrupted)
-    return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
-                       " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
+    return failInOneLine(1, "interrupted: folder " + line.output + ", " +
+                                std::to_string(outcome.kept + outcome.done) + " of " +
+                                std::to_string(sweep.size()) + " runs are finished; the same call goes on");
 
   ReportInput report{command,
                      HYBRID_SLAM_VERSION,
@@ -306,11 +301,12 @@ int run(const CommandLine& line, const std::string& command) {
   size_t failed = 0;
   for (const RunResult& r : report.results) failed += r.status == RunResult::Status::failed;
   if (failed > 0)
-    return fail(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) + " runs failed: folder " +
-                       line.output + "; see report.html");
+    return failInOneLine(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) +
+                                " runs failed: folder " + line.output + "; see report.html");
   return 0;
 }
 
+/// Also the second only asks: the runs that are at work have to be ended first.
 void onSignal(int) { stop = true; }
 
 }  // namespace
@@ -321,21 +317,15 @@ int main(int argc, char** argv) {
   CommandLine line;
   describe(app, line);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);  // --help, --version
-  } catch (const CLI::ParseError& error) {
-    return fail(2, std::string(error.what()) + ": command line; see slam-compare --help");
-  }
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
-  try {
+    if (const auto code = parse(app, argc, argv)) return *code;
+    std::signal(SIGINT, onSignal);
+    std::signal(SIGTERM, onSignal);
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     return run(line, quoted(command));
   } catch (const InputError& error) {
-    return fail(2, error.what());
+    return failInOneLine(2, error.what());
   } catch (const std::exception& error) {
-    return fail(1, error.what());
+    return failInOneLine(1, error.what());
   }
 }

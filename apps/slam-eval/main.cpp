@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/Errors.h"
+#include "Program.h"
 #include "base/LaserScan.h"
 #include "evaluation/AbsoluteTrajectoryError.h"
 #include "evaluation/RelationErrors.h"
@@ -170,13 +170,7 @@ int run(int argc, char** argv) {
   revisits->add_option("--path", line.revisits.path, "way driven between the two, m")->capture_default_str();
   revisits->add_option("--max-range", line.maxRange, "of the beams, m; default: the log's own");
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);  // --help, --version
-  } catch (const CLI::ParseError& error) {
-    throw InputError(error.what(), "command line", "see slam-eval --help");
-  }
+  if (const auto code = parse(app, argc, argv)) return *code;
 
   for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
     if (!(tolerance >= 0))
@@ -199,13 +193,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const hybrid_slam::InputError& error) {
-    std::cerr << "slam-eval: error: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "slam-eval: error: " << hybrid_slam::messageOf(error) << '\n';
-    return 1;
-  }
+  return exitCodeOf([&] { return run(argc, argv); });
 }

@@ -1,0 +1,40 @@
+/// @file FilterArguments.h
+/// @brief The options that say which filter is to run, and how.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "Settings.h"
+
+namespace hybrid_slam {
+
+/// A program adds the groups of options where its --help has them. What they say is a setting like any other,
+/// so it is checked in the same place.
+struct FilterArguments {
+  std::string method, proposal;
+  int particles = 0, seed = -1, threads = -1;
+
+  /// -m, -p
+  void addMethod(CLI::App& app) {
+    app.add_option("-m,--method", method, "hybrid, general (without lines) or stock (MRPT's own RBPF)");
+    app.add_option("-p,--proposal", proposal, "standard, improved, auxiliary_standard or auxiliary_optimal");
+  }
+  /// -n, -s, -j
+  void addParticles(CLI::App& app, const std::string& seedMeans = "same seed, same results to the byte") {
+    app.add_option("-n,--particles", particles, "number of particles")->type_name("N");
+    app.add_option("-s,--seed", seed, seedMeans)->type_name("N");
+    app.add_option("-j,--threads", threads, "threads over particles; 0: all cores")->type_name("N");
+  }
+  /// What was given, after the settings that are there.
+  void addTo(std::vector<std::string>& settings, const CLI::App& app) const {
+    if (!method.empty()) set(settings, "run.method", method);
+    if (!proposal.empty()) set(settings, "particle_filter.proposal", proposal);
+    if (app.count("--particles")) set(settings, "particle_filter.particles", std::to_string(particles));
+    if (app.count("--seed")) set(settings, "particle_filter.seed", std::to_string(seed));
+    if (app.count("--threads")) set(settings, "particle_filter.threads", std::to_string(threads));
+  }
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,63 @@
+/// @file HybridSlamProgram.h
+/// @brief For the tests: hybrid-slam as a user sees it: exit code, messages, files.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "ResultFiles.h"
+#include "Shell.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+
+namespace hybrid_slam {
+
+inline const std::string kErrorLine = test::errorLineOf("hybrid-slam");
+
+class HybridSlam : public testing::Test {
+ protected:
+  /// Runs the program; `before` is shell code that runs first.
+  int run(const std::string& arguments, const std::string& before = "") {
+    const test::Outcome outcome = test::shell(folder, before + "'" HYBRID_SLAM "' " + arguments);
+    out = outcome.out;
+    err = outcome.err;
+    return outcome.status;
+  }
+  /// Replays a log with the made INI into `output`.
+  int replay(const std::string& log, const std::string& options = "", const std::string& before = "") {
+    return run("'" + ini + "' '" + log + "' -o '" + output + "' " + options, before);
+  }
+  int replay(const test::Log& log, const std::string& options = "") {
+    return replay(test::writeGzipped(folder.path("log.rawlog"), log), options);
+  }
+  std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
+  std::vector<std::string> results() const { return test::namesIn(output); }
+  /// Exit 2, one line that says so, and no file.
+  void expectError(int exitCode, const std::string& text) {
+    test::expectInputError({exitCode, out, err}, "hybrid-slam", text);
+    EXPECT_THAT(results(), testing::IsEmpty());
+  }
+  /// Exit 0 with all results and nothing on standard error but `warning`.
+  void expectDone(int exitCode, const std::string& warning = "") {
+    EXPECT_EQ(exitCode, 0) << err;
+    EXPECT_THAT(results(), testing::UnorderedElementsAreArray(test::kResults));
+    err = test::withoutProgress(err);
+    if (warning.empty())
+      EXPECT_THAT(err, testing::IsEmpty());
+    else
+      EXPECT_THAT(err, testing::AllOf(testing::MatchesRegex("hybrid-slam: warning: [^\n]*: [^\n]*; [^\n]*\n"),
+                                      testing::HasSubstr(warning)));
+  }
+
+  TemporaryFolder folder;
+  std::string ini = folder.write("run.ini",
+                                 "[run]\nmethod = hybrid\n[particle_filter]\nparticles = 5\nupdate_distance "
+                                 "= 0.2\n[grid]\nresolution = 0.1\n");
+  std::string output = folder.path("out");
+  std::string out, err;
+};
+
+}  // namespace hybrid_slam

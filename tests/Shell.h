@@ -1,0 +1,50 @@
+/// @file Shell.h
+/// @brief For the tests: programs as their users call them, from a shell.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <regex>
+#include <string>
+
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+
+namespace hybrid_slam::test {
+
+struct Outcome {
+  int status = -1;  ///< exit code; -1 after a signal
+  std::string out, err;
+};
+
+/// Runs shell code in a folder. @param after  more shell code, whose output is not kept
+inline Outcome shell(const TemporaryFolder& folder, const std::string& command,
+                     const std::string& after = "") {
+  const std::string whole = "cd '" + folder.path("") + "' || exit; " + command + " >.out 2>.err" + after;
+  const int status = std::system(whole.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder.path(".out")),
+          contentOf(folder.path(".err"))};
+}
+
+/// What standard error looks like after an error, as a regular expression: what, where, what was expected.
+inline std::string errorLineOf(const std::string& program) {
+  return program + ": error: [^\n]*: [^\n]*; [^\n]*\n";
+}
+
+/// Exit 2, nothing on standard output, and one line on standard error. @param part  of that line
+inline void expectInputError(const Outcome& outcome, const std::string& program, const std::string& part) {
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, testing::MatchesRegex(errorLineOf(program)));
+  EXPECT_THAT(outcome.err, testing::HasSubstr(part));
+}
+
+/// A run of more than ten seconds, on a busy machine, says how far it is.
+inline std::string withoutProgress(const std::string& err) {
+  return std::regex_replace(err, std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"), "");
+}
+
+}  // namespace hybrid_slam::test

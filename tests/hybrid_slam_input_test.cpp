@@ -1,0 +1,203 @@
+/// INI files and logs that are wrong, or only strange: one clear line, or the results all the same.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "HybridSlamProgram.h"
+#include "evaluation/Trajectory.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contentOf;
+using test::kResults;
+using test::Log;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::UnorderedElementsAreArray;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+TEST_F(HybridSlam, WrongIni) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  const auto replayWith = [&](const std::string& text) {
+    ini = folder.write("wrong.ini", text);
+    return replay(log);
+  };
+  expectError(replayWith("[particle_filter]\nparticels = 3\n"), "the nearest known key is `particles`");
+  expectError(replayWith("[particle_filter]\nparticles = many\n"), "expected a whole number");
+  expectError(replayWith("[particle_filter]\nparticles = 0\n"), "1..100000");
+  expectError(replayWith("[particle_filter]\nparticles 3\n"), "wrong line");
+  expectError(replayWith("[something]\nx = 3\n"), "missing section");
+  expectError(replayWith("[particle_filters]\nx = 3\n[grid]\n"), "[particle_filter]");
+  expectError(replayWith(""), "missing section");
+  expectError(replayWith(std::string("\0\1\2\3", 4)), "not a text file");
+  ini = folder.path("none.ini");
+  expectError(replay(log), "no such file: " + ini);
+  ini = folder.path("");
+  expectError(replay(log), "not a file");
+}
+
+TEST_F(HybridSlam, WrongStockIni) {
+  ini = folder.write("stock.ini", "[MappingApplication]\nsampleSize = 3\n");
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  EXPECT_EQ(replay(log, "-m stock"), 2);
+  EXPECT_THAT(err, AllOf(MatchesRegex(kErrorLine), HasSubstr("[MappingApplication]"),
+                         HasSubstr("adaptiveSampleSize")));
+  EXPECT_THAT(results(), IsEmpty());
+}
+
+// ---- logs
+
+TEST_F(HybridSlam, WrongLog) {
+  expectError(replay(folder.path("none.rawlog")), "no such file: " + folder.path("none.rawlog"));
+  expectError(replay(folder.path("")), "not a file");
+  expectError(replay(folder.write("empty", "")), "empty");
+  expectError(replay(folder.write("text", "ODOM 1 2 3\nFLASER 4 5 6\n")), "not a rawlog");
+  expectError(replay(HYBRID_SLAM), "not a rawlog");
+  expectError(replay(Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");
+  expectError(replay(Log{test::scan(1), test::scan(2)}), "require_odometry = false");
+  expectError(replay(Log{test::odometry(1, {}), test::scan(1, {}, 0)}), "zero length");
+  expectError(replay(test::laps(4), "--set input.sensor_label=REAR"), "the log has `LASER`");
+  Log tilted = test::laps(4);
+  for (auto& object : tilted)
+    if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
+      scan->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  expectError(replay(tilted), "tilted");
+}
+
+TEST_F(HybridSlam, UnreadableLog) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  fs::permissions(log, fs::perms::none);
+  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who may read everything";
+  expectError(replay(log), "cannot open: " + log);
+}
+
+TEST_F(HybridSlam, ScansOnlyOnRequest) {
+  expectDone(replay(Log{test::scan(1), test::scan(2), test::scan(3)}, "--set input.require_odometry=false"));
+  for (const auto& row : loadTum(output + "/trajectory.tum")) EXPECT_LT(row.pose.norm(), 0.2);
+}
+
+TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
+  std::vector<size_t> ends;
+  const std::string bytes = contentOf(test::writePlain(folder.path("whole"), test::laps(40), &ends));
+  ASSERT_EQ(replay(folder.write("part", bytes.substr(0, ends[41]))), 0) << err;
+  const std::string part = result("trajectory.tum");
+  fs::remove_all(output);
+  const std::string log = folder.write("cut.rawlog", bytes.substr(0, ends[41] + 33));
+  EXPECT_EQ(replay(log), 1);
+  EXPECT_THAT(err, MatchesRegex(kErrorLine));
+  EXPECT_THAT(err, HasSubstr("cut off in the middle of an object: entry 43 of " + log));
+  EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
+  EXPECT_EQ(result("trajectory.tum"), part);
+  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 21u);
+}
+
+TEST_F(HybridSlam, ACutGzippedLogToo) {
+  const std::string bytes = contentOf(test::writeGzipped(folder.path("whole"), test::laps(40)));
+  EXPECT_EQ(replay(folder.write("cut.rawlog", bytes.substr(0, bytes.size() / 2))), 1);
+  EXPECT_THAT(err, AllOf(MatchesRegex(kErrorLine), HasSubstr("gzip file damaged or cut off: entry ")));
+  EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
+  EXPECT_GT(loadTum(output + "/trajectory.tum").size(), 5u);
+}
+
+/// Laps with some beams of each scan changed.
+Log withBeams(const std::function<void(test::CObservation2DRangeScan&, size_t)>& change) {
+  Log log = test::laps(30, 80, 91);
+  for (auto& object : log)
+    if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
+      for (size_t i = 3; i < 91; i += 9) change(*scan, i);
+  return log;
+}
+
+TEST_F(HybridSlam, ReadingsThatAreNoneAreIgnoredBeamByBeam) {
+  const Log marked = withBeams([](auto& scan, size_t i) { scan.setScanRangeValidity(i, false); });
+  const float odd[] = {kNaN, HUGE_VALF, -HUGE_VALF, -3, 0, 20, 81.83f, 1e30f};
+  const Log unmarked = withBeams([&odd](auto& scan, size_t i) { scan.setScanRange(i, odd[i / 9 % 8]); });
+  for (const std::string method : {"hybrid", "general", "stock"}) {
+    SCOPED_TRACE(method);
+    expectDone(replay(marked, "-m " + method));
+    const std::string expected = result("trajectory.tum");
+    expectDone(replay(unmarked, "-m " + method));
+    EXPECT_EQ(result("trajectory.tum"), expected);
+  }
+}
+
+TEST_F(HybridSlam, AllReadingsInvalid) {
+  Log log = test::laps(10);
+  for (auto& object : log)
+    if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
+      for (size_t i = 0; i < 181; ++i) scan->setScanRange(i, kNaN);
+  expectDone(replay(log));
+  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 10u);
+}
+
+TEST_F(HybridSlam, ScansWithoutBeamsAreLeftOut) {
+  Log log = test::laps(10);
+  log[3] = test::scan(1000.2, {}, 0);
+  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; left out");
+  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 9u);
+}
+
+TEST_F(HybridSlam, AnyNumberOfBeams) {
+  for (const size_t beams : {1u, 2u, 3u, 5000u}) {
+    SCOPED_TRACE(beams);
+    expectDone(replay(test::laps(10, 80, beams)));
+  }
+}
+
+/// 10 scans, the last five with the odometry `jump` m farther on.
+Log withJump(double jump) {
+  Log log = test::laps(10);
+  for (size_t i = 10; i < 20; i += 2)
+    std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[i])->odometry.x_incr(jump);
+  return log;
+}
+
+TEST_F(HybridSlam, OdometryThatJumps) {
+  expectDone(replay(withJump(99)));
+  expectDone(replay(withJump(60), "--set particle_filter.update_distance=100"));
+  fs::remove_all(output);
+  for (const double jump : {101., 1e5, 1e9, 1e300}) {
+    SCOPED_TRACE(jump);
+    expectError(replay(withJump(jump)), "odometry jumps: entry 12 of " + folder.path("log.rawlog"));
+  }
+}
+
+TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
+  const auto timesOf = [this] {
+    std::vector<double> times;
+    for (const auto& row : loadTum(output + "/trajectory.tum")) times.push_back(row.timestamp - 1000);
+    return times;
+  };
+  const auto withTimes = [](const std::vector<double>& times) {
+    Log log;
+    for (size_t i = 0; i < times.size(); ++i) {
+      const double time = 1000 + times[i];
+      log.push_back(test::odometry(time, test::poseOnLap(i, 40)));
+      log.push_back(test::scan(time, test::poseOnLap(i, 40)));
+    }
+    return log;
+  };
+  expectDone(replay(withTimes({0, 1, test::kNoTime, 3})), "1 scans without timestamp: first at entry 6");
+  EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
+  expectDone(replay(withTimes({0, 1, 1, 3})),
+             "1 timestamps repeat that of the scan before: first at entry 6");
+  EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
+  expectDone(replay(withTimes({0, 2, 1, 3})), "1 timestamps step back: first at entry 6");
+  EXPECT_THAT(timesOf(), testing::ElementsAre(0, 2, 1, 3));
+  expectDone(replay(withTimes(std::vector<double>(4, test::kNoTime))),
+             "4 scans without timestamp: first at entry 2");
+  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 4u);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,187 @@
+/// Results that cannot be written; the program beside others: its terminal, its signals, its memory.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "HybridSlamProgram.h"
+#include "evaluation/Trajectory.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contentOf;
+using test::kResults;
+using test::Log;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::StartsWith;
+using testing::UnorderedElementsAreArray;
+
+// ---- output
+
+TEST_F(HybridSlam, OutputThatCannotBeWritten) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  output = folder.write("file", "in its place");
+  expectError(replay(log), output);
+  EXPECT_EQ(contentOf(output), "in its place");
+  output += "/below";
+  expectError(replay(log), output);
+}
+
+TEST_F(HybridSlam, OutputFolderNotWritable) {
+  fs::create_directory(output);
+  fs::permissions(output, fs::perms::owner_read | fs::perms::owner_exec);
+  if (access(output.c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who may write everywhere";
+  expectError(replay(test::laps(4)), "output folder not writable: " + output);
+}
+
+TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPart) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  for (const std::string& name : kResults) {
+    SCOPED_TRACE(name);
+    fs::remove_all(output);
+    fs::create_directories(output + "/" + name);
+    EXPECT_EQ(replay(log), 2);
+    EXPECT_EQ(err,
+              "hybrid-slam: error: cannot write: " + output + "/" + name + "; expected the name of a file\n");
+    for (const std::string& left : results()) EXPECT_THAT(kResults, testing::Contains(left));
+  }
+}
+
+/// A limit on the size of files stands in for a full disk: writing fails in the middle of a result.
+TEST_F(HybridSlam, DiskFull) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
+  ASSERT_EQ(replay(log), 0);
+  const std::string trajectory = result("trajectory.tum");
+  const auto largest = fs::file_size(output + "/map.png");
+  std::set<std::string> failures;
+  for (std::uintmax_t blocks = 1; blocks * 512 < largest; blocks *= 2) {
+    SCOPED_TRACE(blocks);
+    fs::remove_all(output);
+    EXPECT_EQ(replay(log, "", "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; "), 2);
+    EXPECT_THAT(err, MatchesRegex(kErrorLine));
+    EXPECT_THAT(err, AllOf(StartsWith("hybrid-slam: error: cannot write: " + output + "/"),
+                           HasSubstr("room on its disk")));
+    failures.insert(err);
+    EXPECT_THAT(results(), testing::AnyOf(IsEmpty(), testing::ElementsAre("trajectory.tum")));
+    if (!results().empty()) {
+      EXPECT_EQ(result("trajectory.tum"), trajectory);
+    }
+  }
+  EXPECT_EQ(failures.size(), 2u) << "first the trajectory, then the picture did not fit";
+}
+
+// ---- processes
+
+std::vector<char*> pointersTo(const std::vector<std::string>& arguments) {
+  std::vector<char*> argv;
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  return argv;
+}
+
+/// Starts the program without a shell between; gives its process.
+pid_t start(const std::vector<std::string>& arguments, const std::string& errorFile) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int file = open(errorFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(file, STDERR_FILENO);
+    execv(HYBRID_SLAM, pointersTo(arguments).data());
+    _exit(127);
+  }
+  return child;
+}
+
+int exitCodeOf(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// What the program writes on a terminal, and its exit code.
+std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments) {
+  int terminal = 0;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execv(HYBRID_SLAM, pointersTo(arguments).data());
+    _exit(127);
+  }
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<size_t>(n));
+  close(terminal);
+  return {text, exitCodeOf(child)};
+}
+
+TEST_F(HybridSlam, ATerminalGetsABarWithTheTimeLeft) {
+  Log log = test::laps(100);
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const auto [text, code] = onTerminal({"hybrid-slam", "-o", output, ini, path});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(text, HasSubstr("\r[##############################] 100 %  0:00 left  spread "));
+  EXPECT_THAT(text, HasSubstr("\n100 scans, ")) << "the bar's line is ended";
+
+  std::dynamic_pointer_cast<test::CObservation2DRangeScan>(log.back())->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  ini = folder.write("every.ini", "[particle_filter]\nupdate_distance = 0\nparticles = 300\n");
+  const auto [error, errorCode] =
+      onTerminal({"hybrid-slam", "-o", output, ini, test::writeGzipped(path, log)});
+  EXPECT_EQ(errorCode, 2);
+  EXPECT_THAT(error, HasSubstr("\nhybrid-slam: error: the laser's scan plane is tilted"))
+      << "also by an error";
+}
+
+TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4000));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    fs::remove_all(output);
+    const pid_t child =
+        start({"hybrid-slam", "-q", "-n", "300", "-o", output, ini, log}, folder.path("stderr"));
+    while (!fs::exists(output + "/.partial.steps.csv") && kill(child, 0) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that some scans are through
+    kill(child, signal);
+    EXPECT_EQ(exitCodeOf(child), 1);
+    err = contentOf(folder.path("stderr"));
+    EXPECT_THAT(err, MatchesRegex(kErrorLine));
+    EXPECT_THAT(err, HasSubstr("interrupted: entry "));
+    EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
+    EXPECT_LT(loadTum(output + "/trajectory.tum").size(), 4000u);
+  }
+}
+
+TEST_F(HybridSlam, PeakMemoryIsThatOfTheProgramAlone) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
+  {
+    const std::vector<char> large(700 << 20, 'x');  // resident in the process that starts it
+    ASSERT_EQ(large.back(), 'x');
+    EXPECT_EQ(exitCodeOf(start({"hybrid-slam", "-q", "-o", output, ini, log}, folder.path("stderr"))), 0);
+  }
+  EXPECT_LT(nlohmann::json::parse(result("metrics.json"))["peak_rss_mb"], 700);
+}
+
+TEST_F(HybridSlam, MemoryDoesNotGrowWithTheLogOfTheSamePlace) {
+  const auto peakOf = [this](size_t steps) {
+    EXPECT_EQ(replay(test::laps(steps), "-q -n 20"), 0) << err;
+    return nlohmann::json::parse(result("metrics.json"))["peak_rss_mb"].get<double>();
+  };
+  const double once = peakOf(800), twice = peakOf(1600);
+  EXPECT_LT(twice, 1.1 * once) << once << " MB, then " << twice << " MB";
+  RecordProperty("peak_rss_mb", std::to_string(once) + ", " + std::to_string(twice));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
