@@ -2,20 +2,25 @@
 /// @brief The uniform cubic B-spline: a smooth function through the neighbourhood of regular samples.
 #pragma once
 
-#include <array>
-
 namespace hybrid_slam {
+
+/// Four numbers that one instruction handles.
+using Float4 = float __attribute__((vector_size(16)));
+
+inline float sum(Float4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 /// The weights of the samples at -1, 0, 1 and 2 for the place t in [0, 1), and their derivatives by t. The
 /// spline keeps constant and linear functions, and blurs the others by 0.58 samples.
 struct SplineWeights {
-  explicit SplineWeights(double t) {
-    const double u = 1 - t;
-    value = {u * u * u / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * u * u + 3 * u * u * u) / 6,
-             t * t * t / 6};
-    slope = {-u * u / 2, (3 * t * t - 4 * t) / 2, (4 * u - 3 * u * u) / 2, t * t / 2};
-  }
-  std::array<double, 4> value, slope;
+  explicit SplineWeights(float t)
+      : value(kConstant + t * (kLinear + t * (kSquare + t * kCube))),
+        slope(kLinear + t * (2 * kSquare + t * (3 * kCube))) {}
+  Float4 value, slope;
+
+ private:
+  // (1-t)^3, 4 - 6 t^2 + 3 t^3, 1 + 3 t + 3 t^2 - 3 t^3, t^3; all / 6
+  static constexpr Float4 kConstant{1.f / 6, 4.f / 6, 1.f / 6, 0}, kLinear{-0.5f, 0, 0.5f, 0},
+      kSquare{0.5f, -1, 0.5f, 0}, kCube{-1.f / 6, 0.5f, -0.5f, 1.f / 6};
 };
 
 }  // namespace hybrid_slam

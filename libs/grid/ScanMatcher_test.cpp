@@ -48,10 +48,11 @@ void expectNear(const TPose2D& pose, const TPose2D& expected, double distance, d
   EXPECT_LT(std::abs(off.z()), angle) << pose.asString() << " for " << expected.asString();
 }
 
-/// Central differences of f by x, y and phi.
+/// Central differences of f by x, y and phi. The map is in single precision: with smaller steps its rounding
+/// (1e-7 of each beam, over the step) shows.
 template <class F>
 Eigen::Vector3d differences(const F& f, const TPose2D& pose) {
-  constexpr double kStep = 1e-6;
+  constexpr double kStep = 1e-4;
   Eigen::Vector3d gradient;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(k);
@@ -64,7 +65,7 @@ Eigen::Vector3d differences(const F& f, const TPose2D& pose) {
 double mapAt(const OccupancyGrid& grid, double x, double y) {
   ScanBeams point(LaserScan(), 1);
   point.rays.push_back({1, 0, 0});
-  return 1 - std::sqrt(-2 * matcher(1).logLikelihoodValue(point, {x, y, 0}, grid));
+  return 1 - std::sqrt(-2 * matcher(1).likelihood(point, grid).value({x, y, 0}));
 }
 
 TEST(ScanMatcher, TheMapIsTwoPMinusOneWhereItIsConstant) {
@@ -99,10 +100,10 @@ TEST(ScanMatcher, TheGradientIsThatOfTheValue) {
     const ScanBeams scan = beamsAt(kRoom, truth, random);
     const TPose2D pose(truth.x + 0.05 * random.gaussian(), truth.y + 0.05 * random.gaussian(),
                        truth.phi + 0.03 * random.gaussian());
-    const auto value = [&](const TPose2D& at) { return matcher().logLikelihoodValue(scan, at, room()); };
-    const LogDensity density = matcher().logLikelihood(scan, pose, room());
+    const auto value = [&](const TPose2D& at) { return matcher().likelihood(scan, room()).value(at); };
+    const LogDensity density = matcher().likelihood(scan, room())(pose);
     EXPECT_NEAR(density.value, value(pose), 1e-9 * std::abs(density.value));
-    EXPECT_LT((density.gradient - differences(value, pose)).norm(), 1e-5 * density.gradient.norm() + 1e-4);
+    EXPECT_LT((density.gradient - differences(value, pose)).norm(), 1e-4 * density.gradient.norm() + 1e-2);
   }
 }
 
@@ -114,7 +115,7 @@ TEST(ScanMatcher, TheInformationOfABeamIsThatOfItsSlope) {
     const TPose2D pose = somePose(random);
     ScanBeams scan = beamsAt(kRoom, pose, random);
     scan.rays = {scan.rays[static_cast<size_t>(i) % scan.rays.size()]};
-    const LogDensity density = matcher(0.2).logLikelihood(scan, pose, room());
+    const LogDensity density = matcher(0.2).likelihood(scan, room())(pose);
     const double residual = std::sqrt(-2 * density.value) * 0.2;
     const Eigen::Vector3d slope = density.gradient * 0.2 * 0.2 / residual;
     EXPECT_LT((density.information * 0.2 * 0.2 - slope * slope.transpose()).norm(),
@@ -128,8 +129,8 @@ TEST(ScanMatcher, SigmaDividesAllOfTheLikelihood) {
   RandomStream random(4, 0, 0);
   const ScanBeams scan = beamsAt(kRoom, {}, random);
   const TPose2D pose(0.02, -0.03, 0.01);
-  const LogDensity one = matcher(1).logLikelihood(scan, pose, room());
-  const LogDensity two = matcher(2).logLikelihood(scan, pose, room());
+  const LogDensity one = matcher(1).likelihood(scan, room())(pose);
+  const LogDensity two = matcher(2).likelihood(scan, room())(pose);
   EXPECT_NEAR(two.value, one.value / 4, 1e-9);
   EXPECT_LT((two.gradient - one.gradient / 4).norm(), 1e-9);
   EXPECT_LT((two.information - one.information / 4).norm(), 1e-9);
@@ -163,7 +164,7 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
     const ScanMatch match = matcher().match(scan, start, room(), kNoPrior);
     expectNear(match.pose, truth, 0.02, 0.5 * kDegree);
     EXPECT_GT(match.fit, 0.5);
-    EXPECT_GE(match.logPosterior, matcher().logLikelihoodValue(scan, start, room()));
+    EXPECT_GE(match.logPosterior, matcher().likelihood(scan, room()).value(start));
   }
 }
 

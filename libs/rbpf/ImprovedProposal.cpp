@@ -39,8 +39,9 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     if (lines) density += (*lines)(pose);
     return density;
   };
+  ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
   const ScanMatch match =
-      matcher_.match(scan.matchedBeams, particle.path.back() + stepMotion.start, particle.grid, prior);
+      matcher_.match(likelihood, particle.path.back() + stepMotion.start, particle.grid.resolution(), prior);
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
     return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
@@ -54,7 +55,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
             ? sampleMotion(stepMotion.start, configuration_.motion, random)
             : sampleMotion(stepMotion.odometry, particle.motion.model(configuration_.motion), random);
     proposed.pose = particle.path.back() + drawn;
-    proposed.logWeight = matcher_.logLikelihoodValue(scan.matchedBeams, proposed.pose, particle.grid);
+    proposed.logWeight = likelihood.value(proposed.pose);
     if (lines) {
       proposed.lineWeight = lineWeightAt(proposed.pose);
       proposed.logWeight += (*lines)(proposed.pose).value;
@@ -74,8 +75,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     const Eigen::Vector3d normal = standardNormal(random);
     offsets[k] = root * normal;
     const TPose2D pose = displaced(match.pose, offsets[k]);
-    logRatios[k] = matcher_.logLikelihoodValue(scan.matchedBeams, pose, particle.grid) + prior(pose).value +
-                   0.5 * normal.squaredNorm() + logVolume;
+    logRatios[k] = likelihood.value(pose) + prior(pose).value + 0.5 * normal.squaredNorm() + logVolume;
   }
   const double highest = *std::max_element(logRatios.begin(), logRatios.end());
   double sum = 0;

@@ -41,7 +41,7 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
   const MotionDistribution motion =
       motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion));
   const Eigen::Matrix3d root = motion.covariance.llt().matrixL();
-  const ScanMatcher matcher(c.matcher);
+  ScanLikelihood likelihood = ScanMatcher(c.matcher).likelihood(scan.matchedBeams, particle.grid);
   const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, c);
   constexpr int kHalf = 18;
   constexpr double kStep = 0.25;
@@ -51,8 +51,7 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
       for (int k = -kHalf; k <= kHalf; ++k) {
         const Eigen::Vector3d normal = kStep * Eigen::Vector3d(i, j, k), off = root * normal;
         const TPose2D pose(motion.mean.x + off.x(), motion.mean.y + off.y(), motion.mean.phi + off.z());
-        double density = std::exp(matcher.logLikelihoodValue(scan.matchedBeams, pose, particle.grid) -
-                                  0.5 * normal.squaredNorm()) *
+        double density = std::exp(likelihood.value(pose) - 0.5 * normal.squaredNorm()) *
                          std::pow(kStep / std::sqrt(2 * M_PI), 3);
         if (c.useLines) density *= std::exp(lines(pose).value);
         all.mass += density;

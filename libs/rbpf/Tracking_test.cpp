@@ -232,6 +232,23 @@ TEST(Tracking, MrptsLikelihoodsTakeThreads) {
   }
 }
 
+/// A robot that veers by 6 deg/m, which the motion model's variances (1 deg in a step of 0.25 m) would have to
+/// explain again and again.
+TEST(Tracking, TheStandardProposalLearnsASystematicError) {
+  std::vector<DriveStep> steps = drive(6);
+  for (DriveStep& step : steps) step.odometry.phi -= 6 * kDegree * step.odometry.x;
+  double learnt = 0, notLearnt = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    FilterConfiguration c = roomConfiguration();
+    c.filter.seed = seed;
+    c.motion.turn.meanStd = 0.05;
+    learnt += run(c, steps).error;
+    for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn}) term->meanStd = 0;
+    notLearnt += run(c, steps).error;
+  }
+  EXPECT_LT(learnt, 0.7 * notLearnt);
+}
+
 TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
   for (const auto proposal : {Proposal::auxiliaryStandard, Proposal::auxiliaryOptimal}) {
     FilterConfiguration c = with(proposal, true);
