@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The tables of doc/accuracy.md: the improved proposal on the public logs and the simulated loop, lines on and off.
+# The tables of doc/accuracy.md: both proposals on the public logs and the simulated loop, lines on and off, and
+# MRPT's own RBPF.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
 # SEEDS=10 runs of each group. Interrupted, it goes on where it was.
 source "$(dirname "$0")/lib.sh"
@@ -17,6 +18,15 @@ done
 [[ -f $out/csie-slip.rawlog ]] ||
   "$bin/simul-floorplan" -q config-ini/simul-csie-loop.ini --set "odometry.slips=120 30 0" -o "$out/csie-slip.rawlog"
 
+# revisits FOLDER: how far apart walls lie that runs on DP-SLAM's loop saw twice; there is no reference.
+revisits() {
+  local run
+  for run in "$1"/runs/*/; do
+    echo "$(basename "$run"): $("$bin/slam-eval" revisits --distance 8 --trajectory "$run/trajectory.tum" \
+      --rawlog "$out/dpslam-loop5.rawlog" | tr -d '\n')"
+  done | tee "$1/revisits.txt"
+}
+
 compare=("$bin/slam-compare" --seeds "$seeds")
 improved=("${compare[@]}" --set particle_filter.proposal=improved --methods hybrid,general)
 intel=(config-ini/lms-logs.ini "$out/intel-lab.rawlog" --relations "$logs/intel-lab.relations"
@@ -32,15 +42,22 @@ loop=(config-ini/csie-lms100.ini $csie/csie-loop.rawlog --reference $csie/csie-l
 "${improved[@]}" config-ini/csie-lms100.ini "$out/csie-slip.rawlog" -n 15 --reference "$out/csie-slip.tum" \
   --floorplan $csie/csie.plan -o "$out/csie-slip"
 "${improved[@]}" config-ini/lms-logs.ini "$out/dpslam-loop5.rawlog" -n 5,15 -o "$out/dpslam"
-for run in "$out"/dpslam/runs/*/; do
-  echo "$(basename "$run"): $("$bin/slam-eval" revisits --distance 8 --trajectory "$run/trajectory.tum" \
-    --rawlog "$out/dpslam-loop5.rawlog" | tr -d '\n')"
-done | tee "$out/dpslam/revisits.txt"
+revisits "$out/dpslam"
 
 # The paper's proposal, with and without lines, the latter with other temperings of the grid's weight too.
-tempered=(--variant general/e30:grid_weight.exponent=30 --variant general/e120:grid_weight.exponent=120)
-"$bin/slam-compare" --seeds $((3 * seeds)) "${intel[@]}" -n 20 "${tempered[@]}" -o "$out/intel-standard"
-"$bin/slam-compare" --seeds $((3 * seeds)) "${loop[@]}" -n 20 --set grid_weight.exponent=20 \
-  --variant general/e60:grid_weight.exponent=60 --variant general/e120:grid_weight.exponent=120 \
-  -o "$out/csie-standard"
+tempered=(--variant general/e10:grid_weight.exponent=10 --variant general/e60:grid_weight.exponent=60
+  --variant general/e120:grid_weight.exponent=120)
+standard=("$bin/slam-compare" --seeds $((3 * seeds)) --methods hybrid,general -n 20)
+"${standard[@]}" "${intel[@]}" "${tempered[@]}" -o "$out/intel-standard"
+"${standard[@]}" "${loop[@]}" "${tempered[@]}" -o "$out/csie-standard"
+"${standard[@]}" "${csail[@]}" -o "$out/csail-standard"
+
+# MRPT's own RBPF with its shipped ICP set-up; slow, so few seeds.
+stock=("$bin/slam-compare" --seeds $((seeds < 3 ? seeds : 3)) --methods stock -n 10
+  --variant "stock/shipped:@/usr/share/mrpt/config_files/rbpf-slam/gridmapping_RBPF_ICPbased_intel.ini")
+"${stock[@]}" "${intel[@]}" -o "$out/intel-stock"
+"${stock[@]}" "${csail[@]}" -o "$out/csail-stock"
+"${stock[@]}" "${loop[@]}" -o "$out/csie-stock"
+"${stock[@]}" config-ini/lms-logs.ini "$out/dpslam-loop5.rawlog" -o "$out/dpslam-stock"
+revisits "$out/dpslam-stock"
 echo "Reports: $(ls "$out"/*/report.html | tr '\n' ' ')"
