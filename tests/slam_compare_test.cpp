@@ -266,6 +266,15 @@ TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
   EXPECT_EQ(table("results.csv").at(0).at("status"), "done");
 }
 
+TEST_F(SlamCompare, OptionsMayStandBeforeTheFiles) {
+  for (const std::string last : {"-m hybrid,general", "-n 4,5"}) {
+    const Outcome list = shell(std::string("'") + SLAM_COMPARE + "' -o out --seeds 1 --list " + last + " " +
+                               config + " " + kLog);
+    EXPECT_EQ(list.status, 0) << list.err;
+    EXPECT_THAT(list.out, HasSubstr("general-"));
+  }
+}
+
 TEST_F(SlamCompare, TwoAtOnceInOneFolderIsAnError) {
   fs::create_directories(folder.path("out"));
   EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),

@@ -45,10 +45,12 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("-m,--methods", line.methods,
                  "of hybrid, general, stock; the first is what others are tested against")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->capture_default_str();
   app.add_option("-n,--particles", line.particles,
                  "particle counts, for all methods or for one (default: the INI file's)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("[METHOD:]N");
   app.add_option("--seeds", line.seeds, "runs of each group")->capture_default_str();
   app.add_option("--first-seed", line.firstSeed, "the seeds count up from here")->capture_default_str();
