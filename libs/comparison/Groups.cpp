@@ -31,8 +31,9 @@ void checkSetting(const std::string& setting, const std::string& where) {
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
     throw InputError("wrong setting `" + setting + "`", where, "expected SECTION.KEY=VALUE");
   const std::string section = lower(setting.substr(0, dot)), key = lower(setting.substr(0, equals));
-  if ((section == "run" && key != "run.particles_every") || key == "particle_filter.particles" ||
-      key == "particle_filter.seed" || key == "particle_filter.threads")
+  const bool isOfTheRunItself = section == "run" && key != "run.particles_every" && key != "run.refine";
+  if (isOfTheRunItself || key == "particle_filter.particles" || key == "particle_filter.seed" ||
+      key == "particle_filter.threads")
     throw InputError(
         "setting of `" + setting.substr(0, equals) + "`", where,
         "expected one that the comparison does not vary itself (--methods, --particles, --seeds)");

@@ -52,6 +52,7 @@ TEST(Setting, WhatTheComparisonVariesItselfIsRefused) {
     EXPECT_THAT(errorOf([&] { checkSetting(setting, "option --set"); }), HasSubstr("option --set"))
         << setting;
   EXPECT_EQ(errorOf([] { checkSetting("run.particles_every=5", "here"); }), "no error");
+  EXPECT_EQ(errorOf([] { checkSetting("run.refine=1", "here"); }), "no error");
   EXPECT_EQ(errorOf([] { checkSetting("particle_filter.ess_threshold=0.3", "here"); }), "no error");
 }
 
