@@ -168,5 +168,30 @@ TEST(OccupancyGrid, ACopyKeepsItsMap) {
   EXPECT_EQ(second.tiles().at({3, 0}), 2 * kHit);
 }
 
+TEST(OccupancyGrid, WhatHasComeToItsBoundsStaysShared) {
+  const ScanBeams scan = beams({{-0.5, 3}, {0, 4}, {0.5, 3.5}});
+  OccupancyGrid first(0.05);
+  for (int i = 0; i < 120; ++i) first.insert(scan, {}, update());
+  OccupancyGrid second = first;
+  second.insert(scan, {}, update());
+  size_t tiles = 0;
+  first.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
+    EXPECT_EQ(second.tiles().tileAt(tx, ty), &tile);
+    ++tiles;
+  });
+  EXPECT_GE(tiles, 4u);
+}
+
+/// More beams through a cell than a count holds.
+TEST(OccupancyGrid, AThousandBeamsThroughOneCell) {
+  std::vector<Reading> readings;
+  for (int i = 0; i < 1000; ++i) readings.push_back({0.001 * i - 0.5, 3});
+  OccupancyGrid grid(0.05);
+  GridOptions options = update();
+  options.pMin = 0.001;
+  grid.insert(beams(readings), {0.025, 0.025, 0}, options);
+  EXPECT_EQ(grid.tiles().at({0, 0}), -111);  // 16 ln(0.001 / 0.999) = -110.5
+}
+
 }  // namespace
 }  // namespace hybrid_slam

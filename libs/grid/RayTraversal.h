@@ -47,7 +47,7 @@ void traverseRay(double originX, double originY, double dirX, double dirY, doubl
 }
 
 /// As traverseRay, but leaves out squares of cells known to be free (see Tile): calls visit(value, entry,
-/// exit) with the cells' values.
+/// exit) with the cells' values. Inlined, so that what `visit` counts stays in registers.
 template <class Visit>
 [[gnu::always_inline]] inline void traverseObstacles(TileReader& cells, double originX, double originY,
                                                      double dirX, double dirY, double length,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -122,6 +123,62 @@ TEST(RayTraversal, StopsWhenItIsTold) {
   int visits = 0;
   traverseRay(0.5, 0.5, 1, 0, 100, [&](int x, int, double, double) { return ++visits, x < 3; });
   EXPECT_EQ(visits, 4);
+}
+
+/// Cells that are not free, with how far the ray goes in each; free ones may be left out or not.
+TEST(TraverseObstacles, MeetsTheSameObstaclesAsACellByCellWalk) {
+  RandomStream random(7, 0, 0);
+  size_t met = 0, freeCells = 0, freeVisited = 0;
+  for (int world = 0; world < 30; ++world) {
+    TileGrid grid;
+    for (int y = -96; y < 96; ++y)  // free, unknown beyond, a few obstacles
+      for (int x = -96; x < 96; ++x)
+        grid.set({x, y},
+                 static_cast<int8_t>(random.uniform() < 0.003 * world ? 1 + random.bits() % 100 : -5));
+    TileReader cells(grid);
+    for (int i = 0; i < 60; ++i) {
+      Ray r = ray(60 * random.uniform() - 30, 60 * random.uniform() - 30,
+                  i < 8 ? i * M_PI / 4 : 2 * M_PI * random.uniform(), 200 * random.uniform());
+      if (i < 8) {  // along the axes and the diagonals, from a cell's border
+        r.x = std::floor(r.x), r.y = std::floor(r.y);
+        r.dirX = std::round(r.dirX), r.dirY = std::round(r.dirY);
+        const double norm = std::hypot(r.dirX, r.dirY);
+        r.dirX /= norm, r.dirY /= norm;
+      }
+      std::vector<std::pair<int, double>> expected, seen;  // value, length
+      constexpr double kRounding = 1e-9;
+      for (const Crossing& c : cross(r)) {
+        const int value = grid.at({c.x, c.y});
+        freeCells += value < 0;
+        if (value >= 0 && c.exit - c.entry > kRounding) expected.push_back({value, c.exit - c.entry});
+      }
+      double last = 0;
+      traverseObstacles(cells, r.x, r.y, r.dirX, r.dirY, r.length,
+                        [&](int8_t value, double entry, double exit) {
+                          EXPECT_GE(entry, last - kRounding);
+                          last = exit;
+                          freeVisited += value < 0;
+                          if (value >= 0 && exit - entry > kRounding) seen.push_back({value, exit - entry});
+                          return true;
+                        });
+      ASSERT_EQ(seen.size(), expected.size()) << world << " " << i;
+      for (size_t k = 0; k < seen.size(); ++k) {
+        ASSERT_EQ(seen[k].first, expected[k].first);
+        ASSERT_NEAR(seen[k].second, expected[k].second, 1e-9);
+      }
+      met += seen.size();
+    }
+  }
+  EXPECT_GT(met, 10000u);
+  EXPECT_LT(freeVisited, freeCells);  // what it is for
+}
+
+TEST(TraverseObstacles, EndsWhereTheVisitSaysSo) {
+  const TileGrid grid;
+  TileReader cells(grid);
+  int visits = 0;
+  traverseObstacles(cells, 0.5, 0.5, 1, 0, 100, [&](int8_t, double, double) { return ++visits < 20; });
+  EXPECT_EQ(visits, 20);
 }
 
 }  // namespace
