@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -13,9 +14,11 @@
 
 namespace hybrid_slam {
 
-/// Says on standard error why the program ends. HYBRID_SLAM_PROGRAM is its name, from CMake.
+/// Says on standard error why the program ends, in one line whatever the user's words in it hold.
+/// HYBRID_SLAM_PROGRAM is its name, from CMake.
 /// @return the exit code
-inline int fail(int code, const std::string& message) {
+inline int fail(int code, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << HYBRID_SLAM_PROGRAM ": error: " << message << "\n";
   return code;
 }
@@ -51,7 +54,5 @@ inline int exitCodeOf(const std::function<int()>& work,
 inline std::string runFailed(const std::string& config, const std::exception& error) {
   return "run failed: " + config + "; " + messageOf(error);
 }
-
-inline std::string firstLineOf(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace hybrid_slam

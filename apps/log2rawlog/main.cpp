@@ -17,11 +17,6 @@ namespace {
 using hybrid_slam::LogFormat;
 using hybrid_slam::LogTime;
 
-int failInOneLine(int code, std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return hybrid_slam::fail(code, text);
-}
-
 /// CLI::Range lets `nan` pass.
 CLI::Validator within(double low, double high) {
   std::ostringstream range;
@@ -66,9 +61,7 @@ void warnOfShortMode(const std::string& input, float longestRange) {
             << "; --max-range 8.18 drops them\n";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
+int convert(int argc, char** argv) {
   std::string input, output;
   hybrid_slam::LogConversionOptions options;
   std::optional<double> angularStepDeg;
@@ -122,8 +115,10 @@ int main(int argc, char** argv) try {
   warnOfShortMode(input, summary.longestRange);
   printSummary(output, summary);
   return 0;
-} catch (const hybrid_slam::InputError& e) {
-  return failInOneLine(2, e.what());
-} catch (const std::exception& e) {
-  return failInOneLine(1, e.what());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return hybrid_slam::exitCodeOf([&] { return convert(argc, argv); });
 }

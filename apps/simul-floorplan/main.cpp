@@ -138,7 +138,5 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // MRPT's own messages run over several lines.
-  return exitCodeOf([&] { return parseAndRun(argc, argv); },
-                    [](const std::exception& e) { return firstLineOf(e.what()); });
+  return exitCodeOf([&] { return parseAndRun(argc, argv); });
 }

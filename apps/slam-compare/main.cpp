@@ -224,9 +224,6 @@ std::string quoted(const std::vector<std::string>& arguments) {
   return command;
 }
 
-/// The user's words, which may hold line ends, are in many of its messages.
-int failInOneLine(int code, const std::string& text) { return fail(code, firstLineOf(text)); }
-
 int run(const CommandLine& line, const std::string& command) {
   check(line);
   std::vector<Variant> variants;
@@ -273,9 +270,8 @@ int run(const CommandLine& line, const std::string& command) {
     outcome = runSweep(sweep, jobs, stop, tell);
   }
   if (outcome.isInterrupted)
-    return failInOneLine(1, "interrupted: folder " + line.output + ", " +
-                                std::to_string(outcome.kept + outcome.done) + " of " +
-                                std::to_string(sweep.size()) + " runs are finished; the same call goes on");
+    return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
+                       " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
 
   ReportInput report{command,
                      HYBRID_SLAM_VERSION,
@@ -303,8 +299,8 @@ int run(const CommandLine& line, const std::string& command) {
   size_t failed = 0;
   for (const RunResult& r : report.results) failed += r.status == RunResult::Status::failed;
   if (failed > 0)
-    return failInOneLine(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) +
-                                " runs failed: folder " + line.output + "; see report.html");
+    return fail(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) + " runs failed: folder " +
+                       line.output + "; see report.html");
   return 0;
 }
 
@@ -318,16 +314,12 @@ int main(int argc, char** argv) {
                "slam-compare");
   CommandLine line;
   describe(app, line);
-  try {
+  return exitCodeOf([&] {
     if (const auto code = parse(app, argc, argv)) return *code;
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     return run(line, quoted(command));
-  } catch (const InputError& error) {
-    return failInOneLine(2, error.what());
-  } catch (const std::exception& error) {
-    return failInOneLine(1, error.what());
-  }
+  });
 }
