@@ -141,7 +141,7 @@ world() {
 simulated_tables() {
   world 20 11 world-20
   world 200 1 world-200
-  world 20 22 world-20-long
+  world 20 110 world-20-long
   local options=(-n 20 -j 1) name
   for name in world-20 world-200 world-20-long; do
     measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$name.rawlog" -q -o "$name" "${options[@]}"
@@ -159,8 +159,8 @@ simulated_tables() {
       "| $(ratio "$last" "$first") | $(memory "$name") |"
   done
   echo
-  echo "200 m against 20 m, about the same way driven: $(ratio "$(per_update world-200)" "$(per_update world-20)") times the time per update."
-  echo "Twice the log of 20 m: $(ratio "$(per_update world-20-long)" "$(per_update world-20)") times the time per update."
+  echo "200 m against 20 m, about the same way driven: $(ratio "$(mean_step world-200 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
+  echo "Ten times the log of 20 m: $(ratio "$(mean_step world-20-long 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
   local csie=500
   [[ -z ${FULL:-} ]] || csie=5000
   measure csie "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$PWD/datasets/csie/csie-loop.rawlog" -q -o csie \
