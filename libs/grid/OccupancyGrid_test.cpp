@@ -116,16 +116,6 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   EXPECT_TRUE(grid.tiles().bounds().empty());
 }
 
-TEST(OccupancyGrid, EveryNthBeamOfAScan) {
-  LaserScan scan;
-  for (int i = 0; i < 10; ++i) scan.beams.push_back({0, i + 1.0, i != 3});
-  const ScanBeams some(scan, 3);  // 0, 3, 6, 9, of which 3 is not valid
-  ASSERT_EQ(some.rays.size(), 3u);
-  EXPECT_EQ(some.rays[0].range, 1);
-  EXPECT_EQ(some.rays[1].range, 7);
-  EXPECT_EQ(some.rays[2].range, 10);
-}
-
 /// Random scans against the rules applied cell by cell to a plain map.
 TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
   RandomStream random(1, 0, 0);

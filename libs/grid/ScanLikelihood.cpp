@@ -34,7 +34,8 @@ const std::array<float, 256>& occupied() {
 
 ScanLikelihood::ScanLikelihood(const ScanBeams& scan, const OccupancyGrid& grid, double sigma)
     : scan_(scan),
-      perCell_(1 / grid.resolution()),
+      resolution_(grid.resolution()),
+      perCell_(1 / resolution_),
       weight_(1 / (sigma * sigma)),
       cells_(grid.tiles()),
       patches_(scan.rays.size()) {}

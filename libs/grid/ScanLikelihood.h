@@ -30,6 +30,7 @@ class ScanLikelihood {
   double value(const mrpt::math::TPose2D& pose);
   /// Mean over the beams of m at their ends, in [0, 1]; 0 without a beam.
   double fit(const mrpt::math::TPose2D& pose);
+  double resolution() const { return resolution_; }  ///< of the grid, m
 
  private:
   /// m of the 4 x 4 cells from (x, y) on, row by row.
@@ -44,7 +45,7 @@ class ScanLikelihood {
   void forEachEnd(const mrpt::math::TPose2D& pose, const Visit& visit);
 
   const ScanBeams& scan_;
-  double perCell_, weight_;
+  double resolution_, perCell_, weight_;
   TileReader cells_;
   std::vector<Patch> patches_;  ///< of each beam
 };

@@ -43,8 +43,9 @@ namespace {
 /// Minus the second derivative of the likelihood, without its negative part: differences of the gradient 1.5
 /// cells (3/4 deg) to either side. The sum of squared slopes that Gauss-Newton climbs by takes the roughness
 /// of a sparsely hit wall for information along it, and has none on the ridge of a wall.
-Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose, double resolution) {
-  const Eigen::Vector3d reach(1.5 * resolution, 1.5 * resolution, 0.75 * M_PI / 180);
+Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
+  const double cells = 1.5 * likelihood.resolution();
+  const Eigen::Vector3d reach(cells, cells, 0.75 * M_PI / 180);
   Eigen::Matrix3d bend;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);
@@ -61,11 +62,10 @@ Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose, doubl
 ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
                              const Prior& prior) const {
   ScanLikelihood on = likelihood(scan, grid);
-  return match(on, start, grid.resolution(), prior);
+  return match(on, start, prior);
 }
 
-ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, double resolution,
-                             const Prior& prior) const {
+ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, const Prior& prior) const {
   constexpr double kSmallStep = 1e-4;  // m or rad
   const auto posterior = [&](const TPose2D& at) {
     LogDensity density = likelihood(at);
@@ -92,7 +92,7 @@ ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, d
   ScanMatch match;
   match.pose = pose;
   match.logPosterior = here.value;
-  match.information = curvature(likelihood, match.pose, resolution) + prior(match.pose).information;
+  match.information = curvature(likelihood, match.pose) + prior(match.pose).information;
   match.fit = likelihood.fit(match.pose);
   return match;
 }

@@ -54,9 +54,8 @@ class ScanMatcher {
   ScanMatch match(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
                   const Prior& prior) const;
 
-  /// The same, of a likelihood on a grid with cells of `resolution` (m) that is wanted for more.
-  ScanMatch match(ScanLikelihood& likelihood, const mrpt::math::TPose2D& start, double resolution,
-                  const Prior& prior) const;
+  /// The same, of a likelihood that is wanted for more.
+  ScanMatch match(ScanLikelihood& likelihood, const mrpt::math::TPose2D& start, const Prior& prior) const;
 
  private:
   ScanMatcherOptions options_;

@@ -40,8 +40,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     return density;
   };
   ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
-  const ScanMatch match =
-      matcher_.match(likelihood, particle.path.back() + stepMotion.start, particle.grid.resolution(), prior);
+  const ScanMatch match = matcher_.match(likelihood, particle.path.back() + stepMotion.start, prior);
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
     return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);

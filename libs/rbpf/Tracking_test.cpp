@@ -246,7 +246,7 @@ TEST(Tracking, TheStandardProposalLearnsASystematicError) {
     for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn}) term->meanStd = 0;
     notLearnt += run(c, steps).error;
   }
-  EXPECT_LT(learnt, 0.7 * notLearnt);
+  EXPECT_LT(learnt, 0.7 * notLearnt);  // 0.49
 }
 
 TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
