@@ -13,7 +13,7 @@
 
 #include "Machine.h"
 #include "grid/PenetrationModel.h"
-#include "grid/RayTraversal.h"
+#include "grid/RaySamples.h"
 #include "rbpf/HybridMapBuilder.h"
 #include "rbpf/MappedRoom.h"
 
@@ -41,28 +41,26 @@ struct Scene {
   FilterConfiguration options;
 };
 
+/// Calls visit(cellX, cellY) for each step of a cell's length along the beams, to `beyond` (m) behind the
+/// readings.
 template <class Visit>
-void forEachCell(const Scene& s, double beyond, const Visit& visit) {
+void forEachStep(const Scene& s, const ScanBeams& beams, double beyond, const Visit& visit) {
   const double cell = s.particle.grid.resolution();
-  const GridPose frame(s.pose, s.scan.beams, cell);
-  for (const auto& ray : s.scan.beams.rays)
-    traverseRay(frame.originX, frame.originY, frame.dirX(ray), frame.dirY(ray), (ray.range + beyond) / cell,
-                visit);
+  const GridPose frame(s.pose, beams, cell);
+  for (const auto& ray : beams.rays) {
+    RaySamples place(frame.originX, frame.originY, frame.dirX(ray), frame.dirY(ray));
+    const int last = static_cast<int>((ray.range + beyond) / cell);
+    for (int i = 0; i <= last; ++i, place.advance()) visit(place.cellX(), place.cellY());
+  }
 }
 
-template <class Visit>
-void forEachObstacle(const Scene& s, double beyond, const Visit& visit) {
-  const double cell = s.particle.grid.resolution();
-  const GridPose frame(s.pose, s.scan.beams, cell);
-  TileReader reader(s.particle.grid.tiles());
-  for (const auto& ray : s.scan.beams.rays)
-    traverseObstacles(reader, frame.originX, frame.originY, frame.dirX(ray), frame.dirY(ray),
-                      (ray.range + beyond) / cell, visit);
-}
-
-double cells(const Scene& s, double beyond) {
+/// Cells that the beams cross as insertion counts them: one in each column, or in each row.
+double crossedCells(const Scene& s) {
   double count = 0;
-  forEachCell(s, beyond, [&](int, int, double, double) { return ++count, true; });
+  const GridPose frame(s.pose, s.scan.beams, s.particle.grid.resolution());
+  for (const auto& ray : s.scan.beams.rays)
+    count += 1 + std::floor(ray.range / s.particle.grid.resolution() *
+                            std::max(std::abs(frame.dirX(ray)), std::abs(frame.dirY(ray))));
   return count;
 }
 
@@ -71,50 +69,51 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   std::vector<Kernel> all;
   const double beams = static_cast<double>(s.scan.beams.rays.size());
 
-  // Two min, one clip, the loop's test, the choice of the axis, one addition: 6.
-  constexpr double kStep = 6;
+  // Two additions and two shifts of integers, the loop's count: 5; x and y go together.
+  constexpr double kStep = 5;
+  double steps = 0;
+  forEachStep(s, s.scan.beams, 0, [&](int, int) { ++steps; });
+  all.push_back({"beam traversal", "step", steps, kStep, 0, true,
+                 [&s] {
+                   int sum = 0;
+                   forEachStep(s, s.scan.beams, 0, [&](int x, int y) { sum += x ^ y; });
+                   DoNotOptimize(sum);
+                 },
+                 "the sum that the benchmark keeps"});
+  // A step; the place of the count 2, compare, add; a count read and written.
   all.push_back(
-      {"beam traversal", "cell", cells(s, 0), kStep, 0, false,
-       [&s] {
-         int sum = 0;
-         forEachCell(s, 0, [&](int x, int y, double, double) { return sum += x ^ y, true; });
-         DoNotOptimize(sum);
-       },
-       "each cell waits for the one before (min, compare, add in a chain) and the branch between x and y "
-       "is guessed wrong now and then"});
-  // Traversal, a count read and written; then a row of cells at a time.
-  all.push_back(
-      {"insertion", "cell", cells(s, 0), kStep, 2 + 2, false,
+      {"insertion", "cell", crossedCells(s), kStep + 4, 2, false,
        [&s] { s.particle.grid.insert(s.scan.beams, s.pose, s.options.grid); },
-       "traversal's chain, a count is read, changed and written back before the next; and the tiles "
-       "that the scan touches are gone through"});
+       "a count is read, changed and written back before the next can be; and the tiles that the scan "
+       "touches are gone through"});
   static const PenetrationModel model(s.options.gridWeight, s.particle.grid.resolution());
-  // A step for each square, and for each cell of those that are not free; 26 (two exponentials) for each
-  // obstacle, most of which lie near the reading.
-  double walked = 0, met = 0;
-  forEachObstacle(s, 3 * s.options.gridWeight.sigma, [&](int8_t value, double, double) {
-    ++walked;
-    met += value >= 0;
-    return true;
+  // Where nothing can stop a beam 8 steps at once: two places, four bits, 14. Elsewhere a step, the place of
+  // the cell 4, product, difference, product and sum 4; a cell and two numbers read.
+  const double beyond = 3 * s.options.gridWeight.sigma;
+  double weighed = 0, met = 0;
+  forEachStep(s, s.scan.weighedBeams, beyond, [&](int x, int y) {
+    ++weighed;
+    met += s.particle.grid.tiles().at({x, y}) >= 0;
   });
-  const double allCells = cells(s, 0), squares = allCells / Tile::kSquareSize;
   all.push_back(
-      {"penetration weight", "cell", allCells, (kStep * (squares + walked) + 26 * met) / allCells,
-       (2 * squares + walked + 24 * met) / allCells, false,
+      {"penetration weight", "step", weighed, ((weighed - met) / 8 * 14 + met * (kStep + 8)) / weighed,
+       ((weighed - met) / 8 * 8 + met * 17) / weighed, false,
        [&s] { DoNotOptimize(model.meanLogLikelihood(s.scan.weighedBeams, s.pose, s.particle.grid)); },
-       "traversal's chain, and wrong guesses of where free squares end"});
+       "free cells near others are gone through one by one; each product waits for the one before; where "
+       "free squares end is guessed wrong now and then"});
   // End of the beam 12, floors 4, residual 3; on four floats weights 12, columns 7, row 4. The patch of 16
   // floats is kept from call to call.
   static const ScanMatcher matcher(s.options.matcher);
+  const double matched = static_cast<double>(s.scan.matchedBeams.rays.size());
   static ScanLikelihood likelihood = matcher.likelihood(s.scan.matchedBeams, s.particle.grid);
   constexpr double kValue = 19 + 2 * 23, kPatch = 16 * 4 + 12;
-  all.push_back({"logLikelihoodValue", "beam", beams, kValue, kPatch, true,
+  all.push_back({"logLikelihoodValue", "beam", matched, kValue, kPatch, true,
                  [&s] { DoNotOptimize(likelihood.value(s.pose)); },
                  "single numbers are put into and taken out of the vectors of four"});
   // The same with slopes: on four floats weights +8, columns +7, rows +8; the products of gradient and
   // information 30.
   constexpr double kSlope = kValue + 2 * 23 + 30;
-  all.push_back({"logLikelihood", "beam", beams, kSlope, kPatch, true,
+  all.push_back({"logLikelihood", "beam", matched, kSlope, kPatch, true,
                  [&s] { DoNotOptimize(likelihood(s.pose)); },
                  "as above; ten sums are carried from beam to beam"});
   const TPose2D start = s.pose + TPose2D(0.03, 0.02, 0.01);
@@ -125,7 +124,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   match([&](const TPose2D&) { return ++evaluations, LogDensity(); });
   // Every step is one logLikelihood, the curvature six, the fit one value.
   all.push_back(
-      {"match", "beam", beams, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7), true,
+      {"match", "beam", matched, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7), true,
        [match] { match([](const TPose2D&) { return LogDensity(); }); },
        "that of logLikelihood; and the cells around the ends are read again where a step changes them"});
   // What a copy reads and writes; the map itself is shared.

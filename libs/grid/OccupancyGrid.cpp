@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "grid/RayTraversal.h"
+#include "grid/RaySamples.h"
 
 namespace hybrid_slam {
 namespace {
@@ -14,8 +14,9 @@ int logOdds(double p) {
   return static_cast<int>(std::lround(std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale));
 }
 
-/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. The
-/// memory is kept between calls.
+/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. A beam
+/// crosses a cell in each column, or in each row if it is the steeper, as in MRPT's grid. The memory is kept
+/// between calls.
 class Footprint {
  public:
   static constexpr uint8_t kHit = 255;
@@ -23,12 +24,12 @@ class Footprint {
   Footprint(const ScanBeams& scan, const GridPose& pose, double cellSize) : counts_(buffer()) {
     std::vector<CellIndex> ends;
     ends.reserve(scan.rays.size());
-    CellIndex low{static_cast<int>(std::floor(pose.originX)), static_cast<int>(std::floor(pose.originY))};
+    CellIndex low{floorOf(pose.originX), floorOf(pose.originY)};
     CellIndex high = low;
     for (const auto& ray : scan.rays) {
       const double range = ray.range / cellSize;
-      const CellIndex end{static_cast<int>(std::floor(pose.originX + range * pose.dirX(ray))),
-                          static_cast<int>(std::floor(pose.originY + range * pose.dirY(ray)))};
+      const CellIndex end{floorOf(pose.originX + range * pose.dirX(ray)),
+                          floorOf(pose.originY + range * pose.dirY(ray))};
       low = {std::min(low.x, end.x), std::min(low.y, end.y)};
       high = {std::max(high.x, end.x), std::max(high.y, end.y)};
       ends.push_back(end);
@@ -40,13 +41,22 @@ class Footprint {
     counts_.assign(width_ * static_cast<size_t>(last_.y - first_.y + 1) * Tile::kSize, 0);
 
     for (const CellIndex& end : ends) at(end.x, end.y) = kHit;
-    for (const auto& ray : scan.rays)
-      traverseRay(pose.originX, pose.originY, pose.dirX(ray), pose.dirY(ray), ray.range / cellSize,
-                  [&](int x, int y, double, double) {
-                    uint8_t& count = at(x, y);
-                    count = static_cast<uint8_t>(count + (count < kHit - 1));  // so many reach any floor
-                    return true;
-                  });
+    uint8_t* const counts = counts_.data();  // and the width: a write of bytes might change what members say
+    const size_t width = width_;
+    // In the frame of the first tile, where no place is negative.
+    const double originX = pose.originX - first_.x * Tile::kSize,
+                 originY = pose.originY - first_.y * Tile::kSize;
+    for (const auto& ray : scan.rays) {
+      const double dirX = pose.dirX(ray), dirY = pose.dirY(ray);
+      const double perCell = std::max(std::abs(dirX), std::abs(dirY));
+      const int last = static_cast<int>(ray.range / cellSize * perCell);
+      RaySamples place(originX, originY, dirX / perCell, dirY / perCell);
+      for (int i = 0; i <= last; ++i, place.advance()) {
+        uint8_t& count =
+            counts[static_cast<size_t>(place.cellY()) * width + static_cast<size_t>(place.cellX())];
+        count = static_cast<uint8_t>(count + (count < kHit - 1));  // so many reach any floor
+      }
+    }
   }
 
   CellIndex firstTile() const { return first_; }

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/RandomStream.h"
-#include "grid/RayTraversal.h"
 
 namespace hybrid_slam {
 namespace {
@@ -138,12 +137,15 @@ TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
       hits.insert({end.x, end.y});
     }
     for (const auto& cell : hits) reference[cell] = std::min(reference[cell] + kHit, kHighest);
-    for (const Reading& r : readings)
-      traverseRay(laser.x / size, laser.y / size, std::cos(laser.phi + r.angle),
-                  std::sin(laser.phi + r.angle), r.range / size, [&](int x, int y, double, double) {
-                    if (!hits.count({x, y})) reference[{x, y}] = std::max(reference[{x, y}] + kMiss, kLowest);
-                    return true;
-                  });
+    for (const Reading& r : readings) {  // a cell in each column, or in each row if the beam is steep
+      const double dx = std::cos(laser.phi + r.angle), dy = std::sin(laser.phi + r.angle);
+      const double step = size / std::max(std::abs(dx), std::abs(dy));
+      for (double d = 0; d <= r.range; d += step) {
+        const CellIndex cell = grid.cellOf(laser.x + d * dx, laser.y + d * dy);
+        int& value = reference[{cell.x, cell.y}];
+        if (!hits.count({cell.x, cell.y})) value = std::max(value + kMiss, kLowest);
+      }
+    }
   }
   for (const auto& [cell, value] : reference)
     ASSERT_EQ(grid.tiles().at({cell.first, cell.second}), value) << cell.first << " " << cell.second;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/RayTraversal.h"
+#include "grid/RaySamples.h"
 
 namespace hybrid_slam {
 
@@ -27,67 +27,70 @@ void GridWeightOptions::describe(OptionTable& t) {
 
 namespace {
 
-/// exp(-x) for x in [0, kLargest], to 1e-11 of it: a table, and the next terms of the series from there.
-class NegativeExponential {
- public:
-  static constexpr int kLargest = 40;
-  NegativeExponential() {
-    for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = std::exp(-static_cast<double>(i) / kPerUnit);
-  }
-  double operator()(double x) const {
-    const int nearest = static_cast<int>(x * kPerUnit + 0.5);
-    const double rest = nearest * (1.0 / kPerUnit) - x;
-    const double square = rest * rest;
-    return nodes_[static_cast<size_t>(nearest)] *
-           ((1 + rest) + square * ((1.0 / 2 + (1.0 / 6) * rest) + (1.0 / 24) * square));
-  }
+constexpr int kBlock = 8;  // steps at a time: where all cells are free, all are left out
 
- private:
-  static constexpr int kPerUnit = 32;
-  std::array<double, kLargest * kPerUnit + 1> nodes_;
-};
-
-const NegativeExponential negativeExp;
+/// Whether a block of steps meets nothing: it is no longer than a square is wide, so that its cells lie in
+/// the squares at the corners of the rectangle that the first and the last step span.
+inline bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
+  const int x[] = {first.squareX(), last.squareX()}, y[] = {first.squareY(), last.squareY()};
+  const auto tileAt = [&](int squareX, int squareY) {
+    constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
+    return cells.tile(squareX >> kSquaresInTile, squareY >> kSquaresInTile);
+  };
+  const Tile* const tile = tileAt(x[0], y[0]);
+  if (tile == tileAt(x[1], y[1])) return tile && tile->isFree(x[0], y[0], x[1], y[1]);
+  for (const int squareX : x)
+    for (const int squareY : y) {
+      const Tile* const other = tileAt(squareX, squareY);
+      if (!other || !other->isFree(squareX, squareY)) return false;
+    }
+  return true;
+}
 
 }  // namespace
 
 PenetrationModel::PenetrationModel(const GridWeightOptions& options, double resolution)
-    : resolution_(resolution),
-      outlier_(options.outlier),
-      perSigma_(resolution / options.sigma),
-      window_(3 * options.sigma / resolution) {
+    : resolution_(resolution), outlier_(options.outlier) {
   for (int value = -128; value < 128; ++value) {
-    double& opacity = opacity_[static_cast<size_t>(value + 128)];
+    double& passes = passes_[static_cast<size_t>(value + 128)];
     if (value == 0)
-      opacity = resolution / options.unknownDepth;
+      passes = std::exp(-resolution / options.unknownDepth);
     else
-      opacity = value < 0 ? 0 : std::log1p(std::exp(OccupancyGrid::kLogOddsScale * value));  // -ln(1 - p)
+      passes = value < 0 ? 1 : 1 / (1 + std::exp(OccupancyGrid::kLogOddsScale * value));  // 1 - p
+  }
+  const double sigma = options.sigma / resolution;
+  behind_ = std::max(1, static_cast<int>(std::lround(3 * sigma)));
+  const int before = static_cast<int>(std::ceil(6 * sigma));  // exp(-18): nothing is added there
+  const int steps = (before + behind_ + kBlock - 1) / kBlock * kBlock;
+  for (int i = 0; i < steps; ++i) {
+    const double off = (behind_ - steps + i + 0.5) / sigma;
+    density_.push_back(std::exp(-0.5 * off * off));
   }
 }
 
 double PenetrationModel::beamLikelihood(double originX, double originY, double dirX, double dirY,
                                         double range, TileReader& cells) const {
-  constexpr double kOpaque = 25;                   // exp(-25): nothing gets through
-  double depth = 0, passing = -1;                  // optical depth so far; exp(-depth), once it is needed
-  double stoppedNearRange = 0;                     // the sum of the formula
-  const double windowStart = range - 2 * window_;  // exp(-18) at 6 sigma: nothing is added before
-  traverseObstacles(
-      cells, originX, originY, dirX, dirY,
-      range + window_, [&](int8_t cell, double entry, double exit) __attribute__((always_inline)) {
-        if (cell < 0) return true;
-        const double opacity = opacity_[static_cast<size_t>(cell + 128)];
-        const double met = opacity * (exit - entry);
-        const double middle = 0.5 * (entry + exit);
-        depth += met;
-        if (middle < windowStart) return depth < kOpaque;
-        if (passing < 0) passing = negativeExp(depth - met);
-        const double passed = passing * negativeExp(met);
-        const double off = (middle - range) * perSigma_;
-        stoppedNearRange += (passing - passed) * negativeExp(0.5 * off * off);
-        passing = passed;
-        return depth < kOpaque;
-      });
-  const double stopped = 1 - (passing < 0 ? negativeExp(depth) : passing);
+  static constexpr std::array<double, kBlock> kFarFromReading{};
+  const int window = static_cast<int>(density_.size());
+  int left = static_cast<int>(range + 0.5) + behind_;  // steps
+  const double start = range + behind_ - left + 0.5;
+  RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);
+  double passing = 1, stoppedNearRange = 0;  // the product and the sum of the formula
+  for (int block = (left - 1) % kBlock + 1; left > 0; left -= block, block = kBlock) {
+    if (isFree(cells, place, place.ahead(block - 1))) {
+      place.advance(block);
+      continue;
+    }
+    const double* const density =
+        left <= window ? &density_[static_cast<size_t>(window - left)] : kFarFromReading.data();
+    for (int i = 0; i < block; ++i, place.advance()) {
+      const int8_t cell = cells.at(place.cellX(), place.cellY());
+      const double passed = passing * passes_[static_cast<size_t>(cell + 128)];
+      stoppedNearRange += (passing - passed) * density[i];
+      passing = passed;
+    }
+  }
+  const double stopped = 1 - passing;
   return stopped > 0 ? std::min(stoppedNearRange / stopped, 1.0) : 0;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "grid/OccupancyGrid.h"
 
@@ -15,7 +16,7 @@ struct GridWeightOptions : Options {
   enum class Method { penetration, likelihoodField, rayTracing, consensus };
   Method method = Method::penetration;
   double exponent = 30;
-  int beams = 90;
+  int beams = 60;
   double sigma = 0.13;
   double unknownDepth = 8;
   double outlier = 0.1;
@@ -24,12 +25,15 @@ struct GridWeightOptions : Options {
 
 /// The likelihood of a beam that travels through cells which each may stop it.
 ///
-/// A cell of opacity k (1/m) stops a beam that crosses x metres of it with P = 1 - exp(-k x). A beam that
-/// read z has the likelihood  sum_i [prod_{j<i} (1 - P_j)] P_i exp(-(d_i - z)^2 / (2 sigma^2))  over the
-/// cells i along it, to 3 sigma behind z, divided by the chance 1 - prod (1 - P) that it is stopped at all.
-/// The opacity follows from the occupancy p of a cell of size s: k = -ln(1 - p) / s, so that P = p where the
-/// beam crosses s metres of it; a cell never seen has k = 1 / unknown_depth; one that was seen and is more
-/// likely free than not lets every beam through.
+/// A beam is followed in steps of a cell's length s, from the laser to 3 sigma behind the reading z; the
+/// middles d_i of the steps lie at z + (i + 1/2) s, whole i. Step i stops it with P_i, the occupancy of the
+/// cell that d_i lies in; with 1 - exp(-s / unknown_depth) where nothing was seen yet; not at all where a
+/// cell was seen and is more likely free than not. A reading z has the likelihood
+///     sum_i [prod_{j<i} (1 - P_j)] P_i exp(-(d_i - z)^2 / (2 sigma^2)),
+/// divided by the chance 1 - prod (1 - P) that the beam is stopped at all.
+///
+/// DP-SLAM weighs each cell by the length that the beam has in it; with steps this is so on average, and
+/// takes a third of the time.
 class PenetrationModel {
  public:
   PenetrationModel(const GridWeightOptions& options, double resolution);
@@ -44,9 +48,10 @@ class PenetrationModel {
                         TileReader& cells) const;
 
  private:
-  std::array<double, 256> opacity_;  ///< by cell value + 128, per cell length
   double resolution_, outlier_;
-  double perSigma_, window_;  ///< sigmas per cell; 3 sigma in cells
+  std::array<double, 256> passes_;  ///< 1 - P of a step, by cell value + 128
+  std::vector<double> density_;     ///< exp(-(d_i - z)^2 / (2 sigma^2)) of the last steps; before, it is 0
+  int behind_;                      ///< steps behind the reading
 };
 
 }  // namespace hybrid_slam

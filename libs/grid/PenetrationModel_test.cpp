@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/RandomStream.h"
-#include "grid/RayTraversal.h"
 
 namespace hybrid_slam {
 namespace {
@@ -13,7 +12,6 @@ namespace {
 using mrpt::math::TPose2D;
 
 constexpr int8_t kFree = -20;
-constexpr double kExponential = 2e-11;  // that of the model is good to 1e-11, and is used twice
 
 double uniform(RandomStream& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -34,9 +32,10 @@ class Corridor {
     TileReader cells(grid_.tiles());
     return PenetrationModel(options_, size_).beamLikelihood(0, 0.5, 1, 0, z / size_, cells);
   }
-  /// exp(-(d - z)^2 / (2 sigma^2)), d the middle of cell x.
+  /// exp(-(d - z)^2 / (2 sigma^2)), d the middle of the step in cell x.
   double gaussian(int x, double z) const {
-    return std::exp(-0.5 * std::pow(((x + 0.5) * size_ - z) / options_.sigma, 2));
+    const double range = z / size_, d = range + 0.5 + std::ceil(x - range - 0.5);
+    return std::exp(-0.5 * std::pow((d - range) * size_ / options_.sigma, 2));
   }
 
  private:
@@ -49,8 +48,8 @@ TEST(PenetrationModel, OneWallInFreeSpaceGivesTheGaussianOfItsDistance) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
   corridor.wall(100, 25);  // whatever its occupancy: the beam is known to have been stopped
-  for (const double z : {5.025, 5.0, 5.1, 4.9, 5.2, 4.8}) {
-    EXPECT_NEAR(corridor.likelihood(z), corridor.gaussian(100, z), kExponential) << z;
+  for (const double z : {5.02, 5.01, 5.11, 4.93, 5.23, 4.84}) {
+    EXPECT_NEAR(corridor.likelihood(z), corridor.gaussian(100, z), 1e-12) << z;
   }
 }
 
@@ -59,10 +58,10 @@ TEST(PenetrationModel, TwoWallsShareTheBeamByTheirOccupancy) {
   corridor.fill(0, 300, kFree);
   corridor.wall(100, 10), corridor.wall(102, 30);
   const double p1 = corridor.occupancy(100), p2 = corridor.occupancy(102);
-  for (const double z : {5.025, 5.125, 4.95, 5.2}) {
+  for (const double z : {5.02, 5.12, 4.96, 5.21}) {
     const double expected = (p1 * corridor.gaussian(100, z) + (1 - p1) * p2 * corridor.gaussian(102, z)) /
                             (1 - (1 - p1) * (1 - p2));
-    EXPECT_NEAR(corridor.likelihood(z), expected, kExponential) << z;
+    EXPECT_NEAR(corridor.likelihood(z), expected, 1e-12) << z;
   }
 }
 
@@ -72,9 +71,10 @@ TEST(PenetrationModel, AReadingBehindAWallIsAsUnlikelyAsTheWallIsSolid) {
   corridor.wall(60, 40), corridor.wall(100, 40);
   const double p = corridor.occupancy(60);
   // At the second wall, 2 m (20 sigma) behind the first: got through the first, stopped by the second.
-  EXPECT_NEAR(corridor.likelihood(5.025), (1 - p) * p / (1 - (1 - p) * (1 - p)), 1e-12);
+  EXPECT_NEAR(corridor.likelihood(5.02), (1 - p) * p / (1 - (1 - p) * (1 - p)) * corridor.gaussian(100, 5.02),
+              1e-12);
   // At the first wall, the second out of the sum's reach.
-  EXPECT_NEAR(corridor.likelihood(3.025), 1, 1e-12);
+  EXPECT_NEAR(corridor.likelihood(3.02), corridor.gaussian(60, 3.02), 1e-12);
 }
 
 /// Unknown space stops a beam by the exponential law with mean unknown_depth; with cells much smaller than
@@ -103,7 +103,7 @@ TEST(PenetrationModel, AnObstacleHalfUnknownSpaceBeforeIt) {
   const double through = std::exp(-2.0 / 2), p = corridor.occupancy(100);
   // 3 m before the reading, unknown space adds nothing to the sum; it stops 1 - through of the beams.
   const double stopped = 1 - through * (1 - p);
-  EXPECT_NEAR(corridor.likelihood(5.025), through * p / stopped, 1e-9);
+  EXPECT_NEAR(corridor.likelihood(5.02), through * p * corridor.gaussian(100, 5.02) / stopped, 1e-9);
 }
 
 TEST(PenetrationModel, KnownFreeSpaceLetsEveryBeamThrough) {
@@ -116,23 +116,22 @@ TEST(PenetrationModel, KnownFreeSpaceLetsEveryBeamThrough) {
   EXPECT_EQ(corridor.likelihood(5.1), before);
 }
 
-/// The formula of the header, cell by cell: prod_{j<i} (1 - P_j) P_i exp(...), summed over all cells.
+/// The formula of the header, step by step: prod_{j<i} (1 - P_j) P_i exp(...), over the whole beam.
 double reference(const GridWeightOptions& o, double size, const OccupancyGrid& grid, double x, double y,
                  double dirX, double dirY, double z) {
+  const double behind = std::max(1.0, std::round(3 * o.sigma / size));
+  const double steps = std::floor(z / size + 0.5) + behind;
   double passing = 1, sum = 0;
-  traverseRay(x / size, y / size, dirX, dirY, (z + 3 * o.sigma) / size,
-              [&](int cx, int cy, double entry, double exit) {
-                const int value = grid.tiles().at({cx, cy});
-                const double occupancy = grid.occupancy({cx, cy});
-                const double opacity = value == 0  ? 1 / o.unknownDepth
-                                       : value > 0 ? -std::log(1 - occupancy) / size
-                                                   : 0;
-                const double stops = 1 - std::exp(-opacity * (exit - entry) * size);
-                const double off = 0.5 * (entry + exit) * size - z;
-                sum += passing * stops * std::exp(-off * off / (2 * o.sigma * o.sigma));
-                passing *= 1 - stops;
-                return true;
-              });
+  for (int i = 0; i < steps; ++i) {
+    const double d = z + (behind - steps + i + 0.5) * size;
+    const CellIndex cell = grid.cellOf(x + d * dirX, y + d * dirY);
+    const int value = grid.tiles().at(cell);
+    const double stops = value == 0  ? 1 - std::exp(-size / o.unknownDepth)
+                         : value > 0 ? grid.occupancy(cell)
+                                     : 0;
+    sum += passing * stops * std::exp(-(d - z) * (d - z) / (2 * o.sigma * o.sigma));
+    passing *= 1 - stops;
+  }
   return passing < 1 ? sum / (1 - passing) : 0;
 }
 
@@ -145,6 +144,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
     const double size = uniform(random, 0.03, 0.3);
     // From worlds where beams go far to worlds where the first cells stop them.
     const double share = std::pow(random.uniform(), 3);
+    const double unknown = world % 2 == 0 ? 0.1 : 0;  // without, whole squares are free and left out
     OccupancyGrid grid(size);
     for (int y = -100; y < 100; ++y)
       for (int x = -100; x < 100; ++x) {
@@ -152,7 +152,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
         const double level = uniform(random, 1, 127);
         if (what < share)
           grid.tiles().set({x, y}, static_cast<int8_t>(level));
-        else if (what < 0.9)
+        else if (what < 1 - unknown)
           grid.tiles().set({x, y}, static_cast<int8_t>(-level));
       }
     const PenetrationModel model(options, size);
@@ -185,12 +185,16 @@ TEST(PenetrationModel, AScanIsTheMeanOfItsBeamsWithTheirShareOfOutliers) {
     for (int y = -200; y < 200; ++y) grid.tiles().set({x, y}, x == 100 ? int8_t{50} : kFree);
   const PenetrationModel model(options, 0.05);
   const TPose2D robot(0, 0.025, 0);
-  // One beam on the wall, one 0.2 m (2 sigma) short of it, one that ends where nothing is.
-  const double right = std::log(0.8 + 0.2), off = std::log(0.8 * std::exp(-2) + 0.2), wrong = std::log(0.2);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.025}}), robot, grid), right, 1e-12);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 4.825}}), robot, grid), off, 1e-9);
+  // One beam into the wall, one 0.2 m (2 sigma) short of it, one that ends where nothing is; the step in the
+  // wall lies half a cell behind the first's reading.
+  const auto withOutliers = [](double sigmas) {
+    return std::log(0.8 * std::exp(-0.5 * sigmas * sigmas) + 0.2);
+  };
+  const double right = withOutliers(0.25), off = withOutliers(2.25), wrong = std::log(0.2);
+  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.024}}), robot, grid), right, 1e-12);
+  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 4.824}}), robot, grid), off, 1e-9);
   EXPECT_NEAR(model.meanLogLikelihood(beams({{M_PI, 5}}), robot, grid), wrong, 1e-12);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.025}, {0, 4.825}, {M_PI, 5}}), robot, grid),
+  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.024}, {0, 4.824}, {M_PI, 5}}), robot, grid),
               (right + off + wrong) / 3, 1e-9);
 }
 

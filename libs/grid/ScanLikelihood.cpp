@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "grid/RayTraversal.h"
+#include "grid/RaySamples.h"
 
 namespace hybrid_slam {
 

@@ -13,8 +13,8 @@ namespace hybrid_slam {
 
 /// Section [scan_matcher].
 struct ScanMatcherOptions : Options {
-  double sigma = 0.5;
-  int beams = 180;
+  double sigma = 0.3;
+  int beams = 90;
   int iterations = 20;
   void describe(OptionTable& table) override;
 };

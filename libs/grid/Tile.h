@@ -25,7 +25,13 @@ class Tile {
   const Cells& cells() const { return cells_; }
   /// Whether every cell of a square was seen and is more likely free than not.
   /// @param x,y  of the square in the whole grid: those of its cells divided by 8
-  bool isFree(int x, int y) const { return freeSquares_ >> squareIndex(x, y) & 1; }
+  bool isFree(int x, int y) const { return isFree(x, y, x, y); }
+  /// The same of the four squares at the corners of a rectangle of squares.
+  bool isFree(int x0, int y0, int x1, int y1) const {
+    const int corners = 1 << squareIndex(x0, y0) | 1 << squareIndex(x1, y0) | 1 << squareIndex(x0, y1) |
+                        1 << squareIndex(x1, y1);
+    return (freeSquares_ & corners) == corners;
+  }
 
   void set(int x, int y, int8_t value) {
     cells_[index(x, y)] = value;

@@ -41,7 +41,9 @@ Expectation filteredMotions(const Configuration& configuration, const RawlogSumm
   checkFilter(configuration);
   const std::string& file = configuration.run.rawlog;
   RawlogSource source(file, configuration.input, log);
-  HybridMapBuilder builder(configuration.filter);
+  FilterConfiguration filter = configuration.filter;
+  filter.improved.exponent = 1;  // EM is about the likelihood itself
+  HybridMapBuilder builder(filter);
   builder.rememberScans(false);  // the log has them
 
   Expectation expectation;

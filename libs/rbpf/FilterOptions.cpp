@@ -34,6 +34,9 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
   t.addAngle("update_angle_deg", updateAngle, 0, 360, "instead of that of [particle_filter]");
   t.add("samples", samples, 2, 10000,
         "poses around the scan match that make out the proposal and the weight");
+  t.add("exponent", exponent, 0, 1, "",
+        "tempering: a particle's weight is what the scan says of it to this power, as the beams' errors are "
+        "far from independent");
   t.add(
       "min_fit", minFit, 0, 1, "",
       "a match that fits the map less is not used: the motion model is sampled; a map of one scan fits 0.04");

@@ -37,7 +37,8 @@ struct ParticleFilterOptions : Options {
 struct ImprovedProposalOptions : Options {
   double updateDistance = 0.1;
   double updateAngle = 5 * M_PI / 180;
-  int samples = 20;
+  int samples = 12;
+  double exponent = 0.02;
   double minFit = 0.02;
   double lineSigma = 0.1 * M_PI / 180;
   double lineSigmaRho = 0.05;

@@ -15,7 +15,7 @@ inline const Walls kCorridor{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1000
 inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStream& random) {
   const LaserScan scan = scanOf(walls, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
   const FilterConfiguration c;
-  return {scan, ScanBeams(scan), ScanBeams(scan), ScanBeams(scan),
+  return {scan, ScanBeams(scan), ScanBeams(scan, c.gridWeight.beams), ScanBeams(scan, c.matcher.beams),
           LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan)};
 }
 

@@ -161,7 +161,7 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
     particle.gridWeight = proposed.fit;
     particle.lineWeight = proposed.lineWeight;
     particle.isMatched = proposed.isMatched;
-    m_particles[i].log_w += proposed.logWeight;
+    m_particles[i].log_w += configuration_.improved.exponent * proposed.logWeight;
   });
   summarise(motion.odometry);
   step_.slipped = motion.hasSlipped;

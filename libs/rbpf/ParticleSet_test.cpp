@@ -142,6 +142,36 @@ TEST(ParticleSet, TheStepTellsItsMotionsAndTheLikelihoodOfTheScan) {
   }
 }
 
+TEST(ParticleSet, TheImprovedProposalsWeightsAreTempered) {
+  const auto logWeights = [](double exponent) {
+    FilterConfiguration c = fourParticles();
+    c.filter.proposal = ParticleFilterOptions::Proposal::improved;
+    c.improved.exponent = exponent;
+    ParticleSet particles(c);
+    particles.reset({1, 0, 0.5});
+    const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
+    particles.beginStep(first);
+    particles.updateMaps();
+    particles.beginStep(second);
+    mrpt::obs::CActionCollection action = actionOf({0.2, 0.1, 0});
+    mrpt::obs::CSensoryFrame observations;
+    mrpt::bayes::CParticleFilter filter;
+    filter.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfOptimalProposal;
+    filter.m_options.BETA = 0;
+    filter.executeOn(particles, &action, &observations);
+    std::vector<double> differences;
+    for (size_t i = 1; i < 4; ++i)
+      differences.push_back(particles.m_particles[i].log_w - particles.m_particles[0].log_w);
+    return differences;
+  };
+  const auto plain = logWeights(1), tempered = logWeights(0.25), none = logWeights(0);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_GT(std::abs(plain[i]), 1e-3);
+    EXPECT_NEAR(tempered[i], 0.25 * plain[i], 1e-9);
+    EXPECT_EQ(none[i], 0);
+  }
+}
+
 TEST(ParticleSet, ANewStartKeepsTheMapsAndForgetsThePaths) {
   ParticleSet particles(fourParticles());
   particles.reset({});

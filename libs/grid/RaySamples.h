@@ -1,0 +1,45 @@
+/// @file RaySamples.h
+/// @brief Evenly spaced places along a ray, in the cells of a grid.
+#pragma once
+
+#include <cstdint>
+
+#include "grid/Tile.h"
+
+namespace hybrid_slam {
+
+/// std::floor is slow where the processor's own rounding cannot be taken for granted.
+inline int floorOf(double x) {
+  const int towardsZero = static_cast<int>(x);
+  return towardsZero - (x < towardsZero);
+}
+
+/// A place on the grid that moves along a ray by a constant step. In fixed point, where a cell is 2^32: the
+/// cell of a place is then a shift, the next place an addition, and no branch is left that depends on the
+/// ray.
+class RaySamples {
+ public:
+  /// The first place and the step from each to the next, in cells.
+  RaySamples(double x, double y, double stepX, double stepY)
+      : x_(fixed(x)), y_(fixed(y)), stepX_(fixed(stepX)), stepY_(fixed(stepY)) {}
+
+  int cellX() const { return static_cast<int>(x_ >> kBits); }
+  int cellY() const { return static_cast<int>(y_ >> kBits); }
+  /// Of 8 x 8 cells, as of Tile.
+  int squareX() const { return static_cast<int>(x_ >> (kBits + Tile::kSquareBits)); }
+  int squareY() const { return static_cast<int>(y_ >> (kBits + Tile::kSquareBits)); }
+  void advance(int steps = 1) { x_ += steps * stepX_, y_ += steps * stepY_; }
+  RaySamples ahead(int steps) const {
+    RaySamples there(*this);
+    there.advance(steps);
+    return there;
+  }
+
+ private:
+  static constexpr int kBits = 32;
+  static int64_t fixed(double cells) { return static_cast<int64_t>(cells * 0x1p32); }
+
+  int64_t x_, y_, stepX_, stepY_;
+};
+
+}  // namespace hybrid_slam
