@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "grid/RaySamples.h"
@@ -14,20 +15,20 @@ int logOdds(double p) {
   return static_cast<int>(std::lround(std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale));
 }
 
-/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. A beam
-/// crosses a cell in each column, or in each row if it is the steeper, as in MRPT's grid. The memory is kept
-/// between calls.
+/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. The
+/// memory is kept between calls.
 class Footprint {
  public:
   static constexpr uint8_t kHit = 255;
 
   Footprint(const ScanBeams& scan, const GridPose& pose, double cellSize) : counts_(buffer()) {
-    std::vector<CellIndex> ends;
-    ends.reserve(scan.rays.size());
+    const double perMetre = 1 / cellSize;
+    thread_local std::vector<CellIndex> ends;
+    ends.clear();
     CellIndex low{floorOf(pose.originX), floorOf(pose.originY)};
     CellIndex high = low;
     for (const auto& ray : scan.rays) {
-      const double range = ray.range / cellSize;
+      const double range = ray.range * perMetre;
       const CellIndex end{floorOf(pose.originX + range * pose.dirX(ray)),
                           floorOf(pose.originY + range * pose.dirY(ray))};
       low = {std::min(low.x, end.x), std::min(low.y, end.y)};
@@ -40,23 +41,14 @@ class Footprint {
     width_ = static_cast<size_t>(last_.x - first_.x + 1) * Tile::kSize;
     counts_.assign(width_ * static_cast<size_t>(last_.y - first_.y + 1) * Tile::kSize, 0);
 
-    for (const CellIndex& end : ends) at(end.x, end.y) = kHit;
-    uint8_t* const counts = counts_.data();  // and the width: a write of bytes might change what members say
-    const size_t width = width_;
-    // In the frame of the first tile, where no place is negative.
     const double originX = pose.originX - first_.x * Tile::kSize,
                  originY = pose.originY - first_.y * Tile::kSize;
-    for (const auto& ray : scan.rays) {
-      const double dirX = pose.dirX(ray), dirY = pose.dirY(ray);
-      const double perCell = std::max(std::abs(dirX), std::abs(dirY));
-      const int last = static_cast<int>(ray.range / cellSize * perCell);
-      RaySamples place(originX, originY, dirX / perCell, dirY / perCell);
-      for (int i = 0; i <= last; ++i, place.advance()) {
-        uint8_t& count =
-            counts[static_cast<size_t>(place.cellY()) * width + static_cast<size_t>(place.cellX())];
-        count = static_cast<uint8_t>(count + (count < kHit - 1));  // so many reach any floor
-      }
-    }
+    const auto crossAll = [&](auto mayOverflow) {
+      for (const auto& ray : scan.rays)
+        cross<mayOverflow>(originX, originY, pose.dirX(ray), pose.dirY(ray), ray.range * perMetre);
+    };
+    scan.rays.size() < kHit ? crossAll(std::false_type()) : crossAll(std::true_type());
+    for (const CellIndex& end : ends) at(end.x, end.y) = kHit;
   }
 
   CellIndex firstTile() const { return first_; }
@@ -65,6 +57,40 @@ class Footprint {
   const uint8_t* row(int tileX, int y) const { return &counts_[index(tileX << Tile::kBits, y)]; }
 
  private:
+  /// Counts the cells that a beam crosses, the origin being relative to the first tile. The beam is followed
+  /// from column to column (or from row to row if it is steep), in each of which it is in one cell or two:
+  /// places in fixed point, where a cell is 2^32, and no branch that depends on the beam. A cell that is only
+  /// touched, at a corner, is not crossed.
+  /// @tparam kMayOverflow  whether more beams may cross a cell than a count holds
+  template <bool kMayOverflow>
+  void cross(double x, double y, double dirX, double dirY, double range) {
+    const bool isSteep = std::abs(dirY) > std::abs(dirX);
+    const double u = isSteep ? y : x, v = isSteep ? x : y;  // u: from column to column
+    const double dirU = isSteep ? dirY : dirX, dirV = isSteep ? dirX : dirY;
+    const auto strideU = static_cast<ptrdiff_t>(isSteep ? width_ : 1),
+               strideV = static_cast<ptrdiff_t>(isSteep ? 1 : width_);
+    const auto fixed = [](double cells) { return static_cast<int64_t>(cells * 0x1p32); };
+    const int firstColumn = floorOf(u), columns = std::abs(floorOf(u + range * dirU) - firstColumn);
+    const double slope = dirV / std::abs(dirU);
+    const int64_t step = fixed(slope);
+    // On a border, a beam comes from one cell and goes into the other.
+    const int64_t toEntry = slope < 0 ? 1 : 0, toExit = slope > 0 ? 1 : 0;
+    uint8_t* column = counts_.data() + firstColumn * strideU;
+    const auto count = [&](int64_t entry, int64_t exit) {
+      const int64_t first = (entry - toEntry) >> 32, second = (exit - toExit) >> 32;
+      add<kMayOverflow>(column[first * strideV], 1);
+      add<kMayOverflow>(column[second * strideV], first != second);
+    };
+    int64_t entry = fixed(v), exit = fixed(v + (dirU > 0 ? firstColumn + 1 - u : u - firstColumn) * slope);
+    for (int i = 0; i<columns; ++i, entry = exit, exit += step, column += dirU> 0 ? strideU : -strideU)
+      count(entry, exit);
+    count(entry, fixed(v + range * dirV));
+  }
+  template <bool kMayOverflow>
+  static void add(uint8_t& count, int crossings) {
+    if (kMayOverflow && count >= kHit - 1) return;  // so many reach any floor
+    count = static_cast<uint8_t>(count + crossings);
+  }
   uint8_t& at(int x, int y) { return counts_[index(x, y)]; }
   size_t index(int x, int y) const {
     return static_cast<size_t>(y - first_.y * Tile::kSize) * width_ +

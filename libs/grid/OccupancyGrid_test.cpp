@@ -115,6 +115,23 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   EXPECT_TRUE(grid.tiles().bounds().empty());
 }
 
+/// The cells that a beam is inside of, each clipped against it.
+std::set<std::pair<int, int>> crossed(double x, double y, double heading, double length) {
+  const double dir[] = {std::cos(heading), std::sin(heading)}, from[] = {x, y};
+  const int reach = static_cast<int>(length) + 1;
+  std::set<std::pair<int, int>> cells;
+  for (int cx = static_cast<int>(std::floor(x)) - reach; cx <= x + reach; ++cx)
+    for (int cy = static_cast<int>(std::floor(y)) - reach; cy <= y + reach; ++cy) {
+      double entry = 0, exit = length;
+      for (const auto& [axis, low] : {std::pair(0, cx), std::pair(1, cy)}) {
+        const double a = (low - from[axis]) / dir[axis], b = (low + 1 - from[axis]) / dir[axis];
+        entry = std::max(entry, std::min(a, b)), exit = std::min(exit, std::max(a, b));
+      }
+      if (entry < exit) cells.insert({cx, cy});
+    }
+  return cells;
+}
+
 /// Random scans against the rules applied cell by cell to a plain map.
 TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
   RandomStream random(1, 0, 0);
@@ -137,15 +154,9 @@ TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
       hits.insert({end.x, end.y});
     }
     for (const auto& cell : hits) reference[cell] = std::min(reference[cell] + kHit, kHighest);
-    for (const Reading& r : readings) {  // a cell in each column, or in each row if the beam is steep
-      const double dx = std::cos(laser.phi + r.angle), dy = std::sin(laser.phi + r.angle);
-      const double step = size / std::max(std::abs(dx), std::abs(dy));
-      for (double d = 0; d <= r.range; d += step) {
-        const CellIndex cell = grid.cellOf(laser.x + d * dx, laser.y + d * dy);
-        int& value = reference[{cell.x, cell.y}];
-        if (!hits.count({cell.x, cell.y})) value = std::max(value + kMiss, kLowest);
-      }
-    }
+    for (const Reading& r : readings)
+      for (const auto& cell : crossed(laser.x / size, laser.y / size, laser.phi + r.angle, r.range / size))
+        if (!hits.count(cell)) reference[cell] = std::max(reference[cell] + kMiss, kLowest);
   }
   for (const auto& [cell, value] : reference)
     ASSERT_EQ(grid.tiles().at({cell.first, cell.second}), value) << cell.first << " " << cell.second;

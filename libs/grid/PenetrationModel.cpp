@@ -29,20 +29,14 @@ namespace {
 
 constexpr int kBlock = 8;  // steps at a time: where all cells are free, all are left out
 
-/// Whether a block of steps meets nothing: it is no longer than a square is wide, so that its cells lie in
-/// the squares at the corners of the rectangle that the first and the last step span.
-inline bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
-  const int x[] = {first.squareX(), last.squareX()}, y[] = {first.squareY(), last.squareY()};
-  const auto tileAt = [&](int squareX, int squareY) {
-    constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
-    return cells.tile(squareX >> kSquaresInTile, squareY >> kSquaresInTile);
-  };
-  const Tile* const tile = tileAt(x[0], y[0]);
-  if (tile == tileAt(x[1], y[1])) return tile && tile->isFree(x[0], y[0], x[1], y[1]);
-  for (const int squareX : x)
-    for (const int squareY : y) {
-      const Tile* const other = tileAt(squareX, squareY);
-      if (!other || !other->isFree(squareX, squareY)) return false;
+/// The corners of the rectangle that a block of steps spans, in squares: no longer than a square is wide, it
+/// has all its cells in the squares at the corners.
+bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
+  constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
+  for (const int x : {first.squareX(), last.squareX()})
+    for (const int y : {first.squareY(), last.squareY()}) {
+      const Tile* const tile = cells.tile(x >> kSquaresInTile, y >> kSquaresInTile);
+      if (!tile || !tile->isFree(x, y)) return false;
     }
   return true;
 }
@@ -71,23 +65,36 @@ PenetrationModel::PenetrationModel(const GridWeightOptions& options, double reso
 double PenetrationModel::beamLikelihood(double originX, double originY, double dirX, double dirY,
                                         double range, TileReader& cells) const {
   static constexpr std::array<double, kBlock> kFarFromReading{};
+  static constexpr Tile::Cells kUnknown{};
   const int window = static_cast<int>(density_.size());
   int left = static_cast<int>(range + 0.5) + behind_;  // steps
   const double start = range + behind_ - left + 0.5;
   RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);
   double passing = 1, stoppedNearRange = 0;  // the product and the sum of the formula
   for (int block = (left - 1) % kBlock + 1; left > 0; left -= block, block = kBlock) {
-    if (isFree(cells, place, place.ahead(block - 1))) {
-      place.advance(block);
-      continue;
-    }
     const double* const density =
         left <= window ? &density_[static_cast<size_t>(window - left)] : kFarFromReading.data();
-    for (int i = 0; i < block; ++i, place.advance()) {
-      const int8_t cell = cells.at(place.cellX(), place.cellY());
-      const double passed = passing * passes_[static_cast<size_t>(cell + 128)];
-      stoppedNearRange += (passing - passed) * density[i];
-      passing = passed;
+    const auto follow = [&](const auto& valueAt) __attribute__((always_inline)) {
+      for (int i = 0; i < block; ++i, place.advance()) {
+        const double passed =
+            passing * passes_[static_cast<size_t>(valueAt(place.cellX(), place.cellY()) + 128)];
+        stoppedNearRange += (passing - passed) * density[i];
+        passing = passed;
+      }
+    };
+    const RaySamples last = place.ahead(block - 1);
+    if (place.tileX() == last.tileX() && place.tileY() == last.tileY()) {
+      const Tile* const tile = cells.tile(place.tileX(), place.tileY());
+      if (tile && tile->isFree(place.squareX(), place.squareY(), last.squareX(), last.squareY()))
+        place.advance(block);
+      else
+        follow([values = tile ? tile->cells().data() : kUnknown.data()](int x, int y) {
+          return values[Tile::index(x, y)];
+        });
+    } else if (isFree(cells, place, last)) {
+      place.advance(block);
+    } else {
+      follow([&](int x, int y) { return cells.at(x, y); });
     }
   }
   const double stopped = 1 - passing;
@@ -98,11 +105,12 @@ double PenetrationModel::meanLogLikelihood(const ScanBeams& scan, const mrpt::ma
                                            const OccupancyGrid& grid) const {
   if (scan.rays.empty()) return 0;
   const GridPose pose(robot, scan, resolution_);
+  const double perMetre = 1 / resolution_;
   TileReader cells(grid.tiles());
   double sum = 0, product = 1;  // of so many beams that it cannot underflow: one logarithm for all
   for (const auto& ray : scan.rays) {
     const double likelihood = beamLikelihood(pose.originX, pose.originY, pose.dirX(ray), pose.dirY(ray),
-                                             ray.range / resolution_, cells);
+                                             ray.range * perMetre, cells);
     product *= (1 - outlier_) * likelihood + outlier_;
     if (product > 1e-100) continue;
     sum += std::log(product);

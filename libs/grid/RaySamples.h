@@ -28,6 +28,8 @@ class RaySamples {
   /// Of 8 x 8 cells, as of Tile.
   int squareX() const { return static_cast<int>(x_ >> (kBits + Tile::kSquareBits)); }
   int squareY() const { return static_cast<int>(y_ >> (kBits + Tile::kSquareBits)); }
+  int tileX() const { return static_cast<int>(x_ >> (kBits + Tile::kBits)); }
+  int tileY() const { return static_cast<int>(y_ >> (kBits + Tile::kBits)); }
   void advance(int steps = 1) { x_ += steps * stepX_, y_ += steps * stepY_; }
   RaySamples ahead(int steps) const {
     RaySamples there(*this);

@@ -29,7 +29,8 @@ FittedLine refineByHough(PointRange points, const FittedLine& fitted, const Houg
   const int thetaCells = static_cast<int>(options.thetaWindow / options.thetaResolution);
   const int rhoCells = static_cast<int>(options.rhoWindow / options.rhoResolution);
 
-  std::vector<int> votes(static_cast<size_t>(2 * rhoCells + 1));
+  const int rhoSize = 2 * rhoCells + 1;
+  std::vector<int> votes(static_cast<size_t>(rhoSize));
   int* const votesAt = votes.data() + rhoCells;  // index 0: through the pivot
   int most = 0, bestTheta = 0, bestRho = 0;
   for (int i = -thetaCells; i <= thetaCells; ++i) {
@@ -37,8 +38,9 @@ FittedLine refineByHough(PointRange points, const FittedLine& fitted, const Houg
     const double c = std::cos(theta) / options.rhoResolution, s = std::sin(theta) / options.rhoResolution;
     std::fill(votes.begin(), votes.end(), 0);
     for (const TPoint2D& p : points) {
-      const double cell = std::round((p.x - pivot.x) * c + (p.y - pivot.y) * s);
-      if (std::abs(cell) <= rhoCells) ++votesAt[static_cast<int>(cell)];
+      // To the nearest cell: truncating is fast, and rounds down what is not negative.
+      const double cell = (p.x - pivot.x) * c + (p.y - pivot.y) * s + rhoCells + 0.5;
+      if (cell >= 0 && cell < rhoSize) ++votes[static_cast<size_t>(cell)];
     }
     for (int j = -rhoCells; j <= rhoCells; ++j) {
       const int count = votesAt[j];
