@@ -110,10 +110,9 @@ class GuiTest : public testing::Test {
   }
   /// The grey of the screen at a place of the map.
   int greyAt(const wxImage& screen, const MapCanvas& canvas, double x, double y) const {
-    const auto at = canvas.view().toPicture(x, y, canvas.GetClientSize());
+    const auto at = canvas.view().toPicture(x, y, canvas.size());
     const wxPoint p =
-        onScreen({canvas.ClientToScreen(wxPoint(wxRound(at.m_x), wxRound(at.m_y))), wxSize(1, 1)})
-            .GetTopLeft();
+        onScreen({canvas.ClientToScreen(wxPoint(wxRound(at.x), wxRound(at.y))), wxSize(1, 1)}).GetTopLeft();
     return screen.GetRed(p.x, p.y);
   }
 
@@ -199,8 +198,15 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   frame->exportPictureTo(folder.path("map.png"));
   const wxImage picture(folder.path("map.png"), wxBITMAP_TYPE_PNG);
   ASSERT_TRUE(picture.IsOk());
+  if (const char* const to = std::getenv("HYBRID_SLAM_SCREENSHOTS"))
+    picture.SaveFile(std::string(to) + "/exported.png", wxBITMAP_TYPE_PNG);
   EXPECT_EQ(picture.GetSize(), wxSize(1600, 1200));
-  EXPECT_THROW(frame->exportPictureTo("/proc/nowhere/map.png"), InputError);
+  frame->exportPictureTo(folder.path("map.3Dscene"));
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder.path("map.3Dscene")));
+  EXPECT_TRUE(scene.getByName("grid"));
+  for (const char* const name : {"/proc/nowhere/map.png", "/proc/nowhere/map.3Dscene"})
+    EXPECT_THROW(frame->exportPictureTo(name), InputError) << name;
   menu(kExportPicture);  // cancelled
   EXPECT_EQ(dialogs.messages.size(), 1u);
 
@@ -276,6 +282,10 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   const wxImage screen = screenshot("live");
   EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);
   EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
+  EXPECT_GT(count(screen, *frame->live()->canvas(), 220, 0, 0), 30u) << "path and particles";
+  menu(kPath);
+  menu(kParticles);
+  EXPECT_EQ(count(screenshot("live-without-path"), *frame->live()->canvas(), 220, 0, 0), 0u);
   frame->live()->connectOrStop();
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));

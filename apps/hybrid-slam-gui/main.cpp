@@ -2,6 +2,7 @@
 /// @brief hybrid-slam-gui: replays rawlogs and follows robots in a window.
 
 #include <wx/app.h>
+#include <wx/glcanvas.h>
 #include <wx/image.h>
 #include <wx/log.h>
 
@@ -19,6 +20,14 @@ std::string config, rawlog;
 class GuiApp : public wxApp {
  public:
   bool OnInit() override {
+    wxDisableAsserts();  // wxWidgets would stop with a question where there is no OpenGL
+    wxGLAttributes attributes;
+    attributes.PlatformDefaults().RGBA().DoubleBuffer().Depth(24).EndList();
+    if (!wxGLCanvas::IsDisplaySupported(attributes)) {
+      hybrid_slam::fail(1,
+                        "no OpenGL on this display; expected GLX (Debian: libgl1-mesa-dri; ssh -X has none)");
+      return false;
+    }
     wxInitAllImageHandlers();
     auto* const frame = new hybrid_slam::MainFrame;
     frame->Show();
@@ -39,14 +48,17 @@ int main(int argc, char** argv) {
     app.add_option("config", config, "INI file (doc/configuration.md)");
     app.add_option("dataset", rawlog, "rawlog, plain or gzipped; else [run] rawlog of the INI file");
     app.footer(
-        "Keys are in the menus; more in doc/gui.md. Exit: 0 closed, 1 no display, 2 wrong command line.");
+        "Keys are in the menus; more in doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 wrong "
+        "command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
-    if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+    // Debian's wxWidgets has its OpenGL from GLX: a Wayland desktop serves it by XWayland.
+    if (!std::getenv("DISPLAY"))
       return hybrid_slam::fail(
-          1, "no display: DISPLAY and WAYLAND_DISPLAY are unset; expected a desktop, ssh -X or xvfb-run");
+          1, "no display: DISPLAY is unset; expected an X11 or XWayland desktop, or xvfb-run");
+    setenv("GDK_BACKEND", "x11", 0);
     std::signal(SIGPIPE, SIG_IGN);  // a server that hangs up is an event of the live page
     int none = 1;                   // the arguments are ours, not wxWidgets's
-    return wxEntry(none, argv);
+    return wxEntry(none, argv) == 0 ? 0 : 1;
   };
   return hybrid_slam::exitCodeOf(parseAndShow);
 }

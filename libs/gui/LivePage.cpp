@@ -27,8 +27,7 @@ LivePage::LivePage(wxWindow* parent, std::function<void()> beforeStart)
                            wxST_NO_AUTORESIZE);
   add(text_);
 
-  const auto shared = std::make_shared<SharedView>();
-  canvas_ = new MapCanvas(this, "no map yet: Connect", shared, [this] { canvas_->Refresh(false); });
+  canvas_ = new MapCanvas(this, "no map yet: Connect", view_, [this] { canvas_->Refresh(false); });
   plots_ = new PlotPanel(this);
   events_ = new wxListBox(this, wxID_ANY, wxDefaultPosition, FromDIP(wxSize(-1, 90)));
   auto* const column = new wxBoxSizer(wxVERTICAL);
@@ -70,6 +69,16 @@ void LivePage::start() {
   shown_.reset();
   used_ = settings_->copy({"run.output=" + output_->GetValue().utf8_string()});
   session_ = std::make_unique<LiveSession>(used_->configuration, used_->live, server);
+}
+
+void LivePage::fit() {
+  view_->fixed.reset();
+  canvas_->Refresh(false);
+}
+
+void LivePage::toggle(bool Layers::*layer) {
+  view_->layers.*layer = !(view_->layers.*layer);
+  canvas_->Refresh(false);
 }
 
 void LivePage::refresh() {

@@ -29,6 +29,8 @@ class LivePage : public wxPanel {
   /// Looks what the session has got to; to be called several times a second.
   void refresh();
   bool isRunning() const;
+  void fit();
+  void toggle(bool Layers::*layer);
 
   void setServer(const wxString& server) { server_->SetValue(server); }
   void setOutput(const wxString& folder) { output_->SetValue(folder); }
@@ -43,6 +45,7 @@ class LivePage : public wxPanel {
   wxTextCtrl *server_, *output_;
   wxButton* button_;
   wxStaticText* text_;
+  std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
   MapCanvas* canvas_ = nullptr;
   PlotPanel* plots_;
   wxListBox* events_;

@@ -2,7 +2,6 @@
 
 #include <wx/dirdlg.h>
 #include <wx/filedlg.h>
-#include <wx/log.h>
 #include <wx/menu.h>
 #include <wx/numdlg.h>
 
@@ -60,7 +59,8 @@ void MainFrame::makeMenus() {
   file->Append(kSaveIni, "&Save settings as INI...\tCtrl+S");
   file->AppendSeparator();
   file->Append(kExportPicture, "Export &picture...\tCtrl+P");
-  file->Append(kExportResults, "&Export results...\tCtrl+E", "Writes them as hybrid-slam does; ends the replay");
+  file->Append(kExportResults, "&Export results...\tCtrl+E",
+               "Writes them as hybrid-slam does; ends the replay");
   file->AppendSeparator();
   file->Append(wxID_EXIT, "&Quit\tCtrl+Q");
 
@@ -79,13 +79,13 @@ void MainFrame::makeMenus() {
   view->Append(kZoomOut, "Zoom &out\tCtrl+-");
   view->Append(kFit, "&Whole map\tCtrl+0");
   view->AppendSeparator();
-  for (const auto& [id, name] : std::initializer_list<std::pair<int, const char*>>{
-           {kGeneral, "&General filter beside\tCtrl+1"},
-           {kParticles, "&Particles\tCtrl+2"},
-           {kPath, "P&ath\tCtrl+3"},
-           {kLines, "&Lines and direction\tCtrl+4"},
-           {kScanLines, "Lines of the &scan\tCtrl+5"},
-           {kEllipse, "&Uncertainty\tCtrl+6"}})
+  for (const auto& [id, name] :
+       std::initializer_list<std::pair<int, const char*>>{{kGeneral, "&General filter beside\tCtrl+1"},
+                                                          {kParticles, "&Particles\tCtrl+2"},
+                                                          {kPath, "P&ath\tCtrl+3"},
+                                                          {kLines, "&Lines and direction\tCtrl+4"},
+                                                          {kScanLines, "Lines of the &scan\tCtrl+5"},
+                                                          {kEllipse, "&Uncertainty\tCtrl+6"}})
     view->AppendCheckItem(id, name)->Check();
   view->AppendSeparator();
   view->Append(kReplayPage, "&Replay\tAlt+1");
@@ -118,8 +118,9 @@ void MainFrame::bindFileMenu() {
   Bind(
       wxEVT_MENU,
       [this](wxCommandEvent&) {
-        showNotice(this, "hybrid-slam-gui " HYBRID_SLAM_VERSION
-                         ": grid maps with line directions, on MRPT. Keys are in the menus; more in doc/gui.md.");
+        showNotice(this,
+                   "hybrid-slam-gui " HYBRID_SLAM_VERSION
+                   ": grid maps with line directions, on MRPT. Keys are in the menus; more in doc/gui.md.");
       },
       wxID_ABOUT);
 }
@@ -144,12 +145,16 @@ void MainFrame::bindViewMenu() {
   const auto canvas = [this] { return pages_->GetSelection() == 0 ? replay_->canvas(0) : live_->canvas(); };
   bind(kZoomIn, [canvas] { canvas()->zoom(1.25); });
   bind(kZoomOut, [canvas] { canvas()->zoom(0.8); });
-  bind(kFit, [this] { replay_->fit(); });
-  bind(kParticles, [this] { replay_->toggle(&Layers::particles); });
-  bind(kPath, [this] { replay_->toggle(&Layers::path); });
-  bind(kLines, [this] { replay_->toggle(&Layers::lines); });
-  bind(kScanLines, [this] { replay_->toggle(&Layers::scanLines); });
-  bind(kEllipse, [this] { replay_->toggle(&Layers::ellipse); });
+  bind(kFit, [this] { pages_->GetSelection() == 0 ? replay_->fit() : live_->fit(); });
+  for (const auto& [id, layer] : std::initializer_list<std::pair<int, bool Layers::*>>{{kParticles, &Layers::particles},
+                                                                                      {kPath, &Layers::path},
+                                                                                      {kLines, &Layers::lines},
+                                                                                      {kScanLines, &Layers::scanLines},
+                                                                                      {kEllipse, &Layers::ellipse}})
+    bind(id, [this, layer = layer] {
+      replay_->toggle(layer);
+      live_->toggle(layer);
+    });
   bind(kReplayPage, [this] { pages_->SetSelection(0); });
   bind(kLivePage, [this] { pages_->SetSelection(1); });
   Bind(
@@ -172,10 +177,10 @@ void MainFrame::use(std::shared_ptr<Settings> settings) {
   settings_ = settings;
   live_->setSettings(settings);
   const std::string& rawlog = settings->configuration.run.rawlog;
-  SetTitle("hybrid-slam: " + (rawlog.empty() ? "no rawlog" : std::filesystem::path(rawlog).filename().string()));
+  SetTitle("hybrid-slam: " +
+           (rawlog.empty() ? "no rawlog" : std::filesystem::path(rawlog).filename().string()));
   if (rawlog.empty()) return;
-  if (live_->isRunning())
-    throw InputError("a live run is going on", rawlog, "stop it first: Live, Stop");
+  if (live_->isRunning()) throw InputError("a live run is going on", rawlog, "stop it first: Live, Stop");
   replay_->open(settings->configuration);
 }
 
@@ -186,14 +191,16 @@ void MainFrame::openIni() {
 }
 
 void MainFrame::openRawlog() {
-  if (!settings_) throw InputError("no settings", "the replay", "open an INI file first: File, Open INI file");
+  if (!settings_)
+    throw InputError("no settings", "the replay", "open an INI file first: File, Open INI file");
   wxFileDialog dialog(this, "Open rawlog", "", "", "Rawlogs (*.rawlog)|*.rawlog|All files|*",
                       wxFD_OPEN | wxFD_FILE_MUST_EXIST);
   if (dialog.ShowModal() == wxID_OK) use(settings_->copy({"run.rawlog=" + dialog.GetPath().utf8_string()}));
 }
 
 void MainFrame::saveIni() {
-  if (!settings_) throw InputError("no settings", "nothing to save", "open an INI file first: File, Open INI file");
+  if (!settings_)
+    throw InputError("no settings", "nothing to save", "open an INI file first: File, Open INI file");
   wxFileDialog dialog(this, "Save settings", "", "settings.ini", "INI files (*.ini)|*.ini",
                       wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
   if (dialog.ShowModal() == wxID_OK) saveIniTo(dialog.GetPath().utf8_string());
@@ -214,14 +221,21 @@ std::shared_ptr<const FilterSnapshot> MainFrame::shownFilter() const {
 
 void MainFrame::exportPicture() {
   shownFilter();
-  wxFileDialog dialog(this, "Export picture", "", "map.png", "PNG (*.png)|*.png",
+  wxFileDialog dialog(this, "Export picture", "", "map.png",
+                      "PNG (*.png)|*.png|Scene for SceneViewer3D (*.3Dscene)|*.3Dscene",
                       wxFD_SAVE | wxFD_OVERWRITE_PROMPT);
   if (dialog.ShowModal() == wxID_OK) exportPictureTo(dialog.GetPath().utf8_string());
 }
 
 void MainFrame::exportPictureTo(const std::string& file) const {
-  const wxLogNull silent;  // the error is told below
-  if (!pictureOf(*shownFilter(), {1600, 1200}, {}).SaveFile(wxString::FromUTF8(file), wxBITMAP_TYPE_PNG))
+  constexpr PictureSize kSize{1600, 1200};
+  const auto filter = shownFilter();
+  const bool isScene = std::filesystem::path(file).extension() == ".3Dscene";
+  const bool isWritten =
+      isScene ? filterScene(*filter, mapPlane(filter->map), wholeMap(filter->map, kSize), {}, kSize)
+                    ->saveToFile(file)
+              : pictureOf(*filter, kSize, {}).saveToFile(file);
+  if (!isWritten)
     throw InputError("cannot write the picture", file, "expected a folder that can be written to");
 }
 
@@ -242,7 +256,8 @@ void MainFrame::askForScan() {
 }
 
 void MainFrame::editParameters() {
-  if (!settings_) throw InputError("no settings", "the replay", "open an INI file first: File, Open INI file");
+  if (!settings_)
+    throw InputError("no settings", "the replay", "open an INI file first: File, Open INI file");
   ParametersDialog dialog(this, *settings_);
   if (dialog.ShowModal() == wxID_OK) applyChanges(dialog.changes());
 }

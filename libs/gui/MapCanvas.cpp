@@ -1,27 +1,21 @@
 #include "gui/MapCanvas.h"
 
-#include <wx/dcbuffer.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace hybrid_slam {
 
-MapCanvas::MapCanvas(wxWindow* parent, const wxString& title, std::shared_ptr<SharedView> shared,
+MapCanvas::MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr<SharedView> shared,
                      std::function<void()> onChange)
-    : wxPanel(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxFULL_REPAINT_ON_RESIZE),
-      title_(title),
-      shared_(std::move(shared)),
-      onChange_(std::move(onChange)) {
-  SetBackgroundStyle(wxBG_STYLE_PAINT);
+    : CWxGLCanvasBase(parent), title_(title), shared_(std::move(shared)), onChange_(std::move(onChange)) {
   SetMinSize(FromDIP(wxSize(200, 200)));
-  Bind(wxEVT_PAINT, &MapCanvas::onPaint, this);
+  setUseCameraFromScene(true);
+  // What is bound last is asked first: these stand in for the handlers of the base, which turn the camera.
+  Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
   Bind(wxEVT_MOUSEWHEEL, &MapCanvas::onWheel, this);
   Bind(wxEVT_MOTION, &MapCanvas::onMotion, this);
-  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) {
-    lastMouse_ = event.GetPosition();
-    event.Skip();
-  });
+  Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base takes the focus
+  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { lastMouse_ = event.GetPosition(); });
   Bind(wxEVT_LEFT_DCLICK, [this](wxMouseEvent&) {
     shared_->fixed.reset();
     onChange_();
@@ -31,27 +25,27 @@ MapCanvas::MapCanvas(wxWindow* parent, const wxString& title, std::shared_ptr<Sh
 void MapCanvas::show(const std::shared_ptr<const FilterSnapshot>& filter) {
   if (filter == filter_) return;
   filter_ = filter;
-  map_ = filter ? mapBitmap(filter->map) : wxBitmap();
+  map_ = filter ? mapPlane(filter->map) : nullptr;
   Refresh(false);
 }
 
+PictureSize MapCanvas::size() const { return {GetClientSize().x, GetClientSize().y}; }
+
 MapView MapCanvas::view() const {
   if (shared_->fixed) return *shared_->fixed;
-  return filter_ ? wholeMap(filter_->map, GetClientSize()) : MapView();
+  return filter_ ? wholeMap(filter_->map, size()) : MapView();
 }
 
-void MapCanvas::zoom(double factor) {
-  zoomAt({GetClientSize().x / 2, GetClientSize().y / 2}, factor);
-}
+void MapCanvas::zoom(double factor) { zoomAt({size().width / 2, size().height / 2}, factor); }
 
 /// The place under the mouse stays there.
 void MapCanvas::zoomAt(const wxPoint& at, double factor) {
   MapView next = view();
-  const auto before = next.toMap(at, GetClientSize());
+  const auto before = next.toMap(at.x, at.y, size());
   next.scale = std::clamp(next.scale * factor, 0.1, 2000.0);
-  const auto after = next.toMap(at, GetClientSize());
-  next.centreX += before.m_x - after.m_x;
-  next.centreY += before.m_y - after.m_y;
+  const auto after = next.toMap(at.x, at.y, size());
+  next.centreX += before.x - after.x;
+  next.centreY += before.y - after.y;
   shared_->fixed = next;
   onChange_();
 }
@@ -70,17 +64,25 @@ void MapCanvas::onMotion(wxMouseEvent& event) {
   onChange_();
 }
 
-void MapCanvas::onPaint(wxPaintEvent&) {
-  wxAutoBufferedPaintDC dc(this);
-  if (!filter_) {
-    dc.SetBackground(wxBrush(wxColour(127, 127, 127)));
-    dc.Clear();
-    dc.SetTextForeground(*wxWHITE);
-    dc.DrawLabel(title_, GetClientRect(), wxALIGN_CENTRE);
-    return;
-  }
-  const std::unique_ptr<wxGraphicsContext> to(wxGraphicsContext::Create(dc));
-  drawFilter(*to, GetClientSize(), *filter_, map_, view(), shared_->layers);
+mrpt::opengl::COpenGLScene::Ptr MapCanvas::titleScene() const {
+  auto scene = mrpt::opengl::COpenGLScene::Create();
+  scene->getViewport()->setCustomBackgroundColor({0.5f, 0.5f, 0.5f});
+  mrpt::opengl::TFontParams font;
+  font.vfont_name = "sans";
+  font.vfont_scale = static_cast<float>(11 * GetContentScaleFactor());
+  scene->getViewport()->addTextMessage(0.1, 0.5, title_, 0, font);
+  return scene;
+}
+
+void MapCanvas::paint() {
+  const wxPaintDC dc(this);
+  if (!m_gl_context || size().width <= 0 || size().height <= 0) return;
+  const auto lock = mrpt::lockHelper(m_gl_context_mtx);
+  SetCurrent(*m_gl_context);
+  const double density = GetContentScaleFactor();
+  setOpenGLSceneRef(filter_ ? filterScene(*filter_, map_, view(), shared_->layers, size(), density)
+                            : titleScene());
+  renderCanvas(static_cast<int>(size().width * density), static_cast<int>(size().height * density));
 }
 
 }  // namespace hybrid_slam

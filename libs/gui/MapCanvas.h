@@ -2,13 +2,13 @@
 /// @brief A pane of the window that shows one filter; the wheel zooms, dragging moves, a double click fits.
 #pragma once
 
-#include <wx/panel.h>
+#include <mrpt/gui/CWxGLCanvasBase.h>
 
 #include <functional>
 #include <memory>
 #include <optional>
 
-#include "gui/FilterDrawing.h"
+#include "view/FilterScene.h"
 
 namespace hybrid_slam {
 
@@ -18,29 +18,32 @@ struct SharedView {
   Layers layers;
 };
 
-class MapCanvas : public wxPanel {
+class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
   /// @param title      shown while there is no map
   /// @param onChange   called when the shared view was changed here, so that the other panes are drawn too
-  MapCanvas(wxWindow* parent, const wxString& title, std::shared_ptr<SharedView> shared,
+  MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr<SharedView> shared,
             std::function<void()> onChange);
 
   void show(const std::shared_ptr<const FilterSnapshot>& filter);
   void zoom(double factor);
   const std::shared_ptr<const FilterSnapshot>& shown() const { return filter_; }
   MapView view() const;
+  /// In the window's units, which are larger than pixels where the screen is dense.
+  PictureSize size() const;
 
  private:
-  void onPaint(wxPaintEvent&);
+  void paint();
   void onWheel(wxMouseEvent& event);
   void onMotion(wxMouseEvent& event);
   void zoomAt(const wxPoint& at, double factor);
+  mrpt::opengl::COpenGLScene::Ptr titleScene() const;
 
-  wxString title_;
+  std::string title_;
   std::shared_ptr<SharedView> shared_;
   std::function<void()> onChange_;
   std::shared_ptr<const FilterSnapshot> filter_;
-  wxBitmap map_;
+  mrpt::opengl::CTexturedPlane::Ptr map_;
   wxPoint lastMouse_;
 };
 
