@@ -171,7 +171,7 @@ simulated_tables() {
 {
   echo "# Benchmark"
   echo
-  echo "$(lscpu | sed -n 's/^Model name: *//p'), $(nproc) cores; load when begun: $(cut -d' ' -f1-3 /proc/loadavg); $(date -u +%FT%RZ); commit $(git rev-parse --short HEAD)."
+  echo "$(lscpu | sed -n 's/^Model name: *//p'), $(nproc --all) cores; load when begun: $(cut -d' ' -f1-3 /proc/loadavg); $(date -u +%FT%RZ); commit $(git rev-parse --short HEAD)."
   simulated_tables
   if [[ -n ${HYBRID_SLAM_DATASETS:-} ]]; then
     intel_tables

@@ -24,7 +24,7 @@ struct Proposed {
 ///
 /// A match that fits the map less than min_fit is not used: the pose is drawn from the motion model, and the
 /// weight is p(scan | x, grid) p(lines | x, database) there. Its mean over such draws is the same integral,
-/// so that matched and unmatched particles can be compared.
+/// so that matched and unmatched particles can be compared. (ParticleSet tempers both, after that.)
 class ImprovedProposal {
  public:
   explicit ImprovedProposal(const FilterConfiguration& configuration);
