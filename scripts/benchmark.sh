@@ -2,8 +2,8 @@
 # Time and memory of hybrid-slam, beside MRPT's rbpf-slam on the same log in the same run, and of its kernels.
 #   scripts/benchmark.sh [OUT]     OUT defaults to out/benchmark; the tables go to OUT/benchmark.md
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md); without it only the simulated worlds
-# are measured. FULL=1 adds what is slow: rbpf-slam's shipped ICP set-up, 5000 particles, on the CSIE
-# loop too. COUNTS="10 30 100" chooses the numbers of particles. SKIP_KERNELS=1 leaves the
+# are measured. FULL=1 adds what is slow: rbpf-slam's shipped ICP set-up, 5000 and 10000 particles, 5000 on the
+# CSIE loop too. COUNTS="10 30 100" chooses the numbers of particles. SKIP_KERNELS=1 leaves the
 # kernels out. Times are seconds of processor time unless they say otherwise: other programs disturb them least.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/benchmark}
@@ -91,7 +91,7 @@ intel_tables() {
     "30 particles on one core $(cpu improved-30) s CPU, $(wall improved-30) s wall, $(memory improved-30) MB."
 
   local counts n
-  read -ra counts <<<"${COUNTS:-10 30 100 300 1000 3000 ${FULL:+5000}}"
+  read -ra counts <<<"${COUNTS:-10 30 100 300 1000 3000 ${FULL:+5000 10000}}"
   for n in "${counts[@]}"; do ours "particles-$n" "$log" -n "$n" -j 1; done
   echo
   echo "## Time and memory against particles (Intel log, standard proposal, one core)"
