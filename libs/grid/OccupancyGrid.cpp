@@ -54,7 +54,7 @@ class Footprint {
   CellIndex firstTile() const { return first_; }
   CellIndex lastTile() const { return last_; }
   /// 32 counts: a row of cells of one tile.
-  const uint8_t* row(int tileX, int y) const { return &counts_[index(tileX << Tile::kBits, y)]; }
+  const uint8_t* row(int tileX, int y) const { return &counts_[index(tileX * Tile::kSize, y)]; }
 
  private:
   /// Counts the cells that a beam crosses, the origin being relative to the first tile. The beam is followed
@@ -167,7 +167,7 @@ void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& rob
       Tile::Cells cells = tile ? tile->cells() : Tile::Cells{};
       bool isTouched = false;
       for (int row = 0; row < Tile::kSize; ++row) {
-        const uint8_t* const counts = footprint.row(tx, (ty << Tile::kBits) + row);
+        const uint8_t* const counts = footprint.row(tx, ty * Tile::kSize + row);
         if (isZero(counts)) continue;
         isTouched = true;
         update(&cells[Tile::index(0, row)], counts, steps);

@@ -52,7 +52,7 @@ class Tile {
     uint64_t negative = ~uint64_t{0};  // the sign bits of a row of eight cells at a time
     for (int row = 0; row < kSquareSize; ++row) {
       uint64_t eight;
-      std::memcpy(&eight, &cells_[index(x << kSquareBits, (y << kSquareBits) + row)], sizeof eight);
+      std::memcpy(&eight, &cells_[index(x * kSquareSize, y * kSquareSize + row)], sizeof eight);
       negative &= eight;
     }
     const bool isFree = (negative & 0x8080808080808080u) == 0x8080808080808080u;
