@@ -20,14 +20,14 @@ run() {
   local rate=$1 out=$work/out-$1
   printf '[server]\nport = 0\nrawlog = %s\nreplay_rate = %s\nwait_for_clients = 1\n' "$work/csie.rawlog" "$rate" \
     >"$work/server.ini"
+  rm -f "$work/server.out"  # that of the rate before names another port
   "$bin/observation-server" "$work/server.ini" >"$work/server.out" 2>"$work/server.err" &
   server=$!
-  until grep -qs listening "$work/server.out"; do
+  local address=
+  until address=$(sed -n 's/^listening at \(.*:[0-9]\)/\1/p' "$work/server.out" 2>/dev/null) && [[ -n $address ]]; do
     kill -0 "$server" || { cat "$work/server.err" >&2; exit 1; }
     sleep 0.1
   done
-  local address
-  address=$(sed -n 's/listening at //p' "$work/server.out")
   "$bin/hybrid-slam-live" config-ini/csie-lms100.ini --server "$address" -o "$out" -n 50 -j 2 -q \
     2>"$work/live.err" || { cat "$work/live.err" "$work/server.err" >&2; exit 1; }
   wait "$server" || { cat "$work/server.err" >&2; exit 1; }
