@@ -29,8 +29,8 @@ namespace {
 
 constexpr int kBlock = 8;  // steps at a time: where all cells are free, all are left out
 
-/// Whether a block of steps meets nothing: it is no longer than a square is wide, so that its cells lie in the
-/// squares at the corners of the rectangle that it spans.
+/// Whether a block of steps meets nothing: it is no longer than a square is wide, so that its cells lie in
+/// the squares at the corners of the rectangle that it spans.
 bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
   constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
   for (const int x : {first.squareX(), last.squareX()})
