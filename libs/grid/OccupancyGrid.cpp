@@ -59,7 +59,7 @@ class Footprint {
  private:
   /// Counts the cells that a beam crosses, the origin being relative to the first tile. The beam is followed
   /// from column to column (or from row to row if it is steep), in each of which it is in one cell or two:
-  /// places in fixed point, where a cell is 2^32, and no branch that depends on the beam. A cell that is only
+  /// places in fixed point, and no branch that depends on the beam. A cell that is only
   /// touched, at a corner, is not crossed.
   /// @tparam kMayOverflow  whether more beams may cross a cell than a count holds
   template <bool kMayOverflow>
@@ -69,10 +69,9 @@ class Footprint {
     const double dirU = isSteep ? dirY : dirX, dirV = isSteep ? dirX : dirY;
     const auto strideU = static_cast<ptrdiff_t>(isSteep ? width_ : 1),
                strideV = static_cast<ptrdiff_t>(isSteep ? 1 : width_);
-    const auto fixed = [](double cells) { return static_cast<int64_t>(cells * 0x1p32); };
     const int firstColumn = floorOf(u), columns = std::abs(floorOf(u + range * dirU) - firstColumn);
     const double slope = dirV / std::abs(dirU);
-    const int64_t step = fixed(slope);
+    const int64_t step = fixedPoint(slope);
     // On a border, a beam comes from one cell and goes into the other.
     const int64_t toEntry = slope < 0 ? 1 : 0, toExit = slope > 0 ? 1 : 0;
     uint8_t* column = counts_.data() + firstColumn * strideU;
@@ -81,10 +80,11 @@ class Footprint {
       add<kMayOverflow>(column[first * strideV], 1);
       add<kMayOverflow>(column[second * strideV], first != second);
     };
-    int64_t entry = fixed(v), exit = fixed(v + (dirU > 0 ? firstColumn + 1 - u : u - firstColumn) * slope);
+    int64_t entry = fixedPoint(v),
+            exit = fixedPoint(v + (dirU > 0 ? firstColumn + 1 - u : u - firstColumn) * slope);
     for (int i = 0; i<columns; ++i, entry = exit, exit += step, column += dirU> 0 ? strideU : -strideU)
       count(entry, exit);
-    count(entry, fixed(v + range * dirV));
+    count(entry, fixedPoint(v + range * dirV));
   }
   template <bool kMayOverflow>
   static void add(uint8_t& count, int crossings) {

@@ -14,14 +14,16 @@ inline int floorOf(double x) {
   return towardsZero - (x < towardsZero);
 }
 
-/// A place on the grid that moves along a ray by a constant step. In fixed point, where a cell is 2^32: the
-/// cell of a place is then a shift, the next place an addition, and no branch is left that depends on the
-/// ray.
+/// A coordinate in fixed point: a cell is 2^32, so that the cell of a place is a shift.
+inline int64_t fixedPoint(double cells) { return static_cast<int64_t>(cells * 0x1p32); }
+
+/// A place on the grid that moves along a ray by a constant step. In fixed point: the next place is an
+/// addition, and no branch is left that depends on the ray.
 class RaySamples {
  public:
   /// The first place and the step from each to the next, in cells.
   RaySamples(double x, double y, double stepX, double stepY)
-      : x_(fixed(x)), y_(fixed(y)), stepX_(fixed(stepX)), stepY_(fixed(stepY)) {}
+      : x_(fixedPoint(x)), y_(fixedPoint(y)), stepX_(fixedPoint(stepX)), stepY_(fixedPoint(stepY)) {}
 
   int cellX() const { return static_cast<int>(x_ >> kBits); }
   int cellY() const { return static_cast<int>(y_ >> kBits); }
@@ -39,7 +41,6 @@ class RaySamples {
 
  private:
   static constexpr int kBits = 32;
-  static int64_t fixed(double cells) { return static_cast<int64_t>(cells * 0x1p32); }
 
   int64_t x_, y_, stepX_, stepY_;
 };

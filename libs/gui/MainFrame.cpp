@@ -146,11 +146,12 @@ void MainFrame::bindViewMenu() {
   bind(kZoomIn, [canvas] { canvas()->zoom(1.25); });
   bind(kZoomOut, [canvas] { canvas()->zoom(0.8); });
   bind(kFit, [this] { pages_->GetSelection() == 0 ? replay_->fit() : live_->fit(); });
-  for (const auto& [id, layer] : std::initializer_list<std::pair<int, bool Layers::*>>{{kParticles, &Layers::particles},
-                                                                                      {kPath, &Layers::path},
-                                                                                      {kLines, &Layers::lines},
-                                                                                      {kScanLines, &Layers::scanLines},
-                                                                                      {kEllipse, &Layers::ellipse}})
+  for (const auto& [id, layer] :
+       std::initializer_list<std::pair<int, bool Layers::*>>{{kParticles, &Layers::particles},
+                                                             {kPath, &Layers::path},
+                                                             {kLines, &Layers::lines},
+                                                             {kScanLines, &Layers::scanLines},
+                                                             {kEllipse, &Layers::ellipse}})
     bind(id, [this, layer = layer] {
       replay_->toggle(layer);
       live_->toggle(layer);

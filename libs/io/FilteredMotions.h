@@ -21,8 +21,8 @@ namespace hybrid_slam {
 /// averaged over scans that go with the true model, the posterior of a step is the model itself, whichever
 /// scans it is given, so that EM rests at the true model.
 ///
-/// The weights of the improved proposal are not tempered here: with exponent 0.02 the variance of the distance
-/// came out 1.4 times too large, and the likelihood said little.
+/// The weights of the improved proposal are not tempered here: with exponent 0.02 the variance of the
+/// distance came out 1.4 times too large, and the likelihood said little.
 ///
 /// @param progressNote  stands beside the progress
 /// @param stop          set from outside (Ctrl-C)

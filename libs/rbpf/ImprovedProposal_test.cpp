@@ -132,7 +132,7 @@ TEST_P(ImprovedProposals, ThePosesAreThoseOfTheTarget) {
 
 TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
   FilterConfiguration c = configuration(GetParam());
-  c.matcher.sigma = 0.35;  // with the default, 0.3, 0.6 of the spread along are kept
+  c.matcher.sigma = 0.35;              // with the default, 0.3, 0.6 of the spread along are kept
   c.motion.distance.varianceD = 0.04;  // 5 cm
   const TPose2D start(-0.3, 0.1, 0);
   const Particle particle = particleAt(kCorridor, start);

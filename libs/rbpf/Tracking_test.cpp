@@ -232,8 +232,8 @@ TEST(Tracking, MrptsLikelihoodsTakeThreads) {
   }
 }
 
-/// A robot that veers by 6 deg/m, which the motion model's variances (1 deg in a step of 0.25 m) would have to
-/// explain again and again.
+/// A robot that veers by 6 deg/m, which the motion model's variances (1 deg in a step of 0.25 m) would have
+/// to explain again and again.
 TEST(Tracking, TheStandardProposalLearnsASystematicError) {
   std::vector<DriveStep> steps = drive(6);
   for (DriveStep& step : steps) step.odometry.phi -= 6 * kDegree * step.odometry.x;
