@@ -18,7 +18,8 @@ void GridWeightOptions::describe(OptionTable& t) {
   t.add("exponent", exponent, 0, 1000, "",
         "tempering: w_grid = (geometric mean of the beams' likelihoods)^exponent, as if so many beams were "
         "independent");
-  t.add("beams", beams, 0, 10000, "weighs about so many beams of a scan, evenly spread; 0: all");
+  t.add("beams", beams, 0, 10000,
+        "weighs so many beams of a scan, evenly from all directions of walls; 0: all");
   t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a range against the grid");
   t.add("unknown_depth", unknownDepth, 0.1, 1000, "m", "mean distance that a beam travels in unseen cells");
   t.add("outlier", outlier, 1e-6, 0.99, "",
@@ -40,6 +41,14 @@ bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) 
     }
   return true;
 }
+
+/// Occupied cells that follow one another on a beam.
+struct Wall {
+  double passes = 1;   ///< prod (1 - P)
+  double stops = 0;    ///< sum P
+  int next = 0;        ///< the steps left where it would go on
+  double density = 0;  ///< sum P exp(-(d - z)^2 / (2 sigma^2))
+};
 
 }  // namespace
 
@@ -71,15 +80,37 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
   const double start = range + behind_ - left + 0.5;
   RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);
   double passing = 1, stoppedNearRange = 0;  // the product and the sum of the formula
+  Wall wall;
+  const auto leaveWall = [&] {
+    if (wall.stops == 0) return;
+    stoppedNearRange += passing * (1 - wall.passes) * wall.density / wall.stops;
+    passing *= wall.passes;
+    wall = Wall();
+  };
   for (int block = (left - 1) % kBlock + 1; left > 0; left -= block, block = kBlock) {
     const double* const density =
         left <= window ? &density_[static_cast<size_t>(window - left)] : kFarFromReading.data();
     const auto follow = [&](const auto& valueAt) __attribute__((always_inline)) {
+      std::array<int, kBlock> values;
+      unsigned met = 0;  // a bit for each cell that is not free: few are left
       for (int i = 0; i < block; ++i, place.advance()) {
-        const double passed =
-            passing * passes_[static_cast<size_t>(valueAt(place.cellX(), place.cellY()) + 128)];
-        stoppedNearRange += (passing - passed) * density[i];
-        passing = passed;
+        values[i] = valueAt(place.cellX(), place.cellY());
+        met |= static_cast<unsigned>(values[i] >= 0) << i;
+      }
+      for (; met != 0; met &= met - 1) {
+        const int i = __builtin_ctz(met);
+        const double passes = passes_[static_cast<size_t>(values[i] + 128)];
+        if (values[i] == 0) {
+          leaveWall();
+          stoppedNearRange += passing * (1 - passes) * density[i];
+          passing *= passes;
+          continue;
+        }
+        if (wall.next != left - i) leaveWall();
+        wall.next = left - i - 1;
+        wall.passes *= passes;
+        wall.stops += 1 - passes;
+        wall.density += (1 - passes) * density[i];
       }
     };
     const RaySamples last = place.ahead(block - 1);
@@ -97,6 +128,7 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
       follow([&](int x, int y) { return cells.at(x, y); });
     }
   }
+  leaveWall();
   const double stopped = 1 - passing;
   return stopped > 0 ? std::min(stoppedNearRange / stopped, 1.0) : 0;
 }

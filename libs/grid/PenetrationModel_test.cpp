@@ -65,12 +65,43 @@ TEST(PenetrationModel, TwoWallsShareTheBeamByTheirOccupancy) {
   }
 }
 
+/// Readings of a wall end before and behind its middle alike: noise and rounding make it thick. What is
+/// expected of the next one must lie in the middle, too, or the robot is held back from the wall.
+TEST(PenetrationModel, AThickWallIsExpectedInItsMiddle) {
+  Corridor corridor(0.05, {});
+  corridor.fill(0, 300, kFree);
+  corridor.fill(99, 101, 30);
+  const double middle = 5.025;
+  // Off by a half step and whole ones the middles of the steps are those of the cells.
+  for (const double off : {0.025, 0.075, 0.125, 0.175})
+    EXPECT_NEAR(corridor.likelihood(middle - off + 1e-9), corridor.likelihood(middle + off + 1e-9), 1e-6)
+        << off;
+  EXPECT_GT(corridor.likelihood(middle + 0.025 + 1e-9), corridor.likelihood(middle - 0.075 + 1e-9));
+  corridor.wall(99, 10);  // hit less often
+  const double p1 = corridor.occupancy(99), p2 = corridor.occupancy(100);
+  const double z = 5.01;
+  EXPECT_NEAR(corridor.likelihood(z),
+              (p1 * corridor.gaussian(99, z) + p2 * (corridor.gaussian(100, z) + corridor.gaussian(101, z))) /
+                  (p1 + 2 * p2),
+              1e-12);
+}
+
+TEST(PenetrationModel, AThickWallLetsThroughWhatAllItsCellsDo) {
+  Corridor corridor(0.05, {});
+  corridor.fill(0, 300, kFree);
+  corridor.fill(58, 60, 20);
+  corridor.wall(100, 40);
+  const double through = std::pow(1 - corridor.occupancy(58), 3), p = corridor.occupancy(100);
+  EXPECT_NEAR(corridor.likelihood(5.02), through * p * corridor.gaussian(100, 5.02) / (1 - through * (1 - p)),
+              1e-12);
+}
+
 TEST(PenetrationModel, AReadingBehindAWallIsAsUnlikelyAsTheWallIsSolid) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
   corridor.wall(60, 40), corridor.wall(100, 40);
   const double p = corridor.occupancy(60);
-  // At the second wall, 2 m (20 sigma) behind the first: got through the first, stopped by the second.
+  // At the second wall, 2 m (25 sigma) behind the first: got through the first, stopped by the second.
   EXPECT_NEAR(corridor.likelihood(5.02), (1 - p) * p / (1 - (1 - p) * (1 - p)) * corridor.gaussian(100, 5.02),
               1e-12);
   // At the first wall, the second out of the sum's reach.
@@ -85,6 +116,7 @@ TEST(PenetrationModel, UnknownSpaceFollowsTheExponentialLaw) {
     for (const double z : {0.5, 3.0, 10.0}) {
       GridWeightOptions options;
       options.unknownDepth = depth;
+      options.sigma = 0.13;
       const double cell = 0.01, s = options.sigma, shift = s / depth;
       const double integral = std::exp(-z / depth + 0.5 * shift * shift) / depth * s * std::sqrt(M_PI / 2) *
                               (std::erf((3 + shift) / M_SQRT2) - std::erf((-z / s + shift) / M_SQRT2));
@@ -116,12 +148,18 @@ TEST(PenetrationModel, KnownFreeSpaceLetsEveryBeamThrough) {
   EXPECT_EQ(corridor.likelihood(5.1), before);
 }
 
-/// The formula of the header, step by step: prod_{j<i} (1 - P_j) P_i exp(...), over the whole beam.
+/// The formula of the header, step by step, over the whole beam.
 double reference(const GridWeightOptions& o, double size, const OccupancyGrid& grid, double x, double y,
                  double dirX, double dirY, double z) {
   const double behind = std::max(1.0, std::round(3 * o.sigma / size));
   const double steps = std::floor(z / size + 0.5) + behind;
   double passing = 1, sum = 0;
+  double wallPasses = 1, wallStops = 0, wallSum = 0;
+  const auto leaveWall = [&] {
+    if (wallStops > 0) sum += passing * (1 - wallPasses) * wallSum / wallStops;
+    passing *= wallPasses;
+    wallPasses = 1, wallStops = wallSum = 0;
+  };
   for (int i = 0; i < steps; ++i) {
     const double d = z + (behind - steps + i + 0.5) * size;
     const CellIndex cell = grid.cellOf(x + d * dirX, y + d * dirY);
@@ -129,9 +167,13 @@ double reference(const GridWeightOptions& o, double size, const OccupancyGrid& g
     const double stops = value == 0  ? 1 - std::exp(-size / o.unknownDepth)
                          : value > 0 ? grid.occupancy(cell)
                                      : 0;
-    sum += passing * stops * std::exp(-(d - z) * (d - z) / (2 * o.sigma * o.sigma));
-    passing *= 1 - stops;
+    if (value <= 0) leaveWall();
+    wallPasses *= 1 - stops;
+    wallStops += stops;
+    wallSum += stops * std::exp(-(d - z) * (d - z) / (2 * o.sigma * o.sigma));
+    if (value <= 0) leaveWall();
   }
+  leaveWall();
   return passing < 1 ? sum / (1 - passing) : 0;
 }
 
