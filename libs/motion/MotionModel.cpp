@@ -45,13 +45,20 @@ void MotionModelOptions::describe(OptionTable& t) {
 }
 
 TPose2D sampleMotion(const TPose2D& odometry, const MotionModelOptions& o, RandomStream& random) {
+  std::array<double, 3> normals;
+  for (double& normal : normals) normal = random.gaussian();
+  return sampleMotion(odometry, o, normals);
+}
+
+TPose2D sampleMotion(const TPose2D& odometry, const MotionModelOptions& o,
+                     const std::array<double, 3>& normals) {
   const MotionStep seen(odometry);
-  const auto draw = [&](const MotionTerm& term, double minStd) {
-    return term.mean(seen) + std::sqrt(term.variance(seen, minStd)) * random.gaussian();
+  const auto draw = [&](const MotionTerm& term, double minStd, double normal) {
+    return term.mean(seen) + std::sqrt(term.variance(seen, minStd)) * normal;
   };
-  const double distance = draw(o.distance, o.minStdXY);
-  const double drift = seen.drift + draw(o.drift, o.minStdXY);
-  return MotionStep(distance, drift, draw(o.turn, o.minStdPhi)).increment();
+  const double distance = draw(o.distance, o.minStdXY, normals[0]);
+  const double drift = seen.drift + draw(o.drift, o.minStdXY, normals[1]);
+  return MotionStep(distance, drift, draw(o.turn, o.minStdPhi, normals[2])).increment();
 }
 
 MotionDistribution motionDistribution(const TPose2D& start, const TPose2D& odometry,

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 
 #include "base/Options.h"
@@ -55,6 +56,10 @@ struct MotionModelOptions : Options {
 /// start of the step; m, rad): Sec. III-A, step 1.
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  RandomStream& random);
+
+/// The same from standard normal numbers that were drawn elsewhere, for D, C and T.
+mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
+                                 const std::array<double, 3>& normals);
 
 /// The normal distribution nearest to `sampleMotion`: the mean pose after the step, and its covariance
 /// (x, y, phi) in the frame that `start` is given in.

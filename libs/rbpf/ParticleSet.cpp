@@ -16,6 +16,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include <optional>
 
 #include "base/RandomStream.h"
+#include "motion/SpreadNormals.h"
 #include "rbpf/Resampling.h"
 #include "rbpf/Threads.h"
 
@@ -125,9 +126,10 @@ void ParticleSet::startPathAt(const TPose2D& start) {
 }
 
 // Sec. III-A, steps 1 and 2, as in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
-double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry, RandomStream& random) const {
+double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry,
+                                   const std::array<double, 3>& normals) const {
   const MotionModelOptions model = particle.motion.model(configuration_.motion);
-  particle.path.push(particle.path.back() + sampleMotion(odometry, model, random));
+  particle.path.push(particle.path.back() + sampleMotion(odometry, model, normals));
   particle.motion.learn(odometry, particle.path.lastMotion(), configuration_.motion);
   const Weight weight = weigh(particle, particle.path.back());
   setWeight(particle, weight);
@@ -139,9 +141,9 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
                                                            const PfOptions& /*PF_options*/) {
   const StageTimer timer(profiler_, "3 sample, weigh");
   const TPose2D odometry = rawOdometry(*action);
+  const SpreadNormals normals(stream(m_particles.size() + 1));
   forEachParticle([&](size_t i, Particle& particle) {
-    RandomStream random = stream(i);
-    m_particles[i].log_w += sampleAndWeigh(particle, odometry, random);
+    m_particles[i].log_w += sampleAndWeigh(particle, odometry, normals(i));
   });
   summarise(odometry);
 }

@@ -84,7 +84,8 @@ class ParticleSet
   void summarise(const mrpt::math::TPose2D& odometry);
   double logSumOfWeights() const;
   /// Steps 1 and 2 for one particle: moves it and returns by how much its log-weight grows.
-  double sampleAndWeigh(Particle& particle, const mrpt::math::TPose2D& odometry, RandomStream& random) const;
+  double sampleAndWeigh(Particle& particle, const mrpt::math::TPose2D& odometry,
+                        const std::array<double, 3>& normals) const;
   template <class Body>
   void forEachParticle(const Body& body);
 

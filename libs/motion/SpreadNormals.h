@@ -1,0 +1,42 @@
+/// @file SpreadNormals.h
+/// @brief Normal numbers for all particles of one step, spread evenly.
+#pragma once
+
+#include <mrpt/math/distributions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/RandomStream.h"
+
+namespace hybrid_slam {
+
+/// Standard normal numbers for D, C and T: particle i takes the i-th point of the Kronecker sequence
+///     u_k = frac(shift_k + i g^-k),  k = 1, 2, 3,  g^4 = g + 1
+/// (Roberts 2018, the R-sequence) to the normal quantiles. The shift is drawn uniformly, so that each
+/// particle's numbers for themselves are distributed as independent draws are. But particles that stand side
+/// by side, as those do that resampling copied from one, do not draw nearly the same twice and leave gaps
+/// elsewhere.
+class SpreadNormals {
+ public:
+  explicit SpreadNormals(RandomStream random) {
+    for (double& shift : shift_) shift = random.uniform();
+  }
+
+  std::array<double, 3> operator()(size_t particle) const {
+    constexpr double kG = 1.2207440846057596;
+    constexpr std::array<double, 3> kStep{1 / kG, 1 / (kG * kG), 1 / (kG * kG * kG)};
+    std::array<double, 3> normals;
+    for (size_t k = 0; k < normals.size(); ++k) {
+      const double u = shift_[k] + static_cast<double>(particle) * kStep[k];
+      normals[k] = mrpt::math::normalQuantile(std::max(u - std::floor(u), 0x1p-53));  // of 0 it is infinite
+    }
+    return normals;
+  }
+
+ private:
+  std::array<double, 3> shift_;
+};
+
+}  // namespace hybrid_slam
