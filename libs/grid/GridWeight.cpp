@@ -42,6 +42,12 @@ mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
   return out;
 }
 
+/// Every so many-th of `count` beams leaves about `beams`, evenly spread; 0 leaves all.
+size_t decimation(size_t count, int beams) {
+  if (beams == 0) return 1;
+  return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
+}
+
 /// The cells within reach of the scan's longest beam.
 CellBox reach(const ScanBeams& beams, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) {
   double longest = 0;
@@ -61,7 +67,7 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, cons
   auto& options = local.likelihoodOptions;
   options.likelihoodMethod = mrptMethod(options_.method);
   options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
-  const size_t step = beamStep(scan.beams.size(), options_.beams);
+  const size_t step = decimation(scan.beams.size(), options_.beams);
   options.LF_decimation = static_cast<uint32_t>(step);
   options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
   // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.

@@ -4,19 +4,12 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/LaserScan.h"
 
 namespace hybrid_slam {
-
-/// Every so many-th of `count` beams leaves about `beams`, evenly spread; 0 leaves all.
-inline size_t beamStep(size_t count, int beams) {
-  if (beams == 0) return 1;
-  return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
-}
 
 /// The valid beams of one scan in the robot frame; no trigonometry is left to do for a particle but that of
 /// its own heading.
@@ -28,15 +21,22 @@ struct ScanBeams {
   double originX = 0, originY = 0;  ///< the sensor, robot frame, m
   std::vector<Ray> rays;
 
-  /// @param beams  of those of the scan, valid or not, takes about so many; 0: all
-  explicit ScanBeams(const LaserScan& scan, int beams = 0)
+  /// All beams.
+  explicit ScanBeams(const LaserScan& scan) : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
+    for (const Beam& beam : scan.beams)
+      if (beam.valid) add(scan, beam);
+  }
+  /// Those taken by a BeamSelection.
+  ScanBeams(const LaserScan& scan, const std::vector<size_t>& taken)
       : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
-    const size_t step = beamStep(scan.beams.size(), beams);
-    for (size_t i = 0; i < scan.beams.size(); i += step) {
-      const Beam& beam = scan.beams[i];
-      const double heading = scan.sensorPose.phi + beam.angle;
-      if (beam.valid) rays.push_back({std::cos(heading), std::sin(heading), beam.range});
-    }
+    rays.reserve(taken.size());
+    for (const size_t i : taken) add(scan, scan.beams[i]);
+  }
+
+ private:
+  void add(const LaserScan& scan, const Beam& beam) {
+    const double heading = scan.sensorPose.phi + beam.angle;
+    rays.push_back({std::cos(heading), std::sin(heading), beam.range});
   }
 };
 

@@ -19,7 +19,8 @@ TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
 
 void ScanMatcherOptions::describe(OptionTable& t) {
   t.add("sigma", sigma, 0.01, 100, "", "deviation of one beam's residual 1 - m; larger trusts a match less");
-  t.add("beams", beams, 0, 10000, "matches about so many beams of a scan, evenly spread; 0: all");
+  t.add("beams", beams, 0, 10000,
+        "matches so many beams of a scan, evenly from all directions of walls; 0: all");
   t.add("iterations", iterations, 1, 1000, "at most so many steps of a climb");
 }
 

@@ -4,6 +4,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "grid/BeamSelection.h"
 #include "rbpf/Particle.h"
 #include "rbpf/PreparedScan.h"
 #include "rbpf/TestRoom.h"
@@ -15,7 +16,9 @@ inline const Walls kCorridor{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1000
 inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStream& random) {
   const LaserScan scan = scanOf(walls, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
   const FilterConfiguration c;
-  return {scan, ScanBeams(scan), ScanBeams(scan, c.gridWeight.beams), ScanBeams(scan, c.matcher.beams),
+  const BeamSelection selection(scan);
+  return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(c.gridWeight.beams)),
+          ScanBeams(scan, selection.take(c.matcher.beams)),
           LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan)};
 }
 

@@ -1,5 +1,7 @@
 #include "rbpf/PreparedScan.h"
 
+#include "grid/BeamSelection.h"
+
 namespace hybrid_slam {
 
 ScanPreparation::ScanPreparation(const FilterConfiguration& configuration)
@@ -8,8 +10,9 @@ ScanPreparation::ScanPreparation(const FilterConfiguration& configuration)
 
 PreparedScan ScanPreparation::operator()(const mrpt::obs::CObservation2DRangeScan& observation) const {
   const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
-  return {scan, ScanBeams(scan), ScanBeams(scan, configuration_.gridWeight.beams),
-          ScanBeams(scan, configuration_.matcher.beams),
+  const BeamSelection selection(scan);
+  return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(configuration_.gridWeight.beams)),
+          ScanBeams(scan, selection.take(configuration_.matcher.beams)),
           configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
 }
 

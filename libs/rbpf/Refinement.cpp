@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <tbb/parallel_for.h>
 
+#include "grid/BeamSelection.h"
 #include "grid/ScanMatcher.h"
 #include "rbpf/PreparedScan.h"
 #include "rbpf/Threads.h"
@@ -45,8 +46,8 @@ void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configurat
     arena.execute([&] {
       tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
         TPose2D& pose = scans[i].pose;
-        const ScanBeams beams(toLaserScan(*scans[i].scan, configuration.grid.maxRange),
-                              configuration.matcher.beams);
+        const LaserScan scan = toLaserScan(*scans[i].scan, configuration.grid.maxRange);
+        const ScanBeams beams(scan, BeamSelection(scan).take(configuration.matcher.beams));
         const Prior prior = [&, before = pose](const TPose2D& at) {
           return gaussianLogDensity(at, before, information);
         };
