@@ -49,19 +49,19 @@ class Malaga : public testing::Test {
   fs::path folder_;
 };
 
-/// Seeds 1-8 with 50 particles ended at (4.25, -18.39, -87.1 deg), with a standard deviation of 0.08 m, 0.06
-/// m and 0.5 deg (improved proposal, 15 particles, seed 1: (4.30, -18.43, -87.3)); raw odometry ends at
-/// (-4.80, -21.16, -106.7 deg). The scans fitted the map with 0.60-0.64, and their lines the database with
-/// 0.59-0.66.
+/// Seeds 1-8 with 50 particles ended at (4.15, -18.49, -87.1 deg), with a standard deviation of 0.06 m, 0.04
+/// m and 0.6 deg (improved proposal, 15 particles, seed 1: (4.21, -18.51, -87.8)); raw odometry ends at
+/// (-4.80, -21.16, -106.7 deg). The scans fitted the map with 0.43-0.50, and their lines the database with
+/// 0.56-0.69.
 TEST_F(Malaga, EndsWhereItWasRecordedToEnd) {
   for (const int seed : {1, 2, 3}) {
     const Trajectory trajectory = run("-n 50 -s " + std::to_string(seed));
     ASSERT_EQ(trajectory.size(), 225u);
     const auto& end = trajectory.back().pose;
-    EXPECT_NEAR(end.x, 4.25, 0.35) << "seed " << seed;
-    EXPECT_NEAR(end.y, -18.39, 0.25) << "seed " << seed;
+    EXPECT_NEAR(end.x, 4.15, 0.25) << "seed " << seed;
+    EXPECT_NEAR(end.y, -18.49, 0.2) << "seed " << seed;
     EXPECT_LT(std::abs(mrpt::math::wrapToPi(end.phi + 87.1 * M_PI / 180)), 2 * M_PI / 180) << "seed " << seed;
-    EXPECT_GT(meanOf("w_grid_best"), 0.55) << "seed " << seed;
+    EXPECT_GT(meanOf("w_grid_best"), 0.42) << "seed " << seed;
     EXPECT_GT(meanOf("w_line_best"), 0.5) << "seed " << seed;
   }
 }
@@ -70,7 +70,7 @@ TEST_F(Malaga, EndsWhereItWasRecordedToEnd) {
 TEST_F(Malaga, OdometryAloneEndsElsewhere) {
   const auto end =
       run("--set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360").back();
-  EXPECT_GT(std::hypot(end.pose.x - 4.25, end.pose.y + 18.39), 5);
+  EXPECT_GT(std::hypot(end.pose.x - 4.15, end.pose.y + 18.49), 5);
 }
 
 }  // namespace
