@@ -37,7 +37,7 @@ struct GridWeightOptions : Options {
 ///     sum_w [prod_{v<w} (1 - P)] [1 - prod_w (1 - P)] sum_w P_i exp(...) / sum_w P_i.
 /// Noise and rounding make walls two or three cells thick. DP-SLAM's sum expects a reading at their near
 /// side, though it was in the middle of them that readings ended, and holds the robot back from the walls
-/// ahead of it: by 0.35 % of a corridor's length (doc/accuracy.md).
+/// ahead of it: by 0.4 % of a corridor's length (doc/accuracy.md).
 ///
 /// DP-SLAM weighs each cell by the length that the beam has in it; with steps this is so on average, and
 /// takes a third of the time.
