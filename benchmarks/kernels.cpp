@@ -92,8 +92,8 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   static const PenetrationModel model(s.options.gridWeight, s.particle.grid.resolution());
   // Where nothing can stop a beam, 8 steps at once: its last place 4, the tiles of both 6, the tile looked up
   // 3, their squares 4, the bits of four squares 16, put together and compared 5, the next block 6: 44
-  // halves. Elsewhere a step, the place of the cell 4 halves, product, difference, product and sum 4; a cell
-  // and two numbers read.
+  // halves. Elsewhere a step, the place of the cell 4 halves, product, difference, sum, product and sum 5; a
+  // cell and two numbers read; what is done once a wall is not counted.
   const double beyond = 3 * s.options.gridWeight.sigma;
   double weighed = 0, met = 0;
   forEachStep(s, s.scan.weighedBeams, beyond, [&](int x, int y) {
@@ -101,7 +101,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
     met += s.particle.grid.tiles().at({x, y}) >= 0;
   });
   all.push_back(
-      {"penetration weight", "step", weighed, ((weighed - met) / 8 * 22 + met * (kStep + 2 + 4)) / weighed,
+      {"penetration weight", "step", weighed, ((weighed - met) / 8 * 22 + met * (kStep + 2 + 5)) / weighed,
        ((weighed - met) / 8 * 8 + met * 17) / weighed, false,
        [&s] { DoNotOptimize(model.meanLogLikelihood(s.scan.weighedBeams, s.pose, s.particle.grid)); },
        "free cells near others are gone through one by one; each product waits for the one before; where "

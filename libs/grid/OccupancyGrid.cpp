@@ -82,8 +82,8 @@ class Footprint {
     };
     int64_t entry = fixedPoint(v),
             exit = fixedPoint(v + (dirU > 0 ? firstColumn + 1 - u : u - firstColumn) * slope);
-    for (int i = 0; i<columns; ++i, entry = exit, exit += step, column += dirU> 0 ? strideU : -strideU)
-      count(entry, exit);
+    const ptrdiff_t toNext = dirU > 0 ? strideU : -strideU;
+    for (int i = 0; i < columns; ++i, entry = exit, exit += step, column += toNext) count(entry, exit);
     count(entry, fixedPoint(v + range * dirV));
   }
   template <bool kMayOverflow>

@@ -19,7 +19,8 @@ void GridWeightOptions::describe(OptionTable& t) {
         "tempering: w_grid = (geometric mean of the beams' likelihoods)^exponent, as if so many beams were "
         "independent");
   t.add("beams", beams, 0, 10000,
-        "weighs so many beams of a scan, evenly from all directions of walls; 0: all");
+        "weighs so many beams of a scan, evenly from all directions of walls (MRPT's methods: about so many, "
+        "evenly spread); 0: all");
   t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a range against the grid");
   t.add("unknown_depth", unknownDepth, 0.1, 1000, "m", "mean distance that a beam travels in unseen cells");
   t.add("outlier", outlier, 1e-6, 0.99, "",
@@ -46,7 +47,6 @@ bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) 
 struct Wall {
   double passes = 1;   ///< prod (1 - P)
   double stops = 0;    ///< sum P
-  int next = 0;        ///< the steps left where it would go on
   double density = 0;  ///< sum P exp(-(d - z)^2 / (2 sigma^2))
 };
 
@@ -91,39 +91,35 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
     const double* const density =
         left <= window ? &density_[static_cast<size_t>(window - left)] : kFarFromReading.data();
     const auto follow = [&](const auto& valueAt) __attribute__((always_inline)) {
-      std::array<int, kBlock> values;
-      unsigned met = 0;  // a bit for each cell that is not free: few are left
       for (int i = 0; i < block; ++i, place.advance()) {
-        values[i] = valueAt(place.cellX(), place.cellY());
-        met |= static_cast<unsigned>(values[i] >= 0) << i;
-      }
-      for (; met != 0; met &= met - 1) {
-        const int i = __builtin_ctz(met);
-        const double passes = passes_[static_cast<size_t>(values[i] + 128)];
-        if (values[i] == 0) {
+        const int value = valueAt(place.cellX(), place.cellY());
+        const double passes = passes_[static_cast<size_t>(value + 128)];
+        if (value > 0) {
+          wall.passes *= passes;
+          wall.stops += 1 - passes;
+          wall.density += (1 - passes) * density[i];
+        } else {
           leaveWall();
           stoppedNearRange += passing * (1 - passes) * density[i];
           passing *= passes;
-          continue;
         }
-        if (wall.next != left - i) leaveWall();
-        wall.next = left - i - 1;
-        wall.passes *= passes;
-        wall.stops += 1 - passes;
-        wall.density += (1 - passes) * density[i];
       }
+    };
+    const auto leaveOut = [&] {
+      leaveWall();
+      place.advance(block);
     };
     const RaySamples last = place.ahead(block - 1);
     if (place.tileX() == last.tileX() && place.tileY() == last.tileY()) {
       const Tile* const tile = cells.tile(place.tileX(), place.tileY());
       if (tile && tile->isFree(place.squareX(), place.squareY(), last.squareX(), last.squareY()))
-        place.advance(block);
+        leaveOut();
       else
         follow([values = tile ? tile->cells().data() : kUnknown.data()](int x, int y) {
           return values[Tile::index(x, y)];
         });
     } else if (isFree(cells, place, last)) {
-      place.advance(block);
+      leaveOut();
     } else {
       follow([&](int x, int y) { return cells.at(x, y); });
     }

@@ -13,6 +13,7 @@
 #include "gui/Messages.h"
 #include "gui/ParametersDialog.h"
 #include "io/OutputFolder.h"
+#include "io/PartialFile.h"
 
 namespace hybrid_slam {
 namespace {
@@ -231,13 +232,14 @@ void MainFrame::exportPicture() {
 void MainFrame::exportPictureTo(const std::string& file) const {
   constexpr PictureSize kSize{1600, 1200};
   const auto filter = shownFilter();
+  PartialFile partial(file);
   const bool isScene = std::filesystem::path(file).extension() == ".3Dscene";
   const bool isWritten =
       isScene ? filterScene(*filter, mapPlane(filter->map), wholeMap(filter->map, kSize), {}, kSize)
-                    ->saveToFile(file)
-              : pictureOf(*filter, kSize, {}).saveToFile(file);
-  if (!isWritten)
-    throw InputError("cannot write the picture", file, "expected a folder that can be written to");
+                    ->saveToFile(partial.path())
+              : pictureOf(*filter, kSize, {}).saveToFile(partial.path());
+  if (!isWritten) partial.fail(0);
+  partial.commit();
 }
 
 void MainFrame::exportResults() {

@@ -17,7 +17,8 @@ namespace hybrid_slam {
 /// (Roberts 2018, the R-sequence) to the normal quantiles. The shift is drawn uniformly, so that each
 /// particle's numbers for themselves are distributed as independent draws are. But particles that stand side
 /// by side, as those do that resampling copied from one, do not draw nearly the same twice and leave gaps
-/// elsewhere.
+/// elsewhere. It is the three together that are even: over 20 particles the mean of a likelihood of D, C and
+/// T has 0.22 of the variance that it has with independent draws, but that of C alone 1.6 times as much.
 class SpreadNormals {
  public:
   explicit SpreadNormals(RandomStream random) {

@@ -141,7 +141,7 @@ void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CAct
                                                            const PfOptions& /*PF_options*/) {
   const StageTimer timer(profiler_, "3 sample, weigh");
   const TPose2D odometry = rawOdometry(*action);
-  const SpreadNormals normals(stream(m_particles.size() + 1));
+  const SpreadNormals normals(stream(m_particles.size() + 1));  // after the particles' and the shared one
   forEachParticle([&](size_t i, Particle& particle) {
     m_particles[i].log_w += sampleAndWeigh(particle, odometry, normals(i));
   });

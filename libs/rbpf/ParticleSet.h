@@ -7,6 +7,8 @@
 #include <mrpt/system/CTimeLogger.h>
 #include <tbb/task_arena.h>
 
+#include <array>
+
 #include "rbpf/FilterOptions.h"
 #include "rbpf/FilterView.h"
 #include "rbpf/ImprovedProposal.h"

@@ -1,11 +1,12 @@
 #include "view/FilterScene.h"
 
+#include <mrpt/core/format.h>
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
 
 namespace hybrid_slam {
 
@@ -146,12 +147,11 @@ class ScenePainter {
                    ahead(at, *filter_.dominatingDirection + turn, radius));
   }
   void caption() {
-    char text[200];
-    int length = std::snprintf(text, sizeof text, "%s: %zu updates, ESS %.0f %%", filter_.method.c_str(),
-                               filter_.updates, 100 * filter_.step.ess);
+    std::string text = mrpt::format("%s: %zu updates, ESS %.0f %%", filter_.method.c_str(), filter_.updates,
+                                    100 * filter_.step.ess);
     if (!filter_.lines.empty() || !filter_.scanLines.empty())
-      std::snprintf(text + length, sizeof text - static_cast<size_t>(length), ", %zu lines, %d of %d matched",
-                    filter_.lines.size(), filter_.step.linesMatched, filter_.step.linesSeen);
+      text += mrpt::format(", %zu lines, %d of %d matched", filter_.lines.size(), filter_.step.linesMatched,
+                           filter_.step.linesSeen);
     mrpt::opengl::TFontParams font;
     font.vfont_name = "sans";
     font.vfont_scale = static_cast<float>(11 * density_);
