@@ -22,12 +22,21 @@ void HoughOptions::describe(OptionTable& table) {
   table.addAngle("theta_resolution_deg", thetaResolution, 0.01, 10, "cell size");
 }
 
+namespace {
+
+/// Whole cells in a window; rounding errors do not count: 0.15 / 0.05 is a little below 3.
+int cellsIn(double window, double resolution) {
+  return static_cast<int>(std::floor(window / resolution + 1e-6));
+}
+
+}  // namespace
+
 FittedLine refineByHough(PointRange points, const FittedLine& fitted, const HoughOptions& options) {
   const TPoint2D pivot =
       projected({0.5 * (points.front().x + points.back().x), 0.5 * (points.front().y + points.back().y)},
                 fitted.rho, fitted.theta);
-  const int thetaCells = static_cast<int>(options.thetaWindow / options.thetaResolution);
-  const int rhoCells = static_cast<int>(options.rhoWindow / options.rhoResolution);
+  const int thetaCells = cellsIn(options.thetaWindow, options.thetaResolution);
+  const int rhoCells = cellsIn(options.rhoWindow, options.rhoResolution);
 
   const int rhoSize = 2 * rhoCells + 1;
   std::vector<int> votes(static_cast<size_t>(rhoSize));

@@ -42,6 +42,19 @@ TEST(HoughRefinement, PullsAWrongStartOntoTheLine) {
   }
 }
 
+/// In floating point 0.15 / 0.05 is a little below 3.
+TEST(HoughRefinement, SearchesUpToTheWindowsEdge) {
+  RandomStream random(5, 0, 0);
+  HoughOptions options;
+  options.rhoWindow = 0.15, options.rhoResolution = 0.05;
+  options.thetaWindow = options.thetaResolution;
+  const auto points = pointsOnLine(3, 0.2, -2, 2, 60, 0, random);
+  for (const double off : {-0.15, 0.15}) {
+    const FittedLine line = refineByHough(range(points), {3 + off, 0.2}, options);
+    EXPECT_NEAR(lineDistance(line.rho, line.theta, 3, 0.2), 0, 1e-9) << off;
+  }
+}
+
 TEST(HoughRefinement, NeverLeavesTheVotingSpaceByMoreThanItsCells) {
   RandomStream random(3, 0, 0);
   HoughOptions options;
