@@ -32,15 +32,17 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
                                    const PreparedScan& scan, RandomStream& random) const {
   const MotionDistribution motion = motionAfter(particle, stepMotion, configuration_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
+  const TPose2D start = particle.path.back() + stepMotion.start;
   std::optional<LineLikelihood> lines;
-  if (configuration_.useLines) lines.emplace(scan.lines, motion.mean, *particle.lines, configuration_);
+  if (configuration_.useLines)
+    lines.emplace(scan.lines, stepMotion.hasSlipped ? start : motion.mean, *particle.lines, configuration_);
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
     if (lines) density += (*lines)(pose);
     return density;
   };
   ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
-  const ScanMatch match = matcher_.match(likelihood, particle.path.back() + stepMotion.start, prior);
+  const ScanMatch match = matcher_.match(likelihood, start, prior);
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
     return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);

@@ -171,6 +171,32 @@ TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   EXPECT_LT(offset(p.pose, kStart + kOdometry).norm(), 1e-3);
 }
 
+/// Where the odometry says, no line lies near its wall; where the search ended, each one does.
+TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
+  FilterConfiguration c;
+  c.improved.minFit = 0;
+  const StepMotion slipped{kOdometry, kOdometry + TPose2D(0, 0, 30 * kDegree), true};
+  const TPose2D truth = kStart + slipped.start;
+  const std::vector<LineSegment> walls = {makeSegment({2, -3}, {2, 3}), makeSegment({-4, 3}, {2, 3})};
+  Particle particle;  // no grid, and no beams in the scan: the lines alone say where it is
+  particle.path.push(kStart);
+  for (int i = 0; i < c.database.minCount; ++i)
+    particle.lines.write().update(walls, c.database, c.association);
+  const ScanBeams none{LaserScan()};
+  PreparedScan scan{{}, none, none, none, {}};
+  for (const LineSegment& wall : walls) scan.lines.push_back(transformed(wall, TPose2D() - truth));
+
+  constexpr int kDraws = 500;
+  RandomStream random(8, 0, 0);
+  double square = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const Proposed p = ImprovedProposal(c).propose(particle, slipped, scan, random);
+    square += offset(p.pose, truth).head<2>().squaredNorm() / kDraws;
+  }
+  // Each wall has half of the weight, so 2 sigma in both directions together, and a little for the tails.
+  EXPECT_LT(std::sqrt(square), 2.5 * c.improved.lineSigmaRho);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ImprovedProposals, testing::Bool(),
                          [](const auto& tested) { return tested.param ? "WithLines" : "WithoutLines"; });
 

@@ -18,7 +18,8 @@ namespace hybrid_slam {
 ///   How the wall lies to the others was settled when it was new; to ask again in each scan would turn a
 ///   wall that runs 2 deg off the others, and the map with it, bit by bit.
 ///
-/// Lines are associated once, at the predicted pose.
+/// Lines are associated once, at the predicted pose: the motion model's mean or, after a slip, where the
+/// search found the robot.
 class LineLikelihood {
  public:
   /// @param seen       robot frame
