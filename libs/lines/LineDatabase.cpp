@@ -12,11 +12,15 @@ using mrpt::math::TPoint2D;
 
 }  // namespace
 
-std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
+double evidence(const DatabaseLine& line) {
   constexpr int kEnough = 20;
+  return line.length * std::min(line.count, kEnough);
+}
+
+std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
   double sine = 0, cosine = 0, total = 0;
   for (const DatabaseLine& line : lines) {
-    const double weight = line.length * std::min(line.count, kEnough);
+    const double weight = evidence(line);
     sine += weight * std::sin(4 * line.theta);
     cosine += weight * std::cos(4 * line.theta);
     total += weight;
@@ -26,12 +30,36 @@ std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>&
   return std::atan2(sine, cosine) / 4;
 }
 
+double wrapToRightAngle(double angle) { return std::remainder(angle, M_PI / 2); }
+
+void setDirections(std::vector<DatabaseLine>& lines, double window) {
+  struct Known {
+    double theta, evidence;
+  };
+  std::vector<Known> known;
+  known.reserve(lines.size());
+  for (const DatabaseLine& line : lines) known.push_back({wrapToRightAngle(line.theta), evidence(line)});
+  for (size_t i = 0; i < lines.size(); ++i) {
+    double sum = 0, total = 0;
+    for (const Known& other : known) {
+      const double d = rightAngleDifference(other.theta, known[i].theta);
+      if (std::abs(d) >= window) continue;
+      const double weight = other.evidence * (1 - d * d / (window * window));
+      sum += weight * d;
+      total += weight;
+    }
+    lines[i].direction = wrapToRightAngle(known[i].theta + (total > 0 ? sum / total : 0));
+  }
+}
+
 void LineDatabaseOptions::describe(OptionTable& table) {
   table.add("min_length", minLength, 0, 100, "m", "a line that matches none is inserted if it is this long");
   table.add("min_count", minCount, 1, 1000,
             "lines seen less often are pruned: sensor and localisation errors");
   table.add("prune_interval", pruneInterval, 1, 10000,
             "updates from one pruning to the next, and chances that a new line has to be seen again");
+  table.addAngle("direction_window_deg", directionWindow, 0, 22.5,
+                 "lines whose directions, modulo a right angle, differ by less share a dominating direction");
 }
 
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
@@ -76,10 +104,11 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
     if (const DatabaseLine* match = closestMatch(line, association))
       lines_[static_cast<size_t>(match - lines_.data())] = merged(*match, line);
     else if (line.length >= options.minLength)
-      lines_.push_back({line, 1, updates_});
+      lines_.push_back({line, 1, updates_, 0});
   }
   if (updates_ % options.pruneInterval == 0) prune(options);
   dominatingDirection_ = directionModuloRightAngle(lines_);
+  setDirections(lines_, options.directionWindow);
 }
 
 const DatabaseLine* LineDatabase::closestMatch(const LineSegment& seen,

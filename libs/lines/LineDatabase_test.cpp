@@ -243,6 +243,45 @@ TEST_F(Database, NoDirectionPrevailsAmongLinesThatCancel) {
   EXPECT_FALSE(database.dominatingDirection());
 }
 
+/// By hand: evidence 6 and 12, 0.3 deg apart, window 0.5 deg: the kernel is 1 - 0.36 = 0.64.
+TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
+  std::vector<DatabaseLine> lines(3);
+  lines[0].theta = 10 * kDegree;
+  lines[0].length = 6;
+  lines[1].theta = 100.3 * kDegree;  // perpendicular but for 0.3 deg
+  lines[1].length = 4;
+  lines[1].count = 3;
+  lines[2].theta = -79.5 * kDegree;  // 0.5 deg from the first: outside its window
+  lines[2].length = 100;
+  setDirections(lines, 0.5 * kDegree);
+  EXPECT_NEAR(lines[0].direction, (10 + 0.64 * 12 * 0.3 / (6 + 0.64 * 12)) * kDegree, 1e-9);
+  setDirections(lines, 0);
+  for (const DatabaseLine& line : lines)
+    EXPECT_NEAR(std::remainder(line.direction - line.theta, M_PI / 2), 0, 1e-12);
+}
+
+TEST(SetDirections, TurnWithTheMapAndKeepFramesApart) {
+  RandomStream random(9, 0, 0);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<DatabaseLine> lines(12), turned;
+    const double frame = uniform(random, 2, 43) * kDegree, turn = uniform(random, -M_PI, M_PI);
+    for (size_t k = 0; k < lines.size(); ++k) {
+      lines[k].theta =
+          (k % 2 ? frame : 0) + static_cast<double>(k % 4) * M_PI / 2 + 0.1 * kDegree * random.gaussian();
+      lines[k].length = uniform(random, 1, 9);
+    }
+    turned = lines;
+    for (DatabaseLine& line : turned) line.theta += turn;
+    setDirections(lines, 0.5 * kDegree);
+    setDirections(turned, 0.5 * kDegree);
+    for (size_t k = 0; k < lines.size(); ++k) {
+      EXPECT_NEAR(std::remainder(turned[k].direction - lines[k].direction - turn, M_PI / 2), 0, 1e-9);
+      EXPECT_NEAR(std::remainder(lines[k].direction - (k % 2 ? frame : 0), M_PI / 2), 0, 0.4 * kDegree);
+      EXPECT_LE(std::abs(lines[k].direction), M_PI / 4 + 1e-12);
+    }
+  }
+}
+
 TEST_F(Database, ManySightingsOfARoomConvergeOnItsWalls) {
   RandomStream random(6, 0, 0);
   const std::vector<LineSegment> walls{segment(40, 30, 48, 30), segment(48, 30, 48, 36),
@@ -268,8 +307,8 @@ TEST_F(Database, ManySightingsOfARoomConvergeOnItsWalls) {
 }
 
 TEST(LineDatabaseOptions, RangesAreChecked) {
-  for (const char* line :
-       {"min_length = -1", "min_count = 0", "prune_interval = 0", "prune_interval = 2.5"}) {
+  for (const char* line : {"min_length = -1", "min_count = 0", "prune_interval = 0", "prune_interval = 2.5",
+                           "direction_window_deg = 23"}) {
     LineDatabaseOptions options;
     const mrpt::config::CConfigFileMemory file(std::string("[line_database]\n") + line + "\n");
     EXPECT_THROW(options.loadFromConfigFile(file, "line_database"), InputError) << line;

@@ -14,29 +14,47 @@ namespace hybrid_slam {
 /// Section [line_weight].
 struct LineWeightOptions : Options {
   enum class Method {
-    dominatingDirection,  ///< graded, against the direction that the database's lines have in common
+    graded,               ///< eq. (9) with a graded match, against all directions of the database
+    dominatingDirection,  ///< graded, against the one direction that all lines of the database have in common
     paper                 ///< eq. (9): any database line parallel or perpendicular within a threshold
   };
-  Method method = Method::dominatingDirection;
-  double sigma = 0.5 * M_PI / 180;    ///< rad
-  double threshold = 3 * M_PI / 180;  ///< rad
+  Method method = Method::graded;
+  double sigma = 0.4 * M_PI / 180;       ///< rad
+  double threshold = 0.25 * M_PI / 180;  ///< rad
   double floor = 0.001;
 
   void describe(OptionTable& table) override;
 };
 
-struct LineWeight {
-  double value = 1;  ///< in [floor, 1]; 1 where no line was seen or the database has no direction yet
-  int seen = 0;      ///< lines seen
-  int matched = 0;   ///< of these, parallel or perpendicular within 2 sigma (graded) or the threshold (paper)
+/// How well one direction agrees with a database.
+struct DirectionMatch {
+  double value = 0;        ///< in [0, 1]
+  double slope = 0;        ///< derivative of value by the direction, 1/rad; 0 for eq. (9), which is a step
+  bool isMatched = false;  ///< parallel or perpendicular within 2 sigma, or the threshold of eq. (9)
 };
 
-/// w_line of a particle, after eq. (9): total length of matched lines / total length of detected lines.
+/// With d_j the angle between theta (rad, map frame) and the direction of database line j, modulo a right
+/// angle, and w_j that line's evidence:
 ///
-/// `paper` counts a line as matched where any database line is parallel or perpendicular to it within
-/// `threshold`. `dominatingDirection` lets each line count by exp(-d^2 / (2 sigma^2)), d its angle from the
-/// dominating direction modulo a right angle, as the paper's introduction asks; why: doc/paper-notes.md.
-/// Neither falls below `floor`, so that one bad scan cannot end a particle. Does not allocate.
+/// - `graded`: sum_j w_j exp(-d_j^2 / (2 sigma^2)) / sum_j w_j. Lines that a drifting particle has just
+/// inserted have
+///   little evidence, and several frames can stand side by side.
+/// - `dominatingDirection`: exp(-d^2 / (2 sigma^2)), d the angle to LineDatabase::dominatingDirection().
+/// - `paper`, eq. (9): 1 where some d_j, to the line's own theta, is below `threshold`, else 0.
+///
+/// No match (value 0) with a database that is empty or, for `dominatingDirection`, has no such direction.
+DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options);
+
+struct LineWeight {
+  double value = 1;  ///< in [floor, 1]; 1 where no line was seen or the database has no direction yet
+  double slope = 0;  ///< derivative of value by the heading, 1/rad; 0 at the floor
+  int seen = 0;      ///< lines seen
+  int matched = 0;   ///< of these, parallel or perpendicular to lines of the database
+};
+
+/// w_line of a particle, eq. (9): total length of matched lines / total length of detected lines, where each
+/// line counts with its length times its DirectionMatch. Not below `floor`, so that one bad scan cannot end a
+/// particle. Does not allocate.
 ///
 /// @param seen     lines in the robot frame: only their directions matter, so one list serves all particles
 /// @param heading  the particle's heading in the map, rad

@@ -51,20 +51,9 @@ LogDensity lineLogDensity(const std::vector<LineSegment>& seen, double heading, 
   LogDensity density;
   const LineWeight weight = lineWeight(seen, heading, database, options);
   density.value = std::log(weight.value);
-  const auto direction = database.dominatingDirection();
-  if (!direction || weight.value <= options.floor || options.method == LineWeightOptions::Method::paper)
-    return density;
-  const double information = 1 / (options.sigma * options.sigma);
-  double sum = 0, slope = 0;
-  for (const LineSegment& line : seen) {
-    const double d = std::remainder(line.theta + heading - *direction, M_PI / 2);
-    const double share = line.length * std::exp(-0.5 * d * d * information);
-    sum += share;
-    slope -= share * d * information;
-  }
-  if (sum <= 0) return density;
-  density.gradient.z() = slope / sum;
-  density.information(2, 2) = information;
+  if (weight.slope == 0) return density;
+  density.gradient.z() = weight.slope / weight.value;
+  density.information(2, 2) = 1 / (options.sigma * options.sigma);
   return density;
 }
 

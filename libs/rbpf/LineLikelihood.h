@@ -12,7 +12,7 @@ namespace hybrid_slam {
 /// ln p(lines | pose, line database), up to a constant. It is the sum of two parts:
 ///
 /// - Lines of walls that the database does not know (nothing associated, or seen fewer than min_count times)
-///   count against the dominating direction: ln w_line over these lines alone.
+///   count against the database's directions: ln w_line over these lines alone.
 /// - A line of a known wall counts against this wall, by its angle to it and its middle's distance from it:
 ///   - l / L min(angle^2 / sigma^2 + distance^2 / sigma_rho^2, 9) / 2, l its length and L that of all lines.
 ///   How the wall lies to the others was settled when it was new; to ask again in each scan would turn a
@@ -44,7 +44,7 @@ class LineLikelihood {
   std::vector<KnownWall> walls_;
 };
 
-/// ln w_line as a function of the heading; constant below the floor.
+/// ln w_line as a function of the heading; constant at the floor.
 LogDensity lineLogDensity(const std::vector<LineSegment>& seen, double heading, const LineDatabase& database,
                           const LineWeightOptions& options);
 

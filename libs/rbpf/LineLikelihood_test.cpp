@@ -48,7 +48,7 @@ TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
   EXPECT_NEAR(lines({truth.x + 0.4, truth.y, truth.phi}).value, -4.5, 1e-9);  // another wall
 }
 
-TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDominatingDirection) {
+TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDirections) {
   FilterConfiguration c;
   const LineDatabase database = cornerOf(c.database.minCount - 1);
   const TPose2D truth(0.3, 0.2, 0.4);
