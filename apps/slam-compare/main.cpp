@@ -9,6 +9,7 @@
 #include <csignal>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "Program.h"
@@ -16,6 +17,7 @@
 #include "comparison/Comparison.h"
 #include "comparison/Report.h"
 #include "io/Configuration.h"
+#include "io/EndPointReader.h"
 #include "io/OutputFolder.h"
 #include "io/RawlogSource.h"
 #include "io/TrajectoryRecorder.h"
@@ -31,6 +33,7 @@ struct CommandLine {
   std::string config, log, output, reference, relations, odometry, floorplan;
   std::vector<std::string> methods{"hybrid", "general"}, particles, variants, settings;
   int seeds = 30, firstSeed = 1, jobs = 0;
+  std::optional<double> revisits;  // m
   SuccessCriterion criterion;
   bool isReportOnly = false, isListOnly = false, isQuiet = false;
 };
@@ -63,17 +66,27 @@ void describe(CLI::App& app, CommandLine& line) {
   addSettings(app, line.settings, "sets a key of the INI file for all runs; repeatable");
   app.add_option("-j,--jobs", line.jobs, "runs at a time; 0: one for each core")->capture_default_str();
   app.add_option("--reference", line.reference, "true poses, TUM file: ATE, return error, success");
-  app.add_option("--relations", line.relations, "relations file: relations metric");
+  app.add_option("--relations", line.relations, "relations file: relations metric, success");
   app.add_option("--odometry", line.odometry,
                  "file `t x y theta` that carries poses to the relations' times");
   app.add_option("--floorplan", line.floorplan,
                  "walls in the reference's frame: occupied cells against them");
+  app.add_option(
+         "--revisits", line.revisits,
+         "do the maps close: walls seen again from poses up to so far apart, m, as slam-eval revisits")
+      ->type_name("DISTANCE");
   app.add_option("--success-trans", line.criterion.returnTrans,
                  "success: position error at the return below, m")
       ->capture_default_str();
   app.add_option("--success-rot", line.criterion.returnRot, "success: heading error at the return below, deg")
       ->capture_default_str();
   app.add_option("--success-doubled", line.criterion.doubledShare, "success: share of doubled wall below")
+      ->capture_default_str();
+  app.add_option("--success-relations", line.criterion.relations,
+                 "success: mean translation error of the relations below, m")
+      ->capture_default_str();
+  app.add_option("--success-revisit", line.criterion.revisits,
+                 "success: median error of at least one revisit below, m")
       ->capture_default_str();
   app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
   app.add_flag("--list", line.isListOnly,
@@ -96,6 +109,9 @@ void check(const CommandLine& line) {
   expect(line.criterion.returnTrans > 0, "--success-trans", "expected a number of metres above 0");
   expect(line.criterion.returnRot > 0, "--success-rot", "expected a number of degrees above 0");
   expect(line.criterion.doubledShare > 0, "--success-doubled", "expected a share above 0");
+  expect(line.criterion.relations > 0, "--success-relations", "expected a number of metres above 0");
+  expect(line.criterion.revisits > 0, "--success-revisit", "expected a number of metres above 0");
+  expect(line.revisits.value_or(1) > 0, "--revisits", "expected a number of metres above 0");
   for (const std::string& setting : line.settings) checkSetting(setting, "option --set");
   if (!line.odometry.empty() && line.relations.empty())
     throw InputError("odometry without relations", "option --odometry", "expected --relations beside it");
@@ -111,6 +127,10 @@ GroundTruth loadTruth(const CommandLine& line) {
   if (!line.relations.empty()) truth.relations = loadRelations(line.relations);
   if (!line.odometry.empty()) truth.odometry = loadOdometry(line.odometry);
   if (!line.floorplan.empty()) truth.plan = FloorPlan::load(line.floorplan);
+  if (line.revisits) {
+    truth.revisits.emplace();
+    truth.revisits->distance = *line.revisits;
+  }
   return truth;
 }
 
@@ -233,15 +253,18 @@ int run(const CommandLine& line, const std::string& command) {
   if (particles.empty())
     particles = {{"", Configuration(line.config, line.settings).filter.filter.particles}};
   const std::vector<Group> groups = makeGroups(line.methods, variants, particles);
-  const GroundTruth truth = loadTruth(line);
+  GroundTruth truth = loadTruth(line);
   const std::vector<ComparisonRun> sweep = makeSweep(line, groups);
-  const LogSpan log = readLog(line, setupOf(line, groups[0], line.firstSeed));
+  const Setup setup = setupOf(line, groups[0], line.firstSeed);
+  const LogSpan log = readLog(line, setup);
   truth.expectOverlap(log.deadReckoning);
   if (line.isListOnly) {
     for (const ComparisonRun& r : sweep)
       std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
     return 0;
   }
+  if (truth.revisits)
+    truth.scans = loadEndPoints(line.log, Configuration(setup.config, setup.settings).input.sensorLabel);
   const OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
@@ -282,10 +305,10 @@ int run(const CommandLine& line, const std::string& command) {
                      groups,
                      {},
                      {},
-                     truth,
+                     std::move(truth),
                      fs::path(line.output) / "runs"};
   for (const ComparisonRun& r : sweep) {
-    report.results.push_back(evaluateRun(r.run, r.folder, truth));
+    report.results.push_back(evaluateRun(r.run, r.folder, report.truth));
     if (r.folder.isFinished()) r.folder.dropLargeFiles();
   }
   report.summaries = summarise(groups.size(), report.results);

@@ -12,13 +12,12 @@
 #include <string>
 
 #include "Program.h"
-#include "base/LaserScan.h"
 #include "evaluation/AbsoluteTrajectoryError.h"
 #include "evaluation/RelationErrors.h"
 #include "evaluation/RelativePoseError.h"
 #include "evaluation/RevisitError.h"
 #include "evaluation/Trajectory.h"
-#include "io/RawlogSource.h"
+#include "io/EndPointReader.h"
 
 namespace {
 
@@ -97,34 +96,10 @@ Json rpeJson(const CommandLine& line) {
   return json;
 }
 
-/// The scans of the log's first laser.
-/// @throws InputError for a log that is cut off too: its figures would be those of another drive
-std::vector<EndPoints> loadEndPoints(const std::string& rawlog, double maxRange) {
-  InputOptions options;
-  options.requireOdometry = false;
-  const RawlogSummary summary = summarise(rawlog, options);
-  if (!summary.defect.empty())
-    throw InputError("log " + summary.defect,
-                     "entry " + std::to_string(summary.entries + 1) + " of " + rawlog,
-                     "expected a whole rawlog");
-  RawlogSource source(rawlog, options, summary);
-  std::vector<EndPoints> scans;
-  while (const auto reading = source.next()) {
-    const LaserScan scan = toLaserScan(*reading->scan, maxRange);
-    EndPoints ends{reading->timestamp, {}};
-    for (const Beam& beam : scan.beams)
-      if (beam.valid)
-        ends.points.push_back(scan.sensorPose.composePoint(
-            {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
-    scans.push_back(std::move(ends));
-  }
-  return scans;
-}
-
 Json revisitsJson(const CommandLine& line) {
   const Trajectory trajectory = loadTum(line.trajectory);
   const RevisitErrors errors =
-      revisitErrors(trajectory, loadEndPoints(line.rawlog, line.maxRange), line.revisits);
+      revisitErrors(trajectory, loadEndPoints(line.rawlog, {}, line.maxRange), line.revisits);
   const auto figure = [&](double value) { return errors.revisits > 0 ? Json(value) : Json(); };
   return {{"scans", errors.scans},
           {"revisits", errors.revisits},

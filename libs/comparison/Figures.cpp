@@ -23,6 +23,8 @@ const std::array<FigureName, kFigures> kFigureNames{{
     {Figure::stdAlong, "std_along_m", "particle spread along the heading", "m", true},
     {Figure::stdAcross, "std_across_m", "particle spread across the heading", "m", true},
     {Figure::stdPhi, "std_phi_deg", "particle spread of the heading", "deg", true},
+    {Figure::revisitMedian, "revisit_median_m", "revisit error, median", "m", true},
+    {Figure::revisits, "revisits", "scans that revisit", "", false},
 }};
 
 const char* statusName(RunResult::Status status) {

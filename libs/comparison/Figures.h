@@ -28,9 +28,11 @@ enum class Figure {
   lines,     ///< in the best particle's database
   stdAlong,  ///< particle spread: mean over the filter's updates
   stdAcross,
-  stdPhi
+  stdPhi,
+  revisitMedian,  ///< where a scan sees again what earlier ones saw; nothing for a run without revisits
+  revisits        ///< scans that do
 };
-constexpr size_t kFigures = 17;
+constexpr size_t kFigures = 19;
 
 struct FigureName {
   Figure figure;

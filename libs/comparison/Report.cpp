@@ -89,16 +89,31 @@ void writeIntroduction(const ReportInput& input, std::ostream& out) {
   out << ". The number behind a name is that of the particles.</p>\n";
 }
 
+/// What success asks for; empty where nothing does.
 std::string criterionNote(const GroundTruth& truth) {
   const SuccessCriterion& c = truth.criterion;
-  std::string note =
-      "Success: from the first scan to the last the estimated motion differs from the reference's by less "
-      "than " +
-      shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg";
-  note += truth.plan ? ", and less than " + shortNumber(100 * c.doubledShare) +
-                           " % of the free-standing wall that the map shows is drawn twice."
-                     : ". Without a floor plan nothing is asked of the walls.";
-  return note + " A run that fails has no success. The interval is Wilson's, 95 %.";
+  std::vector<std::string> conditions;
+  if (!truth.reference.empty()) {
+    conditions.push_back(
+        "from the first scan to the last the estimated motion differs from the reference's by less than " +
+        shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg");
+    if (truth.plan)
+      conditions.push_back("less than " + shortNumber(100 * c.doubledShare) +
+                           " % of the free-standing wall that the map shows is drawn twice");
+  }
+  if (!truth.relations.empty())
+    conditions.push_back("the relations' mean translation error is below " + shortNumber(c.relations) + " m");
+  if (truth.revisits)
+    conditions.push_back("scans revisit earlier ones, up to " + shortNumber(truth.revisits->distance) +
+                         " m apart, and the median of their errors is below " + shortNumber(c.revisits) +
+                         " m");
+  if (conditions.empty()) return {};
+  std::string note = "Success: " + conditions[0];
+  for (size_t i = 1; i < conditions.size(); ++i) note += "; " + conditions[i];
+  return note +
+         (truth.plan || truth.reference.empty() ? "."
+                                                : ". Without a floor plan nothing is asked of the walls.") +
+         " A run that fails has no success. The interval is Wilson's, 95 %.";
 }
 
 std::string spreadPlots(const ReportInput& input) {
@@ -194,10 +209,9 @@ std::string wallPlots(const ReportInput& input) {
     const RunFolder folder = folderOf(input, median);
     const auto map = loadGridMap(folder.file("map.gridmap.gz").string());
     auto cells = occupiedCells(map);
-    const auto alignment =
-        absoluteTrajectoryError(loadTum(folder.file("trajectory.tum").string()), input.truth.reference,
-                                GroundTruth::kReferenceTolerance)
-            .alignment;
+    const auto alignment = absoluteTrajectoryError(loadTum(folder.file("trajectory.tum").string()),
+                                                   input.truth.reference, GroundTruth::kReferenceTolerance)
+                               .alignment;
     for (auto& cell : cells) cell = alignment.composePoint(cell);
     all += plotCellsOverWalls(cells, map.getResolution(), *input.truth.plan,
                               input.groups[g].name() + ": mean " +
@@ -271,17 +285,17 @@ void writeReport(const ReportInput& input, std::ostream& out) {
   section(out, "Failed runs", "They count as runs without success and have no figures.",
           failureTable(groups, results));
 
-  section(out, "Accuracy",
-          std::string("Median over the seeds, below it the quartiles. ") +
-              (input.truth.reference.empty() ? "" : criterionNote(input.truth)),
+  section(out, "Accuracy", "Median over the seeds, below it the quartiles. " + criterionNote(input.truth),
           summaryTable(groups, summaries,
                        {Figure::ate, Figure::returnTrans, Figure::returnRot, Figure::transMean,
-                        Figure::rotMean, Figure::wallMean, Figure::wallP95, Figure::doubledShare},
+                        Figure::rotMean, Figure::wallMean, Figure::wallP95, Figure::doubledShare,
+                        Figure::revisitMedian, Figure::revisits},
                        true));
-  section(out, "Success rates", "Share of the seeds that closed the loop.", plotSuccess(groups, summaries));
+  section(out, "Success rates", "Share of the seeds that succeed.", plotSuccess(groups, summaries));
   std::string errors;
   for (const FigureName& name : kFigureNames)
-    if (name.isError && name.figure < Figure::stdAlong) errors += plotFigure(name, groups, results);
+    if (name.isError && (name.figure < Figure::stdAlong || name.figure > Figure::stdPhi))
+      errors += plotFigure(name, groups, results);
   section(out, "Errors",
           "A dot is a run; the box reaches from the lower to the upper quartile, the bar is the median.",
           plots(errors));

@@ -2,6 +2,7 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -37,11 +38,39 @@ void takeMetrics(RunResult& result, const std::string& file) {
   take(Figure::lines, "lines");
 }
 
+void takeReferenceErrors(RunResult& result, const Trajectory& trajectory, const RunFolder& folder,
+                         const GroundTruth& truth) {
+  const AteErrors ate =
+      absoluteTrajectoryError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
+  const ReturnError back = returnError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
+  result[Figure::ate] = ate.translation.rmse;
+  result[Figure::returnTrans] = back.translation;
+  result[Figure::returnRot] = back.rotation * kRadToDeg;
+  if (!truth.plan) return;
+  const WallErrors walls =
+      wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
+  result[Figure::wallMean] = walls.mean;
+  result[Figure::wallP95] = walls.p95;
+  result[Figure::doubledShare] = walls.doubledShare;
+}
+
 }  // namespace
 
 void GroundTruth::expectOverlap(const Trajectory& trajectory) const {
   if (!reference.empty()) absoluteTrajectoryError(trajectory, reference, kReferenceTolerance);
   if (!relations.empty()) relationErrors(trajectory, *this);
+}
+
+std::vector<std::pair<Figure, double>> GroundTruth::bounds() const {
+  std::vector<std::pair<Figure, double>> all;
+  if (!reference.empty()) {
+    all.emplace_back(Figure::returnTrans, criterion.returnTrans);
+    all.emplace_back(Figure::returnRot, criterion.returnRot);
+    if (plan) all.emplace_back(Figure::doubledShare, criterion.doubledShare);
+  }
+  if (!relations.empty()) all.emplace_back(Figure::transMean, criterion.relations);
+  if (revisits) all.emplace_back(Figure::revisitMedian, criterion.revisits);
+  return all;
 }
 
 RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth) {
@@ -65,25 +94,17 @@ RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth
     result[Figure::transMean] = errors.translation.mean;
     result[Figure::rotMean] = errors.rotation.mean * kRadToDeg;
   }
-  if (truth.reference.empty()) return result;
-
-  const AteErrors ate =
-      absoluteTrajectoryError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
-  const ReturnError back = returnError(trajectory, truth.reference, GroundTruth::kReferenceTolerance);
-  result[Figure::ate] = ate.translation.rmse;
-  result[Figure::returnTrans] = back.translation;
-  result[Figure::returnRot] = back.rotation * kRadToDeg;
-  bool success =
-      back.translation < truth.criterion.returnTrans && back.rotation * kRadToDeg < truth.criterion.returnRot;
-  if (truth.plan) {
-    const WallErrors walls =
-        wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
-    result[Figure::wallMean] = walls.mean;
-    result[Figure::wallP95] = walls.p95;
-    result[Figure::doubledShare] = walls.doubledShare;
-    success = success && walls.doubledShare < truth.criterion.doubledShare;
+  if (!truth.reference.empty()) takeReferenceErrors(result, trajectory, folder, truth);
+  if (truth.revisits) {
+    const RevisitErrors errors = revisitErrors(trajectory, truth.scans, *truth.revisits);
+    result[Figure::revisits] = static_cast<double>(errors.revisits);
+    if (errors.revisits > 0) result[Figure::revisitMedian] = errors.error.median;
   }
-  result[Figure::success] = success;
+  const auto bounds = truth.bounds();
+  if (!bounds.empty())
+    result[Figure::success] = std::all_of(bounds.begin(), bounds.end(), [&](const auto& bound) {
+      return result[bound.first] && *result[bound.first] < bound.second;
+    });
   return result;
 }
 

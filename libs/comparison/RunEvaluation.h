@@ -3,11 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "comparison/Figures.h"
 #include "comparison/RunFolder.h"
+#include "evaluation/EndPoints.h"
 #include "evaluation/RelationErrors.h"
+#include "evaluation/RevisitError.h"
 #include "evaluation/Trajectory.h"
 #include "simulation/FloorPlan.h"
 
@@ -18,14 +21,18 @@ struct SuccessCriterion {
   double returnTrans = 0.5;    ///< m
   double returnRot = 2;        ///< deg
   double doubledShare = 0.02;  ///< of the free-standing wall that the map shows
+  double relations = 0.1;      ///< m, mean translation error
+  double revisits = 0.07;      ///< m, median of at least one revisit
 };
 
-/// What is known of the truth; each part may be missing.
+/// What is known of the truth, and what the log tells without it; each part may be missing.
 struct GroundTruth {
   Trajectory reference;             ///< may be empty
   std::vector<Relation> relations;  ///< may be empty
   Trajectory odometry;              ///< that carries poses to the relations' times; may be empty
   std::optional<FloorPlan> plan;    ///< in the reference's frame
+  std::optional<RevisitOptions> revisits;
+  std::vector<EndPoints> scans;  ///< of the log; for the revisits
   SuccessCriterion criterion;
 
   /// s; between a pose and its reference pose
@@ -36,10 +43,12 @@ struct GroundTruth {
   /// @throws InputError if the reference does not overlap `trajectory` in time, or none of the relations can
   ///         be used with it
   void expectOverlap(const Trajectory& trajectory) const;
+  /// What success asks for: figures that all have to be below these bounds. Empty where nothing is known.
+  std::vector<std::pair<Figure, double>> bounds() const;
 };
 
-/// Fills status and figures from the run's folder. Success needs the reference; without a floor plan it does
-/// not ask for walls.
+/// Fills status and figures from the run's folder. There is a success where there are bounds; a figure that a
+/// run does not have is not below its own.
 /// @throws InputError, std::runtime_error for result files that cannot be read
 RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth);
 

@@ -107,7 +107,8 @@ TEST(Summary, TablesHaveTheirColumnsInEveryRow) {
   EXPECT_THAT(resultText.str(),
               HasSubstr("method,variant,particles,seed,status,trans_mean_m,rot_mean_deg,ate_rmse_m,"
                         "return_trans_m,return_rot_deg,wall_mean_m,wall_p95_m,doubled_share,"
-                        "success,wall_s,cpu_s,peak_rss_mb,realtime_factor,lines,"));
+                        "success,wall_s,cpu_s,peak_rss_mb,realtime_factor,lines,std_along_m,std_across_m,"
+                        "std_phi_deg,revisit_median_m,revisits\n"));
   EXPECT_THAT(resultText.str(), HasSubstr("\ngeneral,,20,3,done,,,3,,,,,,1,,30,"));
   EXPECT_THAT(resultText.str(), HasSubstr("\nstock,,20,2,failed,,"));
 }

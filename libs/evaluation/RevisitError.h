@@ -2,21 +2,14 @@
 /// @brief Does a map close? Judged without a reference, by the walls that the robot sees again.
 #pragma once
 
-#include <mrpt/math/TPoint2D.h>
-
 #include <cstddef>
 #include <vector>
 
+#include "evaluation/EndPoints.h"
 #include "evaluation/ErrorStatistics.h"
 #include "evaluation/Trajectory.h"
 
 namespace hybrid_slam {
-
-/// Where the valid beams of one scan end, in the order of their angles.
-struct EndPoints {
-  double timestamp = 0;                      ///< s
-  std::vector<mrpt::math::TPoint2D> points;  ///< in the robot frame, m
-};
 
 struct RevisitOptions {
   double distance = 3;  ///< m; no farther apart are the poses of a scan and of one that it revisits
