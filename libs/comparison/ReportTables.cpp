@@ -18,6 +18,25 @@ std::string range(double low, double high) {
 
 std::string percent(double share) { return shortNumber(std::round(1000 * share) / 10, 4); }
 
+std::string successCell(const GroupSummary& s) {
+  if (s.ended() == 0) return kNothing;
+  return std::to_string(*s.successes) + "&#160;of&#160;" + std::to_string(s.ended()) + " <small>" +
+         percent(s.successInterval.low) + "&#160;&#8211;&#160;" + percent(s.successInterval.high) +
+         "&#160;%</small>";
+}
+
+/// @param withSuccess  first of the successful runs, where there are others
+std::string figureCell(const GroupSummary& s, Figure figure, bool withSuccess) {
+  const FigureSummary& f = s.figures[static_cast<size_t>(figure)];
+  if (!f.quartiles) return kNothing;
+  const std::string median = shortNumber(f.quartiles->median, 3);
+  const std::string quartiles = range(f.quartiles->lower, f.quartiles->upper);
+  if (!withSuccess || !s.hasSuccessesAndFailures() || !f.successfulMedian) return median + quartiles;
+  return shortNumber(*f.successfulMedian, 3) + " <small>of " + std::to_string(f.successfulRuns) +
+         (f.successfulRuns == 1 ? " success" : " successes") + "</small> <small>all " + median + "</small>" +
+         quartiles;
+}
+
 std::string pValue(double p) { return p < 0.001 ? "&lt;0.001" : shortNumber(p, 2); }
 
 const FigureName& nameOf(Figure figure) { return kFigureNames[static_cast<size_t>(figure)]; }
@@ -41,22 +60,17 @@ std::string summaryTable(const std::vector<Group>& groups, const std::vector<Gro
   withSuccess = withSuccess && !summaries.empty() && summaries[0].successes;
   if (shown.empty() && !withSuccess) return {};
 
-  std::string table = "<div class=\"wide\"><table>\n<tr>" + th("method") + th("particles") + th("runs");
-  if (withSuccess) table += th("success (%)");
+  std::string table = "<div class=\"wide\"><table>\n<tr>" + th("method") + th("particles");
+  if (withSuccess) table += th("success");
+  table += th("runs");
   for (const Figure figure : shown) table += th(heading(figure));
   table += "</tr>\n";
   for (size_t g = 0; g < groups.size(); ++g) {
     const GroupSummary& s = summaries[g];
-    table += "<tr>" + td(escapeXml(groups[g].label())) + td(std::to_string(groups[g].particles)) +
-             td(std::to_string(s.done) + (s.failed ? ", " + std::to_string(s.failed) + "&#160;failed" : ""));
-    if (withSuccess)
-      table += td(s.ended() == 0 ? std::string(kNothing)
-                                 : percent(s.successRate) + " <small>" + percent(s.successInterval.low) +
-                                       "&#160;&#8211;&#160;" + percent(s.successInterval.high) + "</small>");
-    for (const Figure figure : shown) {
-      const auto& q = s.figures[static_cast<size_t>(figure)].quartiles;
-      table += td(q ? shortNumber(q->median, 3) + range(q->lower, q->upper) : std::string(kNothing));
-    }
+    table += "<tr>" + td(escapeXml(groups[g].label())) + td(std::to_string(groups[g].particles));
+    if (withSuccess) table += td(successCell(s));
+    table += td(std::to_string(s.done) + (s.failed ? ", " + std::to_string(s.failed) + "&#160;failed" : ""));
+    for (const Figure figure : shown) table += td(figureCell(s, figure, withSuccess));
     table += "</tr>\n";
   }
   return table + "</table></div>\n";

@@ -9,7 +9,8 @@
 
 namespace hybrid_slam {
 
-/// Runs, success and, for each figure that any group has, median and quartiles.
+/// Success, runs and, for each figure that any group has, median and quartiles; with success, an error of a
+/// group with successes and failures begins with the median over its successful runs.
 std::string summaryTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                          const std::vector<Figure>& figures, bool withSuccess);
 

@@ -22,12 +22,18 @@ BySeed valuesOf(size_t group, Figure figure, const std::vector<RunResult>& resul
   return values;
 }
 
-FigureSummary summariseFigure(const BySeed& values) {
-  std::vector<double> plain;
-  for (const auto& [seed, value] : values) plain.push_back(value);
+FigureSummary summariseFigure(const BySeed& values, const BySeed& success) {
+  std::vector<double> plain, successful;
+  for (const auto& [seed, value] : values) {
+    plain.push_back(value);
+    const auto outcome = success.find(seed);
+    if (outcome != success.end() && outcome->second > 0) successful.push_back(value);
+  }
   FigureSummary summary;
   summary.runs = plain.size();
   if (!plain.empty()) summary.quartiles = quartiles(plain);
+  summary.successfulRuns = successful.size();
+  if (!successful.empty()) summary.successfulMedian = quantile(successful, 0.5);
   return summary;
 }
 
@@ -74,7 +80,8 @@ std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>&
         if (g > 0) summary.successSignP = compare(values, first).signP;
         continue;
       }
-      summary.figures[f] = summariseFigure(values);
+      summary.figures[f] =
+          summariseFigure(values, name.isError ? valuesOf(g, Figure::success, results) : BySeed());
       if (g > 0 && name.isError && !values.empty() && !first.empty())
         summary.paired[f] = compare(values, first);
     }
@@ -86,7 +93,8 @@ void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSumma
                   std::ostream& out) {
   out << "method,variant,particles,done,failed,successes,success_rate,success_low,success_high,success_sign_"
          "p,"
-         "figure,runs,q1,median,q3,pairs,median_ratio,ratio_low,ratio_high,wilcoxon_p,sign_p\n";
+         "figure,runs,q1,median,q3,pairs,median_ratio,ratio_low,ratio_high,wilcoxon_p,sign_p,"
+         "successful_runs,successful_median\n";
   const auto row = [&out](const std::vector<std::string>& cells) {
     for (size_t i = 0; i < cells.size(); ++i) out << (i == 0 ? "" : ",") << cells[i];
   };
@@ -103,7 +111,7 @@ void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSumma
       group.insert(group.end(), 5, "");
     if (s.done == 0) {  // without figures, but not without a row
       row(group);
-      out << std::string(11, ',') << '\n';
+      out << std::string(13, ',') << '\n';
     }
     for (const FigureName& name : kFigureNames) {
       const auto f = static_cast<size_t>(name.figure);
@@ -118,6 +126,10 @@ void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSumma
       row({p ? std::to_string(p->pairs) : "", hasRatio ? cell(p->ratio->ratio) : "",
            hasRatio ? cell(p->ratio->interval.low) : "", hasRatio ? cell(p->ratio->interval.high) : "",
            p ? cell(p->wilcoxonP) : "", p ? cell(p->signP) : ""});
+      out << ',';
+      const bool hasOutcome = name.isError && s.successes;
+      row({hasOutcome ? std::to_string(s.figures[f].successfulRuns) : "",
+           cell(s.figures[f].successfulMedian)});
       out << '\n';
     }
   }
@@ -157,6 +169,8 @@ nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,
         against["sign_p"] = p->signP;
         figure["against_first"] = against;
       }
+      if (const auto& median = s.figures[f].successfulMedian)
+        figure["successful"] = {{"runs", s.figures[f].successfulRuns}, {"median", *median}};
       group["figures"][name.column] = figure;
     }
     all.push_back(group);

@@ -17,6 +17,10 @@ namespace hybrid_slam {
 struct FigureSummary {
   size_t runs = 0;
   std::optional<Quartiles> quartiles;  ///< nothing for no run
+  /// Errors only: of these runs those that succeeded. Between runs that did and runs that did not, the median
+  /// over all says little of either.
+  size_t successfulRuns = 0;
+  std::optional<double> successfulMedian;
 };
 
 /// One figure of a group against the first group's, over the seeds that both have finished.
@@ -37,6 +41,7 @@ struct GroupSummary {
   std::array<std::optional<PairedComparison>, kFigures> paired;  ///< errors only; none in the first group
 
   size_t ended() const { return done + failed; }
+  bool hasSuccessesAndFailures() const { return successes && *successes > 0 && *successes < ended(); }
 };
 
 /// @param results  all runs; the groups' order is that of their numbers

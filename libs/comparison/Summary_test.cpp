@@ -66,6 +66,20 @@ TEST(Summary, AFailedRunIsNoSuccessAndAMissingOneIsNoRun) {
   EXPECT_NEAR(s[1].successSignP, 2.0 / 8, 1e-12);
 }
 
+TEST(Summary, SuccessfulRunsHaveAMedianOfTheirOwn) {
+  auto runs = results();
+  runs[3][Figure::success] = 1;  // general: 3 and 4 of 1, 2, 3, 4
+  const auto s = summarise(3, runs);
+  EXPECT_EQ(s[0].figures[kAte].successfulRuns, 2u);
+  EXPECT_DOUBLE_EQ(*s[0].figures[kAte].successfulMedian, 3.5);
+  EXPECT_DOUBLE_EQ(s[0].figures[kAte].quartiles->median, 2.5);
+  EXPECT_TRUE(s[0].hasSuccessesAndFailures());
+  EXPECT_EQ(s[1].figures[kAte].successfulMedian, s[1].figures[kAte].quartiles->median);
+  EXPECT_FALSE(s[1].hasSuccessesAndFailures());
+  EXPECT_FALSE(s[2].hasSuccessesAndFailures());
+  EXPECT_FALSE(s[0].figures[static_cast<size_t>(Figure::cpuTime)].successfulMedian);  // no error
+}
+
 TEST(Summary, PairsAreTheSeedsThatBothHave) {
   const auto s = summarise(3, results());
   ASSERT_TRUE(s[1].paired[kAte]);
@@ -104,6 +118,8 @@ TEST(Summary, TablesHaveTheirColumnsInEveryRow) {
   }
   EXPECT_THAT(summaryText.str(), HasSubstr("\nhybrid,eq9,20,4,0,4,1,"));
   EXPECT_THAT(summaryText.str(), HasSubstr("\nstock,,20,0,2,0,0,0,"));  // a row also without figures
+  EXPECT_THAT(summaryText.str(), HasSubstr("sign_p,successful_runs,successful_median\n"));
+  EXPECT_THAT(summaryText.str(), HasSubstr(",ate_rmse_m,4,1.75,2.5,3.25,,,,,,,1,3\n"));
   EXPECT_THAT(resultText.str(),
               HasSubstr("method,variant,particles,seed,status,trans_mean_m,rot_mean_deg,ate_rmse_m,"
                         "return_trans_m,return_rot_deg,wall_mean_m,wall_p95_m,doubled_share,"
@@ -124,6 +140,9 @@ TEST(Summary, JsonSaysTheSame) {
   EXPECT_EQ(against.at("group"), "general-20");
   EXPECT_EQ(against.at("median_ratio"), 0.5);
   EXPECT_EQ(against.at("wilcoxon_p"), 0.25);
+  const auto& successful = json["groups"][0].at("figures").at("ate_rmse_m").at("successful");
+  EXPECT_EQ(successful.at("runs"), 1);
+  EXPECT_EQ(successful.at("median"), 3);
   EXPECT_FALSE(json["groups"][2].contains("figures"));
 }
 
