@@ -67,8 +67,8 @@ TEST(HoughRefinement, NeverLeavesTheVotingSpaceByMoreThanItsCells) {
   }
 }
 
-/// The figures of doc/paper-notes.md: a wall seen by a laser (0.5 deg, 12 mm) with outliers in front of it:
-/// single points 0.05 to 0.3 m off, or one piece that stands out by 0.06 m.
+/// Prints a table of doc/paper-notes.md: a wall seen by a laser (0.5 deg, 12 mm) with outliers in front of
+/// it: single points 0.05 to 0.3 m off, or one piece that stands out by 0.06 m.
 TEST(HoughRefinement, HelpsAgainstOutliersAndIsTheMeasuredDefault) {
   EXPECT_TRUE(HoughOptions().enabled);
   struct Scene {
@@ -76,9 +76,11 @@ TEST(HoughRefinement, HelpsAgainstOutliersAndIsTheMeasuredDefault) {
     bool piece;
     double share, leastGain;  ///< leastGain: median angle error of the fit over that of the refined line
   };
+  std::printf("| outliers | fit alone | with Hough |\n|---|---|---|\n");
   for (const Scene& scene :
-       {Scene{"no outliers", false, 0, 0.8}, Scene{"20 % single points", false, 0.2, 2},
-        Scene{"10 % in one piece", true, 0.1, 2}, Scene{"20 % in one piece", true, 0.2, 2}}) {
+       {Scene{"none", false, 0, 0.8}, Scene{"20 % single points, 0.05 to 0.3 m in front", false, 0.2, 2},
+        Scene{"10 % as one piece, 0.06 m in front", true, 0.1, 2},
+        Scene{"20 % as one piece, 0.06 m in front", true, 0.2, 2}}) {
     RandomStream random(4, 0, 0);
     std::vector<double> fitErrors, houghErrors;
     for (int i = 0; i < 2000; ++i) {
@@ -101,8 +103,8 @@ TEST(HoughRefinement, HelpsAgainstOutliersAndIsTheMeasuredDefault) {
       houghErrors.push_back(angleBetween(refineByHough(range(points), *fit, {}).theta, theta) / kDegree);
     }
     const Spread fit = spread(fitErrors), hough = spread(houghErrors);
-    std::printf("%-20s angle error, deg (median, rms): fit %.3f %.3f, refined %.3f %.3f\n", scene.name,
-                fit.median, fit.rms, hough.median, hough.rms);
+    std::printf("| %s | %.3f / %.3f | %.3f / %.3f |\n", scene.name, fit.median, fit.rms, hough.median,
+                hough.rms);
     EXPECT_GE(fit.median / hough.median, scene.leastGain) << scene.name;
   }
 }

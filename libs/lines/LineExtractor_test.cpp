@@ -162,7 +162,7 @@ TEST(LineExtractor, ThePaperToTheLetterLosesTheWallAcrossItsWay) {
   EXPECT_NEAR(lines[0].rho, 3, 0.02);
 }
 
-/// The figures of doc/paper-notes.md on the Intel log: how far each line is from the direction that the
+/// Prints the table of doc/paper-notes.md on the Intel log: how far each line is from the direction that the
 /// others of its scan have in common.
 TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
   const char* folder = std::getenv("HYBRID_SLAM_DATASETS");
@@ -186,7 +186,10 @@ TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
   }
   ASSERT_EQ(scans.size(), 4653u);
 
-  const auto measure = [&scans](const char* name, Method method, bool hough, bool split) {
+  std::printf(
+      "| fit | Hough | split | lines a scan | of these above 5 m | median angle (deg) "
+      "|\n|---|---|---|---|---|---|\n");
+  const auto measure = [&scans](Method method, bool hough, bool split) {
     SegmentationOptions segmentation;
     segmentation.split = split;
     LineFitOptions fit;
@@ -214,15 +217,16 @@ TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
       }
     }
     const double n = static_cast<double>(scans.size()), median = spread(angles).median;
-    std::printf("%-24s lines a scan %.2f, above 5 m %.3f, median angle from the others %.2f deg\n", name,
-                static_cast<double>(count) / n, static_cast<double>(longLines) / n, median);
+    std::printf("| %s | %s | %s | %.2f | %.3f | %.2f |\n", method == Method::paper ? "paper" : "orthogonal",
+                hough ? "yes" : "no", split ? "yes" : "no", static_cast<double>(count) / n,
+                static_cast<double>(longLines) / n, median);
     return median;
   };
-  const double byDefault = measure("orthogonal, Hough", Method::orthogonal, true, true);
-  const double withoutHough = measure("orthogonal", Method::orthogonal, false, true);
-  measure("paper, Hough", Method::paper, true, true);
-  const double byPaper = measure("paper", Method::paper, false, true);
-  measure("paper, Hough, no split", Method::paper, true, false);
+  const double byDefault = measure(Method::orthogonal, true, true);
+  const double withoutHough = measure(Method::orthogonal, false, true);
+  measure(Method::paper, true, true);
+  const double byPaper = measure(Method::paper, false, true);
+  measure(Method::paper, true, false);
   EXPECT_LT(byDefault, 3);
   EXPECT_LT(byDefault, withoutHough);
   EXPECT_LT(byDefault, byPaper);

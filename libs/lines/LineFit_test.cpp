@@ -153,7 +153,7 @@ TEST(LineFit, SegmentsAboveTheErrorLimitAreDropped) {
   EXPECT_FALSE(fitLine(range(points), options));
 }
 
-/// The figures of doc/paper-notes.md: 12 mm of range noise, 40 points on 1 to 4 m.
+/// Prints a table of doc/paper-notes.md: 12 mm of range noise, 40 points on 1 to 4 m.
 TEST(LineFit, OrthogonalIsTheMeasuredDefault) {
   struct Class {
     const char* name;
@@ -161,9 +161,12 @@ TEST(LineFit, OrthogonalIsTheMeasuredDefault) {
     double leastRatio;  ///< rms angle error of the paper's fit over that of the orthogonal one
   };
   EXPECT_EQ(LineFitOptions().method, Method::orthogonal);
-  for (const Class& c : {Class{"any line, rho 0.5..5 m", 0.5, 5, -M_PI, M_PI, 0.99},
-                         Class{"vertical within 1 deg", 0.5, 5, -kDegree, kDegree, 0.99},
-                         Class{"rho 0.1..0.5 m", 0.1, 0.5, -M_PI, M_PI, 1.1},
+  std::printf(
+      "| lines | orthogonal, median / rms (deg) | eq. (2)-(4), median / rms (deg) "
+      "| kept by eq. (5) <= 0.1 m^2 |\n|---|---|---|---|\n");
+  for (const Class& c : {Class{"any direction, rho 0.5 to 5 m", 0.5, 5, -M_PI, M_PI, 0.99},
+                         Class{"vertical within 1 deg, rho 0.5 to 5 m", 0.5, 5, -kDegree, kDegree, 0.99},
+                         Class{"rho 0.1 to 0.5 m", 0.1, 0.5, -M_PI, M_PI, 1.1},
                          Class{"rho below 0.05 m", 0, 0.05, -M_PI, M_PI, 20}}) {
     RandomStream random(6, 0, 0);
     std::vector<double> orthogonalErrors, paperErrors;
@@ -183,11 +186,8 @@ TEST(LineFit, OrthogonalIsTheMeasuredDefault) {
       orthogonalDropped += rmsDistance(range(points), *orthogonal) > LineFitOptions().maxRms;
     }
     const Spread o = spread(orthogonalErrors), p = spread(paperErrors);
-    std::printf(
-        "%-24s angle error, deg (median, rms): orthogonal %.3f %.3f, paper %.3f %.3f; "
-        "dropped: orthogonal %.1f %%, paper %.1f %%\n",
-        c.name, o.median, o.rms, p.median, p.rms, 100.0 * orthogonalDropped / kLines,
-        100.0 * dropped / kLines);
+    std::printf("| %s | %.3f / %.3f | %.3f / %.3f | %.0f %% |\n", c.name, o.median, o.rms, p.median, p.rms,
+                100 - 100.0 * dropped / kLines);
     EXPECT_GE(p.rms / o.rms, c.leastRatio) << c.name;
     EXPECT_EQ(orthogonalDropped, 0) << c.name;
   }
