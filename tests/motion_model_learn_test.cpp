@@ -13,6 +13,7 @@
 #include "io/TestLogs.h"
 #include "motion/MotionModelFit.h"
 #include "motion/SimulatedMotions.h"
+#include "simulation/WheelOdometry.h"
 
 namespace hybrid_slam {
 namespace {
@@ -92,6 +93,60 @@ std::vector<MotionSample> trueMotions(const std::string& log, const std::string&
   return samples;
 }
 
+std::vector<mrpt::math::TPose2D> odometryOf(const std::vector<MotionSample>& motions) {
+  std::vector<mrpt::math::TPose2D> all;
+  for (const MotionSample& motion : motions) all.push_back(motion.odometry);
+  return all;
+}
+
+/// Prints a table of doc/motion-model.md: the fit of the loop's true poses, the simulator's own parameters
+/// for such steps, and how well the steps tell them.
+TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
+  const std::string loop = SOURCE_DIR "/datasets/csie/csie-loop";
+  const auto motions = trueMotions(loop + ".rawlog", loop + ".tum");
+  const MotionModelOptions prior, fit = fitMotionModel(motions, prior, determine(motions));
+  // Lengths of a step: a variance s^2 |d| is s^2 / length d^2 in the sum over the steps.
+  double way = 0, squaredWay = 0, turns = 0, squaredTurns = 0;
+  for (const MotionSample& motion : motions) {
+    const MotionStep step(motion.odometry);
+    way += std::abs(step.distance), squaredWay += step.distance * step.distance;
+    turns += std::abs(step.turn), squaredTurns += step.turn * step.turn;
+  }
+  const double length = squaredWay / way, turn = squaredTurns / turns;
+  // The inverse of what the simulated wheels do; its variances grow with the way, the model's with its
+  // square.
+  const OdometryOptions wheels;
+  const auto variance = [](double sigma, double step, double minStd) {
+    return sigma * sigma / step - minStd * minStd / (step * step);
+  };
+  MotionModelOptions simulated;
+  simulated.distance = {1 / wheels.meanDd, 0, variance(wheels.sigmaDd, length, prior.minStdXY), 0};
+  simulated.turn = {-wheels.meanTd / wheels.meanDd / wheels.meanTt, 1 / wheels.meanTt,
+                    variance(wheels.sigmaTd, length, prior.minStdPhi),
+                    variance(wheels.sigmaTt, turn, prior.minStdPhi)};
+
+  const auto odometry = odometryOf(motions);
+  const test::Parameters distanceErrors = test::standardErrors(simulated.distance, prior.minStdXY, odometry),
+                         turnErrors = test::standardErrors(simulated.turn, prior.minStdPhi, odometry);
+  std::printf(
+      "%zu steps of %.2f m or %.0f deg\n| | distance mean_d | var_d | turn mean_d | mean_t | var_d | var_t "
+      "|\n",
+      motions.size(), length, turn * 180 / M_PI);
+  std::printf("|---|---|---|---|---|---|---|\n");
+  const auto row = [](const char* name, const test::Parameters& d, const test::Parameters& t) {
+    std::printf("| %s | %.4f | %.1e | %.4f | %.3f | %.1e | %.1e |\n", name, d[0], d[2], t[0], t[1], t[2],
+                t[3]);
+  };
+  row("true poses", test::parametersOf(fit.distance), test::parametersOf(fit.turn));
+  row("simulator", test::parametersOf(simulated.distance), test::parametersOf(simulated.turn));
+  row("standard error", distanceErrors, turnErrors);
+  for (const size_t i : {0, 2})
+    EXPECT_NEAR(test::parametersOf(fit.distance)[i], test::parametersOf(simulated.distance)[i],
+                3 * distanceErrors[i]);
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(test::parametersOf(fit.turn)[i], test::parametersOf(simulated.turn)[i], 3 * turnErrors[i]);
+}
+
 TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
   // Ten particles: by five, the likelihoods of the second and the third iteration could not be told apart.
   ASSERT_EQ(learn(kDoorways, "-n 10 --iterations 3"), 0) << err;
@@ -99,8 +154,7 @@ TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
   const MotionModelOptions model = learnt(), prior;
   const auto motions = trueMotions(kDoorways, SOURCE_DIR "/datasets/csie/csie-doorways.tum");
   const MotionModelOptions expected = fitMotionModel(motions, prior, determine(motions));
-  std::vector<mrpt::math::TPose2D> odometry;
-  for (const MotionSample& motion : motions) odometry.push_back(motion.odometry);
+  const auto odometry = odometryOf(motions);
   // The poses are hidden, but the scans tell them well: less is lost than the log leaves open anyway.
   const auto expectNear = [&](const MotionTerm& term, const MotionTerm& truth, double minStd) {
     const test::Parameters errors = test::standardErrors(truth, minStd, odometry);
