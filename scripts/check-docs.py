@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that makes it.
+
+  scripts/check-docs.py                 the marks alone: takes no time
+  scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN (build/release/bin)
+  --root FOLDER                         checks the pages of another repository
+
+A mark is an HTML comment directly before the table or picture; it may be one of several:
+
+  <!-- made by: COMMAND -->                          remakes the table; too slow for a test
+  <!-- checked by: COMMAND; tolerance 5 % -->        prints the table as Markdown within 60 s
+  <!-- checked by: COMMAND; tolerance 5 %; needs HYBRID_SLAM_DATASETS -->    is left out where that is unset
+  <!-- quoted: SOURCE -->                            figures that others have published
+
+COMMAND is run in the repository's root. It begins, after VARIABLE=VALUE, with a script of the repository, a program of
+apps/ or a hybrid_slam_*_test; its files, options, variables and --gtest_filter must exist there, and a word that follows
+a script must stand in the comment that the script begins with. A mark may also stand before an indented transcript.
+
+A table has figures, and needs a mark, if a cell beside its first column begins with a digit (`*`, `<` and the like are
+passed over), unless it is a reference table: its first column is headed by one of the words below and all `code`.
+
+`checked by` compares cell by cell, headings and first column included: the words must be equal, the numbers within the
+tolerance, in percent of the page's number."""
+
+import argparse
+import fnmatch
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+TIME_LIMIT = 60  # s, for one command
+MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
+CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
+DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
+PICTURE = re.compile(r"!\[[^\]]*\]\((?!https?:)|<img\b(?!.*https?:)")
+REFERENCE = {"at", "column", "file", "folder", "format", "key", "line", "option", "program"}
+NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?")
+EXPECTED = "expected `<!-- made by: ... -->`, `<!-- checked by: ... -->` or `<!-- quoted: ... -->` on the line before"
+
+
+def cells_of(row):
+    row = row.strip()
+    return [cell.strip() for cell in re.split(r"(?<!\\)\|", row[row.startswith("|"):].removesuffix("|"))]
+
+
+def tables_of(lines):
+    """(index of the header, [header, body row, ...]) of each Markdown table."""
+    for i in range(1, len(lines)):
+        if DELIMITER_ROW.fullmatch(lines[i]) and "|" in lines[i - 1]:
+            end = i + 1
+            while end < len(lines) and "|" in lines[end]:
+                end += 1
+            yield i - 1, [cells_of(lines[k]) for k in (i - 1, *range(i + 1, end))]
+
+
+def has_figures(rows):
+    is_reference = rows[0][0] in REFERENCE and all(row[0].startswith("`") for row in rows[1:])
+    return not is_reference and any(re.match(r"[^\w`]*\d", cell) for row in rows[1:] for cell in row[1:])
+
+
+def source_of(root, word):
+    """The text of a script, a program or a test program; None if there is no such one."""
+    test = re.fullmatch(r"hybrid_slam_(\w+)_test", word)
+    if word.endswith((".sh", ".py")):
+        files = [root / word]
+    elif test:
+        files = [*root.glob(f"libs/{test[1]}/*_test.cpp"), *root.glob(f"tests/{test[1]}*_test.cpp")]
+    else:
+        files = [*root.glob(f"apps/{word}/*.cpp"), *root.glob("apps/*.h")] if (root / "apps" / word).is_dir() else []
+    return "\n".join(file.read_text() for file in files if file.is_file()) or None
+
+
+def command_errors(root, command):
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        return [f"command that cannot be read: {error}: {command}"]
+    variables = []
+    while words and re.match(r"[A-Z_]+=", words[0]):
+        variables.append(words.pop(0).split("=")[0])
+    if not words or source_of(root, words[0]) is None:
+        return [f"no such script or program: {words[0] if words else command}; expected a script of the repository, "
+                "the name of a folder in apps/ or hybrid_slam_*_test"]
+    program, *arguments = words
+    text = "\n".join(filter(None, (source_of(root, word) for word in words)))
+    known = [f"{a}.{b}" for a, b in re.findall(r"\bTEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text)]
+    errors = [f"{program} does not know the variable {v}" for v in variables if not re.search(rf"\b{v}\b", text)]
+    for word in arguments:
+        name, _, value = word.partition("=")
+        if name == "--gtest_filter":
+            errors += [f"{program} has no test {p}" for p in value.split(":") if not fnmatch.filter(known, p)]
+            continue
+        if re.match(r"-+[a-z]", name) and not re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", text):
+            errors.append(f"{program} does not know the option {name}")
+        path = value or name
+        if "/" in path and ":" not in path and not path.startswith(("/", "~", "$", "out/")) and not (root / path).exists():
+            errors.append(f"no such file: {path}")
+    usage = re.match(r'(#.*\n)*("""[\s\S]*?""")?', text)[0]
+    if program.endswith((".sh", ".py")) and arguments and re.fullmatch(r"[a-z][\w-]*", arguments[0]) and \
+            source_of(root, arguments[0]) is None and not re.search(rf"(?<![\w-]){arguments[0]}(?![\w-])", usage):
+        errors.append(f"{program} does not name {arguments[0]!r} in the comment that it begins with")
+    return errors
+
+
+def differences(page, made, tolerance):
+    """(row, what is wrong) of a page's table beside the table that its command printed."""
+    if len(page) != len(made):
+        return [(0, f"{len(page) - 1} rows, the command prints {len(made) - 1}")]
+    found = []
+    for i, (ours, theirs) in enumerate(zip(page, made)):
+        if len(ours) != len(theirs):
+            found.append((i, f"{len(ours)} cells, the command prints {len(theirs)}"))
+        for a, b in zip(ours, theirs):
+            x, y = ([float(n.replace(",", "")) for n in NUMBER.findall(cell)] for cell in (a, b))
+            if NUMBER.sub("#", a) != NUMBER.sub("#", b):
+                found.append((i, f"`{a}`, the command prints `{b}`"))
+            elif any(abs(p - q) > tolerance / 100 * abs(p) + 1e-12 for p, q in zip(x, y)):
+                found.append((i, f"`{a}` is off by more than {tolerance:g} %, the command prints `{b}`"))
+    return found
+
+
+class Checker:
+    def __init__(self, root, bin_folder):
+        self.root, self.bin = root, bin_folder
+        self.errors, self.skipped, self.marked, self.outputs = [], [], 0, {}
+
+    def output_of(self, command):
+        """(tables that the command prints, "") or ([], why there are none); each command is run once."""
+        if command not in self.outputs:
+            environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}
+            run = subprocess.run(["timeout", "-k", "5", str(TIME_LIMIT), "bash", "-c", command], cwd=self.root,
+                                 env=environment, stdin=subprocess.DEVNULL, text=True, capture_output=True)
+            why = f"took more than {TIME_LIMIT} s" if run.returncode == 124 else \
+                f"ended with {run.returncode}: {(run.stderr or run.stdout).strip()[-200:]!r}" if run.returncode else ""
+            tables = [rows for _, rows in tables_of(run.stdout.splitlines())]
+            self.outputs[command] = (tables, why or ("" if tables else "printed no table"))
+        return self.outputs[command]
+
+    def check_figures(self, place, rows, check):
+        """Compares a page's table with the one that its command prints; of several, with the one of the same headings."""
+        command, tolerance, needed = check[1], float(check[2]), check[3]
+        if needed and not os.environ.get(needed):
+            self.skipped.append(f"{place(0)}: skipped, {needed} is unset: {command}")
+            return
+        tables, why = self.output_of(command)
+        alike = sorted(tables, key=lambda made: (made[0] != rows[0], len(made) != len(rows)))
+        found = [(0, f"{command}: {why}")] if why else differences(rows, alike[0], tolerance)
+        self.errors += [f"{place(row + (row > 0))}: {what}" for row, what in found]
+
+    def check_page(self, page):
+        text = page.read_text()
+        lines = text.splitlines()
+        number = lambda offset: text.count("\n", 0, offset)
+        marks = {number(m.end()) + 1: (number(m.start()), m[1], " ".join(m[2].split())) for m in MARK.finditer(text)}
+        targets = {i: ("table", rows) for i, rows in tables_of(lines)}
+        targets.update((i, ("picture", None)) for i, line in enumerate(lines) if PICTURE.search(line))
+        targets.update((i, ("transcript", None)) for i in marks if i < len(lines) and lines[i].startswith("    "))
+        for i in marks.keys() - targets.keys() - {start for start, _, _ in marks.values()}:
+            self.errors.append(f"{page.relative_to(self.root)}:{i}: mark without a table or picture on the next line")
+        for i, (kind, rows) in sorted(targets.items()):
+            place = lambda row: f"{page.relative_to(self.root)}:{i + 1 + row}"
+            own, at = [], i
+            while at in marks:
+                at, *mark = marks[at]
+                own.append(mark)
+            self.marked += bool(own)
+            if not own and (kind == "picture" or has_figures(rows)):
+                self.errors.append(f"{place(0)}: {kind} without a command: {EXPECTED}")
+            for how, what in own:
+                check = CHECK.fullmatch(what) if how == "checked by" else None
+                if how == "checked by" and (not check or kind != "table"):
+                    self.errors.append(f"{place(0)}: expected a table and `<!-- checked by: COMMAND; tolerance N % -->`")
+                elif how != "quoted":
+                    wrong = command_errors(self.root, check[1] if check else what)
+                    self.errors += [f"{place(0)}: {error}" for error in wrong]
+                    if check and not wrong and self.bin:
+                        self.check_figures(place, rows, check)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--run", nargs="?", const="build/release/bin", metavar="BIN")
+    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent, metavar="FOLDER")
+    options = parser.parse_args()
+    root = options.root.resolve()
+    checker = Checker(root, options.run and root / options.run)
+    pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
+    for page in pages:
+        checker.check_page(page)
+    print(*checker.skipped, *checker.errors,
+          f"{len(pages)} pages, {checker.marked} marked tables and pictures, {len(checker.outputs)} commands run, "
+          f"{len(checker.skipped)} skipped, {len(checker.errors)} errors", sep="\n")
+    return 1 if checker.errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

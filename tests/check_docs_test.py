@@ -1,0 +1,119 @@
+"""scripts/check-docs.py on small pages of a made-up repository."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECKER = Path(__file__).resolve().parent.parent / "scripts/check-docs.py"
+TABLE = "| log | error (m) |\n|---|---|\n| Intel | 0.050 |\n| CSAIL | 12 of 50 |\n"
+SCRIPT = """#!/bin/sh
+# Prints a table.
+#   scripts/table.sh all
+[ -z "$LOGS" ] || exit 1
+printf '| a | b |\\n|---|---|\\n| c | 1 |\\n\\n| log | error (m) |\\n|---|---|\\n| Intel | 0.051 |\\n| CSAIL | 12 of 50 |\\n'
+"""
+
+
+class CheckDocs(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.write("scripts/table.sh", SCRIPT).chmod(0o755)
+        self.write("apps/mapper/main.cpp", 'app.add_option("-n,--particles");')
+        self.write("libs/lines/Fit_test.cpp", "TEST(Fit, IsExact) {}")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, text):
+        file = self.root / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+        return file
+
+    def check(self, page, *options, **environment):
+        """(exit code, lines but the last, which counts) for a page doc/page.md."""
+        self.write("doc/page.md", page)
+        run = subprocess.run([sys.executable, CHECKER, "--root", self.root, *options], text=True, capture_output=True,
+                             env={"PATH": os.environ["PATH"], **environment})
+        self.assertEqual(run.stderr, "")
+        return run.returncode, run.stdout.splitlines()[:-1]
+
+    def expect_good(self, page, *options):
+        self.assertEqual(self.check(page, *options), (0, []))
+
+    def expect_error(self, page, text, *options):
+        code, lines = self.check(page, *options)
+        self.assertEqual((code, len(lines)), (1, 1), lines)
+        self.assertIn(text, lines[0])
+
+    def mark(self, command, how="made by"):
+        return f"Text.\n\n<!-- {how}: {command} -->\n{TABLE}"
+
+    def test_a_table_or_picture_without_a_mark_is_found(self):
+        self.expect_error("Text.\n\n" + TABLE, "doc/page.md:3: table without a command: expected")
+        self.expect_error("Text.\n\n" + TABLE.replace("0.050", "**< 0.05**").replace("12 of", "twelve of"), "without")
+        self.expect_error("![map](images/map.png)\n", "doc/page.md:1: picture without a command")
+        self.expect_error('<img src="images/map.png">\n', "doc/page.md:1: picture without a command")
+        self.expect_error("<!-- made by: scripts/table.sh -->\n\n" + TABLE.replace("0.050", "x").replace("12", "x"),
+                          "doc/page.md:1: mark without a table or picture")
+        self.write("README.md", TABLE)
+        self.expect_error("Text.\n", "README.md:1: table")
+
+    def test_tables_without_figures_need_none(self):
+        self.expect_good("| key | default |\n|---|---|\n| `sigma` | 0.05 |\n| `seed` | 1 |\n")
+        self.expect_good("| fault | what is done |\n|---|---|\n| half a scan | left out after 0.5 s |\n| 2 scans | both |\n")
+        self.expect_error("| key | error |\n|---|---|\n| `sigma` | 0.05 |\n| seed | 1 |\n", "table without a command")
+        self.expect_error("| setting | error |\n|---|---|\n| `sigma` | 0.05 |\n", "table without a command")
+
+    def test_marks_of_each_kind(self):
+        for command in ("scripts/table.sh", "LOGS=1 scripts/table.sh all out/x", "mapper -n 5 --particles=6",
+                        "hybrid_slam_lines_test --gtest_filter=Fit.*", "scripts/table.sh mapper scripts/table.sh"):
+            self.expect_good(self.mark(command))
+        self.expect_good(self.mark("A. Author: A paper, 2009", "quoted"))
+        self.expect_good(f"<!-- quoted: A paper -->\n<!-- made by:\n  scripts/table.sh -->\n{TABLE}")
+        self.expect_good("<!-- made by: mapper -->\n![map](images/map.png)\n")
+        self.expect_good("<!-- made by: mapper -->\n    $ mapper\n    0.05\n")
+        self.expect_error(f"<!-- quoted: A paper -->\n<!-- made by: mappre -->\n{TABLE}", "no such script or program: mappre")
+
+    def test_commands_that_cannot_work_are_found(self):
+        for command, text in (("scripts/none.sh", "no such script or program: scripts/none.sh"),
+                              ("hybrid_slam_none_test", "no such script or program"),
+                              ("hybrid_slam_lines_test --gtest_filter=Fit.IsGood", "has no test Fit.IsGood"),
+                              ("mapper --seed 1", "mapper does not know the option --seed"),
+                              ("mapper datasets/none.rawlog", "no such file: datasets/none.rawlog"),
+                              ("scripts/table.sh none", "does not name 'none'"),
+                              ("SEEDS=1 scripts/table.sh", "does not know the variable SEEDS"),
+                              ("scripts/table.sh 'all", "cannot be read")):
+            self.expect_error(self.mark(command), text)
+
+    def test_figures_are_compared_within_the_tolerance(self):
+        self.expect_good(self.mark("scripts/table.sh; tolerance 3 %", "checked by"), "--run")
+        self.expect_error(self.mark("scripts/table.sh; tolerance 1 %", "checked by"),
+                          "doc/page.md:6: `0.050` is off by more than 1 %, the command prints `0.051`", "--run")
+        self.expect_good(self.mark("scripts/table.sh; tolerance 1 %", "checked by"))  # not run
+        self.expect_error(self.mark("scripts/table.sh", "checked by"), "expected a table and `<!-- checked by:")
+
+    def test_other_tables_than_the_command_prints_are_found(self):
+        page = self.mark("scripts/table.sh; tolerance 3 %", "checked by")
+        self.expect_error(page.replace("CSAIL", "Malaga"), "doc/page.md:7: `Malaga`, the command prints `CSAIL`", "--run")
+        self.expect_error(page.replace("error", "ATE"), "doc/page.md:4: `ATE (m)`", "--run")
+        self.expect_error(page.replace("12 of 50", "12"), "`12`, the command prints `12 of 50`", "--run")
+        self.expect_error(page + "| Malaga | 0.1 |\n| Killian | 0.1 |\n", "4 rows, the command prints", "--run")
+
+    def test_a_command_that_fails_is_an_error_and_one_that_lacks_its_logs_is_skipped(self):
+        page = self.mark("LOGS=1 scripts/table.sh; tolerance 3 %", "checked by")
+        self.expect_error(page, "LOGS=1 scripts/table.sh: ended with 1", "--run")
+        self.write("scripts/table.sh", "#!/bin/sh\n# LOGS\nexit ${LOGS:+1}\n")
+        self.expect_error(page.replace("LOGS=1 ", ""), "printed no table", "--run")
+        page = self.mark("scripts/table.sh; tolerance 3 %; needs LOGS", "checked by")
+        self.assertEqual(self.check(page, "--run"),
+                         (0, ["doc/page.md:4: skipped, LOGS is unset: scripts/table.sh"]))
+        self.assertEqual(self.check(page, "--run", LOGS="1")[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
