@@ -258,7 +258,8 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   frame->live()->connectOrStop();
   ASSERT_EQ(dialogs.messages.size(), 1u);
   EXPECT_THAT(dialogs.messages[0], HasSubstr("open an INI file first"));
-  frame->open(ini, "");
+  frame->open(ini, log);
+  ASSERT_TRUE(stands(State::paused, 0));
   test::Events events;
   ObservationServer server("127.0.0.1", 0, {}, events.log());
   frame->live()->setServer("127.0.0.1");
@@ -270,6 +271,8 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   frame->live()->setOutput(folder.path("live"));
   frame->live()->connectOrStop();
   ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
+  frame->replay()->seek(60);
   const test::Log all = test::laps(60);
   for (size_t i = 0; i + 1 < all.size(); i += 2) {
     mrpt::obs::CSensoryFrame cycle;
@@ -290,6 +293,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
+  EXPECT_TRUE(stands(State::ended, 60));
 }
 
 }  // namespace

@@ -9,8 +9,7 @@ namespace hybrid_slam {
 
 using State = LiveSnapshot::State;
 
-LivePage::LivePage(wxWindow* parent, std::function<void()> beforeStart)
-    : wxPanel(parent), beforeStart_(std::move(beforeStart)) {
+LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   auto* const row = new wxBoxSizer(wxHORIZONTAL);
   const auto add = [&](wxWindow* control, int share = 0) {
     row->Add(control, share, wxALIGN_CENTRE_VERTICAL | wxALL, FromDIP(4));
@@ -64,7 +63,6 @@ void LivePage::start() {
     throw InputError("no settings", "the live view", "open an INI file first: File, Open INI file");
   const std::string server = server_->GetValue().utf8_string();
   hostAndPort(server, "the live view's server");
-  beforeStart_();
   session_.reset();
   shown_.reset();
   used_ = settings_->copy({"run.output=" + output_->GetValue().utf8_string()});

@@ -8,7 +8,6 @@
 #include <wx/stattext.h>
 #include <wx/textctrl.h>
 
-#include <functional>
 #include <memory>
 
 #include "gui/MapCanvas.h"
@@ -20,8 +19,7 @@ namespace hybrid_slam {
 
 class LivePage : public wxPanel {
  public:
-  /// @param beforeStart  called before a run starts, to end what else draws from MRPT's one generator
-  LivePage(wxWindow* parent, std::function<void()> beforeStart);
+  explicit LivePage(wxWindow* parent);
 
   void setSettings(std::shared_ptr<const Settings> settings);
   /// Starts a run with the server of the text field, or ends the one that runs.
@@ -40,7 +38,6 @@ class LivePage : public wxPanel {
  private:
   void start();
 
-  std::function<void()> beforeStart_;
   std::shared_ptr<const Settings> settings_, used_;  ///< of the next run; of the present one
   wxTextCtrl *server_, *output_;
   wxButton* button_;

@@ -38,7 +38,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), timer_(this)
   SetMinSize(FromDIP(wxSize(800, 560)));
   pages_ = new wxNotebook(this, wxID_ANY);
   replay_ = new ReplayPage(pages_);
-  live_ = new LivePage(pages_, [this] { replay_->close(); });
+  live_ = new LivePage(pages_);
   pages_->AddPage(replay_, "Replay");
   pages_->AddPage(live_, "Live");
   CreateStatusBar();

@@ -72,12 +72,13 @@ void ReplayPage::addControls(wxSizer* to) {
 }
 
 void ReplayPage::open(const Configuration& configuration) {
-  session_.reset();  // two at a time would draw from one generator of MRPT's
+  session_.reset();  // the maps of the old one go before the new ones come
   told_ = 0;
   shown_.reset();
   view_->fixed.reset();
   using Method = RunOptions::Method;
-  session_ = std::make_unique<ReplaySession>(configuration, std::vector<Method>{Method::hybrid, Method::general});
+  session_ =
+      std::make_unique<ReplaySession>(configuration, std::vector<Method>{Method::hybrid, Method::general});
   faster(0);
 }
 
@@ -94,8 +95,8 @@ void ReplayPage::refresh() {
   if (now->total > 0 && place_->GetMax() != static_cast<int>(now->total))
     place_->SetRange(0, static_cast<int>(now->total));
   if (!isSliding_) place_->SetValue(static_cast<int>(now->scans));
-  text_->SetLabel(wxString::Format("scan %zu of %zu, %.1f s, %s", now->scans, now->total, now->time,
-                                   nameOf(now->state)));
+  text_->SetLabel(
+      wxString::Format("scan %zu of %zu, %.1f s, %s", now->scans, now->total, now->time, nameOf(now->state)));
   if (now->messages == told_) return;
   told_ = now->messages;
   const auto keep = now;  // a dialog lets the timer go on

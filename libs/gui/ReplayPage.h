@@ -23,7 +23,6 @@ class ReplayPage : public wxPanel {
 
   /// Starts to read configuration.run.rawlog.
   void open(const Configuration& configuration);
-  void close() { session_.reset(); }
   /// Looks what the session has got to; to be called several times a second.
   void refresh();
 

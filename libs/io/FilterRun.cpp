@@ -2,7 +2,6 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/random/RandomGenerators.h>
 #include <mrpt/system/os.h>
 #include <sys/resource.h>
 
@@ -74,9 +73,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     if (configuration.run.refine > 0)
       throw InputError("no refinement of MRPT's filter", "section [run], keys `method`, `refine`",
                        "expected hybrid or general, or refine = 0");
-    // MRPT's filter draws from MRPT's global generator.
-    mrpt::random::getRandomGenerator().randomize(static_cast<uint32_t>(configuration.filter.filter.seed));
-    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration));
+    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration),
+                                                   static_cast<uint32_t>(configuration.filter.filter.seed));
     view_ = stock.get();
     builder_ = std::move(stock);
   } else {

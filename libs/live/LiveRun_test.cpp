@@ -77,6 +77,15 @@ TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
   EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
 }
 
+/// MRPT's filter, too, draws what the seed says, whichever thread it runs in.
+TEST_F(LiveRunTest, SoItDoesForMrptsFilter) {
+  options.maxWaiting = 1000;
+  const std::string more = "[run]\nmethod = stock\n";
+  runLive(test::laps(100), more);
+  replayRecording(more);
+  expectSameResults();
+}
+
 TEST_F(LiveRunTest, SoItDoesForSensorsThatAreOutOfStep) {
   options.maxWaiting = 1000;
   test::Log log;

@@ -96,8 +96,8 @@ void ParticleSet::beginStep(const PreparedScan& scan) {
   step_.particles = m_particles.size();
   step_.resampled = false;
   logSumBefore_ = logSumOfWeights();
-  // MRPT's resampling and auxiliary filters draw from its global generator. A new one, since seeding the old
-  // one keeps the second normal number of its last pair.
+  // MRPT's resampling and auxiliary filters draw from this thread's generator. A new one, since seeding the
+  // old one keeps the second normal number of its last pair.
   mrpt::random::getRandomGenerator() =
       mrpt::random::CRandomGenerator(static_cast<uint32_t>(sharedRandom().bits()));
 }

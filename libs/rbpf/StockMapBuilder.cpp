@@ -3,19 +3,23 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace hybrid_slam {
 
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
-StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction)
-    : CMetricMapBuilderRBPF(construction) {}
+StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, uint32_t seed)
+    : CMetricMapBuilderRBPF(construction), random_(seed) {}
 
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
+  // MRPT draws from the generator of the thread it runs in.
+  std::swap(mrpt::random::getRandomGenerator(), random_);
   CMetricMapBuilderRBPF::processActionObservation(action, observations);
+  std::swap(mrpt::random::getRandomGenerator(), random_);
   if (mapPDF.m_particles.front().d->robotPath.size() == before) return;
   ++updates_;
   step_ = FilterStep();

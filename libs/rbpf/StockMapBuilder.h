@@ -2,6 +2,7 @@
 /// @brief MRPT's own RBPF, seen as our programs see a filter: `--method stock`.
 #pragma once
 
+#include <mrpt/random/RandomGenerators.h>
 #include <mrpt/slam/CMetricMapBuilderRBPF.h>
 
 #include "rbpf/FilterOptions.h"
@@ -11,9 +12,10 @@ namespace hybrid_slam {
 
 class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public FilterView {
  public:
-  explicit StockMapBuilder(const TConstructionOptions& construction);
+  /// @param seed  same seed, same result, whichever thread the filter runs in and whatever runs beside it
+  StockMapBuilder(const TConstructionOptions& construction, uint32_t seed);
 
-  /// Counts the updates; all else is MRPT's.
+  /// Counts the updates, and has MRPT draw from this filter's own generator; all else is MRPT's.
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
 
@@ -27,6 +29,7 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public FilterV
  private:
   size_t bestParticle() const;
 
+  mrpt::random::CRandomGenerator random_;
   size_t updates_ = 0;
   FilterStep step_;
 };

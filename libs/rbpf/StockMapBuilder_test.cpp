@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/random/RandomGenerators.h>
 
+#include <thread>
+
 #include "rbpf/TestRoom.h"
 
 namespace hybrid_slam {
@@ -17,6 +19,19 @@ FilterConfiguration configuration() {
   c.filter.updateAngle = 25 * kDegree;
   c.grid.resolution = 0.1;
   return c;
+}
+
+TEST(MrptRandomGenerator, EachThreadHasItsOwn) {
+  using mrpt::random::getRandomGenerator;
+  getRandomGenerator().randomize(1);
+  const auto expected = mrpt::random::CRandomGenerator(1).drawUniform32bit();
+  auto* other = &getRandomGenerator();
+  std::thread([&] {
+    other = &getRandomGenerator();
+    other->randomize(2);
+  }).join();
+  EXPECT_NE(other, &getRandomGenerator());
+  EXPECT_EQ(getRandomGenerator().drawUniform32bit(), expected) << "seeding in another thread changed nothing";
 }
 
 TEST(StockMapBuilder, TakesOurSettings) {
@@ -35,7 +50,7 @@ TEST(StockMapBuilder, TakesOurSettings) {
 }
 
 TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
-  const StockMapBuilder builder(stockOptions(configuration()));
+  const StockMapBuilder builder(stockOptions(configuration()), 1);
   EXPECT_EQ(builder.updates(), 0u);
   EXPECT_TRUE(builder.bestPath().empty());
   EXPECT_EQ(builder.particlePoses().size(), 5u);
@@ -43,8 +58,7 @@ TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
 }
 
 TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
-  mrpt::random::getRandomGenerator().randomize(1);  // MRPT's filter draws from it
-  StockMapBuilder builder(stockOptions(configuration()));
+  StockMapBuilder builder(stockOptions(configuration()), 1);
   const Replayed replayed = feed(builder, builder, drive(2));
   const auto path = builder.bestPath();
   ASSERT_GT(builder.updates(), 10u);
@@ -66,6 +80,19 @@ TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
   size_t occupied = 0;
   for (const auto cell : grid.getRawMap()) occupied += cell < 0;
   EXPECT_GT(occupied, 300u);  // 39 m of walls in cells of 0.1 m
+}
+
+TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
+  const auto steps = drive(1);
+  StockMapBuilder alone(stockOptions(configuration()), 1);
+  feed(alone, alone, steps);
+  StockMapBuilder builder(stockOptions(configuration()), 1), beside(stockOptions(configuration()), 2);
+  for (const DriveStep& step : steps) {
+    std::thread([&] { feed(builder, step); }).join();
+    feed(beside, step);
+  }
+  EXPECT_EQ(builder.bestPath(), alone.bestPath());
+  EXPECT_NE(beside.bestPath(), alone.bestPath());
 }
 
 }  // namespace
