@@ -1,8 +1,10 @@
 #include "view/ReplaySession.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/Errors.h"
 #include "io/FilterRun.h"
@@ -29,10 +31,26 @@ struct Lane {
     return c;
   }
 
+  /// Writes the results to its folder, with the first call.
+  /// @param target  their folder in the end, as config.ini is to say
+  /// @throws InputError if that failed, with this call or the first
+  void finish(const std::string& file, const RawlogSummary& log, const std::string& target) {
+    if (!std::exchange(isFinished, true)) {
+      configuration.run.output = target;
+      try {
+        run.finish(file, log, HYBRID_SLAM_VERSION, nlohmann::ordered_json::object());
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
   Configuration configuration;
   FilterRun run;
   FilterWatch watch;
-  bool isWritten = false;  ///< its results are in its folder: it takes no more scans
+  bool isFinished = false;     ///< it takes no more scans
+  std::exception_ptr failure;  ///< why the results could not be written
 };
 
 }  // namespace
@@ -40,9 +58,7 @@ struct Lane {
 /// Once through the log, from its start.
 struct ReplaySession::Pass {
   Pass(const Configuration& configuration, const std::vector<Method>& methods, const RawlogSummary& summary)
-      : file(configuration.run.rawlog),
-        log(summary),
-        source(file, configuration.input, log) {
+      : file(configuration.run.rawlog), log(summary), source(file, configuration.input, log) {
     for (const Method method : methods)
       lanes.push_back(std::make_unique<Lane>(configuration, method, folder.path(nameOf(method))));
     next = source.next();
@@ -57,14 +73,14 @@ struct ReplaySession::Pass {
   std::optional<Reading> next;
   double start = 0, time = 0;  ///< s: of the first scan; since then
   size_t scans = 0;
-  bool isOutdated = true;     ///< the published maps are not the last ones
+  bool isOutdated = true;  ///< the published maps are not the last ones
   Clock::time_point lastScan, lastPicture;
   std::vector<std::shared_ptr<const FilterSnapshot>> pictures;
 
-  bool isWritten() const {
-    return std::any_of(lanes.begin(), lanes.end(), [](const auto& lane) { return lane->isWritten; });
+  bool isFinished() const {
+    return std::any_of(lanes.begin(), lanes.end(), [](const auto& lane) { return lane->isFinished; });
   }
-  bool isOver() const { return isWritten() || !next; }
+  bool isOver() const { return isFinished() || !next; }
 };
 
 ReplaySession::ReplaySession(const Configuration& configuration, const std::vector<Method>& methods)
@@ -156,7 +172,7 @@ void ReplaySession::runPass() {
 bool ReplaySession::hasWork(Pass& pass) {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    if (goal_ == Goal::reach && (target_ < pass.scans || (pass.isWritten() && target_ > pass.scans)))
+    if (goal_ == Goal::reach && (target_ < pass.scans || (pass.isFinished() && target_ > pass.scans)))
       wantsRestart_ = true;
     if (isClosing_ || wantsRestart_) return false;
     if (exportTo_) {
@@ -188,8 +204,8 @@ bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass)
   if (speed_ <= 0) return true;
   // A pause in the log is not sat through.
   const double gap = std::clamp(pass.next->timestamp - pass.start - pass.time, 0.0, 2.0);
-  const auto due = pass.lastScan + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(gap / speed_));
+  const auto due = pass.lastScan +
+                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gap / speed_));
   if (Clock::now() >= due) return true;
   if (pass.isOutdated) {
     lock.unlock();
@@ -222,13 +238,10 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
       OutputFolder(folder + "/" + nameOf(lane->configuration.run.method));
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method), target = folder + "/" + name;
-      if (!std::exchange(lane->isWritten, true)) {
-        lane->configuration.run.output = target;  // as config.ini is to say
-        lane->run.finish(pass.file, pass.log, HYBRID_SLAM_VERSION, nlohmann::ordered_json::object());
-      }
-      std::filesystem::copy(pass.folder.path(name), target,
-                            std::filesystem::copy_options::recursive |
-                                std::filesystem::copy_options::overwrite_existing);
+      lane->finish(pass.file, pass.log, target);
+      std::filesystem::copy(
+          pass.folder.path(name), target,
+          std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
     }
     tell("Results of " + std::to_string(pass.scans) + " scans written: " + folder, false, State::ended);
   } catch (const std::exception& e) {

@@ -26,7 +26,9 @@ class ReplaySessionTest : public testing::Test {
                                          "resolution = 0.1\n");
     return Configuration(ini, {"run.rawlog=" + log});
   }
-  Configuration laps() { return configuration(test::writeGzipped(folder.path("laps.rawlog"), test::laps(kScans))); }
+  Configuration laps() {
+    return configuration(test::writeGzipped(folder.path("laps.rawlog"), test::laps(kScans)));
+  }
   static bool reaches(const ReplaySession& session, State state, size_t scans) {
     return happens([&] {
       const auto now = session.snapshot();
@@ -64,7 +66,8 @@ TEST_F(ReplaySessionTest, ShowsBothFiltersOnTheSameLog) {
   EXPECT_FALSE(hybrid.lines.empty());
   EXPECT_TRUE(general.lines.empty());
   ASSERT_TRUE(hybrid.dominatingDirection);
-  // The room's walls are all that is seen, and they have been there before. The first pose is the map's origin.
+  // The room's walls are all that is seen, and they have been there before. The first pose is the map's
+  // origin.
   const double turned = std::remainder(*hybrid.dominatingDirection + test::poseOnLap(0, 80).phi, M_PI / 2);
   EXPECT_NEAR(turned, 0, 0.05);
   EXPECT_FALSE(hybrid.scanLines.empty());
@@ -138,6 +141,29 @@ TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayStartsAnew) {
   session.play();
   ASSERT_TRUE(reaches(session, State::ended, kScans));
   EXPECT_EQ(session.snapshot()->run, 2u);
+}
+
+TEST_F(ReplaySessionTest, ResultsThatCouldNotBeWrittenStayAFailure) {
+  const Configuration c = laps();
+  ReplaySession session(c, {Method::hybrid});
+  session.seek(30);
+  ASSERT_TRUE(reaches(session, State::paused, 30));
+  const std::string log = c.run.rawlog, away = log + ".away";
+  std::filesystem::rename(log, away);  // map.simplemap.gz is made from it
+  for (const size_t attempt : {1u, 2u}) {
+    session.exportResults(folder.path("out"));
+    ASSERT_TRUE(happens([&] { return session.snapshot()->messages == attempt; }));
+    EXPECT_TRUE(session.snapshot()->isError);
+    EXPECT_THAT(session.snapshot()->message, HasSubstr("laps.rawlog"));
+    EXPECT_EQ(session.snapshot()->state, State::ended);
+  }
+  std::filesystem::rename(away, log);
+  session.setSpeed(0);
+  session.play();
+  ASSERT_TRUE(reaches(session, State::ended, kScans));
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(happens([&] { return session.snapshot()->messages == 3; }));
+  EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
 }
 
 TEST_F(ReplaySessionTest, ALogThatIsNoneFailsWithItsName) {
