@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -82,13 +83,17 @@ bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std:
       }
       for (auto it = running.begin(); it != running.end();) {
         int status = 0;
-        if (waitpid(it->first, &status, WNOHANG) == 0) {
+        const pid_t ended = waitpid(it->first, &status, WNOHANG);
+        if (ended == 0 || (ended < 0 && errno == EINTR)) {
           ++it;
           continue;
         }
+        // There is no status where this program was started with SIGCHLD ignored.
+        const std::string error = ended < 0 ? "exit status not known: " + std::string(std::strerror(errno))
+                                            : errorOf(status, commands[it->second]);
         const size_t command = it->second;
         it = running.erase(it);
-        onEnd(command, errorOf(status, commands[command]));
+        onEnd(command, error);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

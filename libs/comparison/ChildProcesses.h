@@ -15,7 +15,8 @@ struct Command {
   std::filesystem::path messages;      ///< takes its standard error; standard output goes nowhere
 };
 
-/// How a command ended: an empty text for exit 0, else its last error message, or how it ended.
+/// How a command ended: an empty text for exit 0, else its last error message, or how it ended, or that
+/// this is not known.
 using CommandEnd = std::function<void(size_t command, const std::string& error)>;
 
 /// Runs all commands in their order, at most `atOnce` at a time; `onStart` before each, `onEnd` after each.

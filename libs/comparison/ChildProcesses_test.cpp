@@ -78,6 +78,14 @@ TEST_F(ChildProcessesTest, StoppingEndsTheChildrenAndStartsNoMore) {
   EXPECT_EQ(kill(child, 0), -1);
 }
 
+/// As a program finds it that a parent started with SIGCHLD ignored: the system keeps no exit status.
+TEST_F(ChildProcessesTest, AnEndThatIsNotKnownIsNoSuccess) {
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  EXPECT_TRUE(run({"exit 3"}, 1));
+  signal(SIGCHLD, before);
+  EXPECT_THAT(ends, ElementsAre(Pair(0, HasSubstr("No child processes"))));
+}
+
 TEST_F(ChildProcessesTest, NothingToDoIsDone) { EXPECT_TRUE(run({}, 2)); }
 
 }  // namespace
