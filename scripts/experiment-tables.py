@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Tables, figures and claims from the summaries of slam-compare.
+
+  scripts/experiment-tables.py weights FOLDER      of scripts/sweep-weights.sh: weights.md, weights.svg in FOLDER
+  scripts/experiment-tables.py search FOLDER       of scripts/search-settings.sh: search.md in FOLDER
+  scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
+
+The tables go to standard output, too. Needs gnuplot for the figures."""
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
+          "sheared-6": "CSIE, sheared 6 deg", "wing": "wing at 30 deg", "intel": "Intel", "csail": "MIT CSAIL",
+          "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
+ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first that a world has
+
+
+class Group:
+    """One group of a summary.json."""
+
+    def __init__(self, tree):
+        self.name = "-".join(filter(None, (tree["method"], tree["variant"])))
+        self.particles = tree["particles"]
+        self.runs = tree["done"] + tree["failed"]
+        self.successes = tree["success"]["successes"]
+        self.interval = tree["success"]["wilson_95"]
+        self.median = next((tree["figures"][e]["median"] for e in ERRORS if e in tree.get("figures", {})), None)
+
+    @property
+    def rate(self):
+        return self.successes / self.runs
+
+    def cell(self):
+        error = "" if self.median is None else f", {self.median:.3f}" if self.median < 1 else f", {self.median:.1f}"
+        return f"{self.successes} of {self.runs}{error}"
+
+
+def groups(folder):
+    file = Path(folder) / "summary.json"
+    return [Group(tree) for tree in json.loads(file.read_text())["groups"]] if file.is_file() else []
+
+
+def markdown(head, rows):
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]) + "\n"
+
+
+def plot(script, file):
+    subprocess.run(["gnuplot"], input=f"set output '{file}'\n{script}", text=True, check=True)
+
+
+def data(name, points):
+    return f"${name} << EOD\n" + "\n".join(" ".join(f"{v:g}" for v in point) for point in points) + "\nEOD\n"
+
+
+COLOURS = {"graded": "#0072b2", "dominating": "#e69f00", "eq9": "#d55e00", "general": "#888888",
+           "general-best": "#000000", "stock": "#cc79a7"}
+LABELS = {"graded": "graded", "dominating": "dominating direction", "eq9": "eq. (9)",
+          "general": "without lines", "general-best": "without lines, its best", "stock": "MRPT's own"}
+
+
+def swept(name):
+    """("graded", 0.5) of "hybrid-graded_0.5"."""
+    kind, _, value = name.removeprefix("hybrid-").partition("_")
+    return (kind, float(value)) if value else None
+
+
+def weights(folder):
+    text, panels = "", ""
+    worlds = [w for w in WORLDS if (folder / f"{w}-standard/summary.json").is_file()]
+    for proposal, particles in (("standard", 20), ("improved", 15)):
+        all_groups = {w: {g.name: g for g in groups(folder / f"{w}-{proposal}")} for w in worlds}
+        names = list(next(iter(all_groups.values())))
+        text += f"\n### Proposal {proposal}, {particles} particles\n\n"
+        text += markdown(["weight"] + [WORLDS[w] for w in worlds],
+                         [[n.replace("hybrid", "default", 1) if n == "hybrid" else n.replace("hybrid-", "")] +
+                          [all_groups[w][n].cell() if n in all_groups[w] else "" for w in worlds] for n in names])
+        if proposal == "standard":
+            panels = "".join(weight_panel(WORLDS[w], all_groups[w]) for w in worlds)
+    (folder / "weights.md").write_text(text)
+    plot(f"""set terminal svg size 1100,{250 * ((len(worlds) + 3) // 4)} font 'sans,11' background '#ffffff'
+set multiplot layout {(len(worlds) + 3) // 4},4
+set logscale x
+set xrange [0.08:4]
+set yrange [-0.05:1.05]
+set xtics ('0.1' 0.1, '0.3' 0.3, '1' 1, '3' 3)
+set xlabel 'threshold or sigma (deg)'
+set ylabel 'success'
+set grid lc '#dddddd'
+{panels}unset multiplot
+""", folder / "weights.svg")
+    print(text)
+
+
+def weight_panel(title, by_name):
+    script, lines = "", []
+    for kind in ("eq9", "dominating", "graded"):
+        points = sorted((swept(n)[1], g.rate) for n, g in by_name.items() if swept(n) and swept(n)[0] == kind)
+        script += data(kind, points)
+        lines.append(f"${kind} with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[kind]}' title '{LABELS[kind]}'")
+    for kind in ("general", "general-best"):
+        if kind in by_name:
+            lines.append(f"{by_name[kind].rate:g} with lines dt 2 lc '{COLOURS[kind]}' title '{LABELS[kind]}'")
+    key = "set key bottom left" if title == "CSIE" else "set key off"
+    return f"{script}{key}\nset title \"{title}\"\nplot " + ", ".join(lines) + "\n"
+
+
+def search(folder):
+    worlds = [w for w in WORLDS if (folder / f"{w}-standard/summary.json").is_file()]
+    by_world = {w: {g.name: g for g in groups(folder / f"{w}-standard")} for w in worlds}
+    rows = []
+    for name in by_world[worlds[0]]:
+        of_name = [by_world[w][name] for w in worlds]
+        # Successes first; among equals the geometric mean of the errors, each at most 5 m.
+        errors = [min(g.median or 5, 5) for g in of_name]
+        rank = (-sum(g.successes for g in of_name), math.prod(errors))
+        rows.append((rank, [name, str(-rank[0]), *(g.cell() for g in of_name)]))
+    text = markdown(["setting", "successes"] + [WORLDS[w] for w in worlds], [row for _, row in sorted(rows)])
+    (folder / "search.md").write_text(text)
+    print(text)
+
+
+def particles(folder):
+    text, panels = "", ""
+    worlds = [w for w in WORLDS if (folder / w / "summary.json").is_file()]
+    for world in worlds:
+        series = {}
+        for part in ("", "-many", "-stock"):
+            for g in groups(folder / f"{world}{part}"):
+                kind = {"hybrid": "graded", "hybrid-eq9": "eq9"}.get(g.name, g.name)
+                series.setdefault(kind, {})[g.particles] = g
+        counts = sorted({n for s in series.values() for n in s})
+        text += f"\n### {WORLDS[world]}\n\n" + markdown(
+            ["particles"] + [LABELS[k] for k in series],
+            [[str(n)] + [s[n].cell() if n in s else "" for s in series.values()] for n in counts])
+        lines = []
+        for kind, s in series.items():
+            name = kind.replace("-", "_")
+            panels += data(name, [(n, g.rate, *g.interval) for n, g in sorted(s.items())])
+            lines.append(f"${name} using 1:2:3:4 with yerrorbars pt 7 ps 0.4 lc '{COLOURS[kind]}' notitle, "
+                         f"${name} with lines lw 2 lc '{COLOURS[kind]}' title '{LABELS[kind]}'")
+        key = "set key top left" if world == worlds[0] else "set key off"
+        panels += f"{key}\nset title \"{WORLDS[world]}\"\nplot " + ", ".join(lines) + "\n"
+    (folder / "particles.md").write_text(text)
+    plot(f"""set terminal svg size {370 * len(worlds)},340 font 'sans,12' background '#ffffff'
+set multiplot layout 1,{len(worlds)}
+set logscale x
+set xrange [4:2500]
+set yrange [-0.05:1.05]
+set xtics (5, 20, 50, 200, 500, 2000)
+set xlabel 'particles'
+set ylabel 'runs that close the loop'
+set grid lc '#dddddd'
+{panels}unset multiplot
+""", folder / "particles.svg")
+    print(text)
+
+
+def main():
+    commands = {"weights": weights, "search": search, "particles": particles}
+    if len(sys.argv) != 3 or sys.argv[1] not in commands:
+        sys.exit(__doc__)
+    commands[sys.argv[1]](Path(sys.argv[2]))
+
+
+if __name__ == "__main__":
+    main()

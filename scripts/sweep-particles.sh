@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Success against the number of particles: with lines, with eq. (9) as printed, without lines, and MRPT's own filter.
+# Table and figure of doc/experiments.md and README.md.
+#   scripts/sweep-particles.sh [OUT]     OUT defaults to out/particles
+# SEEDS=20 runs of each group from FIRST_SEED=1 on, a quarter of them above 200 particles and for MRPT's filter.
+# Interrupted, it goes on where it was. About 1 hour on two cores. Intel and Killian need HYBRID_SLAM_DATASETS.
+source "$(dirname "$0")/lib.sh"
+out=${1:-out/particles}
+bin=build/release/bin
+source scripts/worlds.sh
+install_packages "${packages[@]}" gnuplot-nox
+build release
+make_worlds "$out/worlds"
+seeds=${SEEDS:-20}
+few=$(((seeds + 3) / 4))
+options=(--first-seed "${FIRST_SEED:-1}" --set particle_filter.proposal=standard -q)
+general=(--variant "general/best:$general_best")
+worlds=(csie)
+[[ ${#public_worlds[@]} -eq 0 ]] || worlds+=(intel killian)
+for world in "${worlds[@]}"; do
+  echo "== $world: $(date -u +%H:%M)"
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$seeds" --methods hybrid,general "${general[@]}" \
+    --variant hybrid/eq9:line_weight.method=paper -n 5,10,20,50,100,200 -o "$out/$world"
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods general "${general[@]}" \
+    -n 500,1000,2000 -o "$out/$world-many"
+  [[ $world == killian ]] ||  # its map takes MRPT's filter tens of gigabytes
+    compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods stock -n 5,10,20,50,100,200 -j 1 \
+      -o "$out/$world-stock"
+done
+scripts/experiment-tables.py particles "$out"

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# The line weight over its free parameters, on every world and with both proposals: eq. (9) over its threshold, the
+# graded weights over sigma, no lines. Tables and figure of doc/experiments.md.
+#   scripts/sweep-weights.sh [OUT]     OUT defaults to out/weights
+# SEEDS=20 runs of each group from FIRST_SEED=1 on; WORLDS="csie intel" chooses some. Interrupted, it goes on where it
+# was. About 1.5 hours on two cores. The public logs need HYBRID_SLAM_DATASETS.
+source "$(dirname "$0")/lib.sh"
+out=${1:-out/weights}
+bin=build/release/bin
+source scripts/worlds.sh
+install_packages "${packages[@]}" gnuplot-nox
+build release
+make_worlds "$out/worlds"
+read -ra worlds <<<"${WORLDS:-${simulated_worlds[*]} ${public_worlds[*]}}"
+
+options=(--seeds "${SEEDS:-20}" --first-seed "${FIRST_SEED:-1}" --methods hybrid,general -q)
+standard=(--set particle_filter.proposal=standard -n 20 --variant "general/best:$general_best")
+for threshold in 3 2 1 0.5 0.25 0.1; do
+  standard+=(--variant "hybrid/eq9_$threshold:line_weight.method=paper,line_weight.threshold_deg=$threshold")
+done
+for sigma in 0.2 0.3 0.4 0.5 0.7 1; do
+  standard+=(--variant "hybrid/graded_$sigma:line_weight.sigma_deg=$sigma")
+done
+for sigma in 0.25 0.5 1; do
+  standard+=(--variant "hybrid/dominating_$sigma:line_weight.method=dominating_direction,line_weight.sigma_deg=$sigma")
+done
+improved=(--set particle_filter.proposal=improved -n 15)
+improved+=(--variant "hybrid/eq9_0.25:line_weight.method=paper")
+for sigma in 0.2 0.4; do
+  improved+=(--variant "hybrid/graded_$sigma:improved_proposal.line_sigma_deg=$sigma")
+done
+improved+=(--variant "hybrid/dominating_0.1:line_weight.method=dominating_direction")
+for world in "${worlds[@]}"; do
+  echo "== $world, standard: $(date -u +%H:%M)"
+  compare "$world" "$out/worlds" "${options[@]}" "${standard[@]}" -o "$out/$world-standard"
+  echo "== $world, improved: $(date -u +%H:%M)"
+  compare "$world" "$out/worlds" "${options[@]}" "${improved[@]}" -o "$out/$world-improved"
+done
+scripts/experiment-tables.py weights "$out"

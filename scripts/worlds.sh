@@ -1,0 +1,65 @@
+# The worlds of the experiments; sourced by the scripts that compare on them (after lib.sh, with `bin` set).
+# Simulated ones are made, public logs converted, from HYBRID_SLAM_DATASETS (doc/datasets.md).
+
+simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)
+public_worlds=()
+[[ -z ${HYBRID_SLAM_DATASETS:-} ]] || public_worlds=(intel csail killian fr079 dpslam)
+
+# What `general` does best with, found by scripts/search-settings.py on seeds from 101 on (doc/experiments.md).
+general_best=grid_weight.exponent=120,grid_weight.sigma=0.13,grid_weight.beams=90
+
+# make_worlds FOLDER: plans, routes and logs of all worlds; those that are there are kept.
+make_worlds() {
+  local folder=$1 csie=$PWD/datasets/csie world log
+  mkdir -p "$folder"
+  for world in "${simulated_worlds[@]}"; do
+    [[ ! -f $folder/$world.rawlog ]] || continue
+    case $world in
+      csie) cp $csie/csie.plan "$folder/csie.plan"; cp $csie/csie-loop.route "$folder/csie.route" ;;
+      wing) cp $csie/wing.plan $csie/wing.route "$folder" ;;
+      *)
+        scripts/shear-world.py "${world#*-}" <$csie/csie.plan >"$folder/$world.plan"
+        scripts/shear-world.py "${world#*-}" <$csie/csie-loop.route >"$folder/$world.route"
+        ;;
+    esac
+    sed -e "s|^plan *=.*|plan = $world.plan|" -e "s|^route *=.*|route = $world.route|" \
+      config-ini/simul-csie-loop.ini >"$folder/$world-simul.ini"
+    "$bin/simul-floorplan" -q "$folder/$world-simul.ini" -o "$folder/$world.rawlog"
+  done
+  for world in "${public_worlds[@]}"; do
+    log=$(log_of "$world")
+    [[ -f $folder/$world.rawlog ]] ||
+      "$bin/log2rawlog" "$HYBRID_SLAM_DATASETS/$log.clf.gz" "$folder/$world.rawlog" >/dev/null 2>"$folder/$world.log"
+  done
+}
+
+log_of() {
+  case $1 in
+    intel) echo intel-lab ;;
+    killian) echo mit-killian ;;
+    dpslam) echo dpslam-loop5 ;;
+    *) echo "$1" ;;
+  esac
+}
+
+# compare WORLD FOLDER OPTION...: slam-compare on a world of FOLDER with what is known of its truth. A run on a public
+# log succeeds below 0.1 m of mean translation error; Killian Court, 1.9 km with stamps that are good to 0.02 m, below
+# 0.3 m; DP-SLAM's loop, which has no reference, by the walls seen again.
+compare() {
+  local world=$1 folder=$2 log truth
+  shift 2
+  log=${HYBRID_SLAM_DATASETS:-}/$(log_of "$world")
+  truth=(config-ini/lms-logs.ini "$folder/$world.rawlog" --relations "$log.relations")
+  case $world in
+    csail) ;;
+    intel | fr079) truth+=(--odometry "$log.odom.gz") ;;
+    killian) truth+=(--odometry "$log.odom.gz" --success-relations 0.3) ;;
+    dpslam) truth=(config-ini/lms-logs.ini "$folder/$world.rawlog" --revisits 8) ;;
+    *)
+      truth=(config-ini/csie-lms100.ini "$folder/$world.rawlog" --reference "$folder/$world.tum"
+        --floorplan "$folder/$world.plan")
+      ;;
+  esac
+  # slam-compare ends with 1 if a run failed; the report says which, and the other comparisons go on.
+  "$bin/slam-compare" "${truth[@]}" "$@" || [[ $? -eq 1 ]]
+}
