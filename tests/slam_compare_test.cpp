@@ -106,6 +106,7 @@ TEST_F(SlamCompare, AWholeComparison) {
     EXPECT_GT(std::stod(row.at("ate_rmse_m")), 0);
     EXPECT_LT(std::stod(row.at("ate_rmse_m")), 3);
     EXPECT_GT(std::stod(row.at("wall_mean_m")), 0);
+    EXPECT_GE(std::stod(row.at("doubled_share")), 0);
     EXPECT_GT(std::stod(row.at("peak_rss_mb")), 1);
     EXPECT_THAT((std::vector<std::string>{"0", "1"}), testing::Contains(row.at("success")));
   }
@@ -345,6 +346,7 @@ TEST_F(SlamCompare, EveryBadInputIsOneLineAndStartsNoRun) {
   folder.write("broken.relations", "1287388800.0 1287388801.0 1 0 0 0 0 0\n1287388800.0 oops\n");
   folder.write("far.relations", "1 2 1 0 0 0 0 0\n");
   folder.write("broken.plan", "wall 0 0\n");
+  folder.write("far.plan", "rectangle 1000 1000 1010 1010\n");
   folder.write("wrong.ini", "[particle_filter]\nparticels = 3\n");
   folder.write("text.rawlog", "not a rawlog\n");
   const std::string reference = " --reference " + kCsie + "csie-corridor.tum";
@@ -371,6 +373,7 @@ TEST_F(SlamCompare, EveryBadInputIsOneLineAndStartsNoRun) {
       {"--floorplan " + kCsie + "csie.plan", "--reference"},
       {reference + " --floorplan none.plan", "none.plan"},
       {reference + " --floorplan broken.plan", "line 1"},
+      {reference + " --floorplan far.plan", "no scan sees a wall of the floor plan"},
       {"--success-trans 0", "--success-trans"},
       {"--success-rot nan", "--success-rot"},
       {"--success-doubled -1", "--success-doubled"},

@@ -70,7 +70,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--odometry", line.odometry,
                  "file `t x y theta` that carries poses to the relations' times");
   app.add_option("--floorplan", line.floorplan,
-                 "walls in the reference's frame: occupied cells against them");
+                 "walls in the reference's frame: occupied cells against them, doubled walls");
   app.add_option(
          "--revisits", line.revisits,
          "do the maps close: walls seen again from poses up to so far apart, m, as slam-eval revisits")
@@ -263,8 +263,8 @@ int run(const CommandLine& line, const std::string& command) {
       std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
     return 0;
   }
-  if (truth.revisits)
-    truth.scans = loadEndPoints(line.log, Configuration(setup.config, setup.settings).input.sensorLabel);
+  if (truth.revisits || truth.plan)
+    truth.takeScans(loadEndPoints(line.log, Configuration(setup.config, setup.settings).input.sensorLabel));
   const OutputFolder folder(line.output);
   const FolderLock lock(folder);
 

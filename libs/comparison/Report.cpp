@@ -99,7 +99,7 @@ std::string criterionNote(const GroundTruth& truth) {
         shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg");
     if (truth.plan)
       conditions.push_back("less than " + shortNumber(100 * c.doubledShare) +
-                           " % of the free-standing wall that the map shows is drawn twice");
+                           " % of the wall that the map shows is drawn twice");
   }
   if (!truth.relations.empty())
     conditions.push_back("the relations' mean translation error is below " + shortNumber(c.relations) + " m");

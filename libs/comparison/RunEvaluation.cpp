@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/Errors.h"
 #include "comparison/ReturnError.h"
 #include "comparison/SpreadTable.h"
 #include "comparison/WallErrors.h"
@@ -51,7 +52,7 @@ void takeReferenceErrors(RunResult& result, const Trajectory& trajectory, const 
       wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
   result[Figure::wallMean] = walls.mean;
   result[Figure::wallP95] = walls.p95;
-  result[Figure::doubledShare] = walls.doubledShare;
+  if (truth.sightings) result[Figure::doubledShare] = truth.sightings->doubledShare(trajectory);
 }
 
 }  // namespace
@@ -59,6 +60,15 @@ void takeReferenceErrors(RunResult& result, const Trajectory& trajectory, const 
 void GroundTruth::expectOverlap(const Trajectory& trajectory) const {
   if (!reference.empty()) absoluteTrajectoryError(trajectory, reference, kReferenceTolerance);
   if (!relations.empty()) relationErrors(trajectory, *this);
+}
+
+void GroundTruth::takeScans(std::vector<EndPoints> log) {
+  scans = std::move(log);
+  if (!plan) return;
+  sightings.emplace(*plan, reference, scans, kReferenceTolerance);
+  if (sightings->empty())
+    throw InputError("no scan sees a wall of the floor plan", "scans at the poses of the reference",
+                     "expected the floor plan in the reference's frame");
 }
 
 std::vector<std::pair<Figure, double>> GroundTruth::bounds() const {

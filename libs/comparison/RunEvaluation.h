@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "comparison/DoubledWalls.h"
 #include "comparison/Figures.h"
 #include "comparison/RunFolder.h"
 #include "evaluation/EndPoints.h"
@@ -20,7 +21,7 @@ namespace hybrid_slam {
 struct SuccessCriterion {
   double returnTrans = 0.5;    ///< m
   double returnRot = 2;        ///< deg
-  double doubledShare = 0.02;  ///< of the free-standing wall that the map shows
+  double doubledShare = 0.02;  ///< of the wall that the run shows
   double relations = 0.1;      ///< m, mean translation error
   double revisits = 0.07;      ///< m, median of at least one revisit
 };
@@ -32,7 +33,8 @@ struct GroundTruth {
   Trajectory odometry;              ///< that carries poses to the relations' times; may be empty
   std::optional<FloorPlan> plan;    ///< in the reference's frame
   std::optional<RevisitOptions> revisits;
-  std::vector<EndPoints> scans;  ///< of the log; for the revisits
+  std::vector<EndPoints> scans;            ///< of the log; for the revisits
+  std::optional<WallSightings> sightings;  ///< of the same scans; for the share of doubled wall
   SuccessCriterion criterion;
 
   /// s; between a pose and its reference pose
@@ -43,6 +45,9 @@ struct GroundTruth {
   /// @throws InputError if the reference does not overlap `trajectory` in time, or none of the relations can
   ///         be used with it
   void expectOverlap(const Trajectory& trajectory) const;
+  /// Takes the log's scans, which revisits and doubled walls are measured with.
+  /// @throws InputError if none of them sees a wall of the plan
+  void takeScans(std::vector<EndPoints> scans);
   /// What success asks for: figures that all have to be below these bounds. Empty where nothing is known.
   std::vector<std::pair<Figure, double>> bounds() const;
 };
