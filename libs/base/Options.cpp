@@ -4,39 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
-#include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-/// Shortest decimal text that reads back to the same number.
-std::string numberText(double value) {
-  for (int digits = 6; digits < 17; ++digits) {
-    std::ostringstream text;
-    text.precision(digits);
-    text << value;
-    if (std::strtod(text.str().c_str(), nullptr) == value) return text.str();
-  }
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 std::string rangeText(double low, double high) { return numberText(low) + ".." + numberText(high); }
-
-/// The value is text from a file: a number must be the whole of it.
-bool parseNumber(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
-}
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
@@ -52,9 +30,9 @@ void OptionTable::add(const std::string& key, double& value, double low, double 
       "expected a number in " + rangeText(low, high) + (unit.empty() ? "" : " ") + unit;
   options_.push_back({key, unit, rangeText(low, high), why, [&value] { return numberText(value); },
                       [&value, low, high, expected](const std::string& text) -> std::string {
-                        double number = 0;
-                        if (!parseNumber(text, number) || number < low || number > high) return expected;
-                        value = number;
+                        const auto number = parseFinite(text);
+                        if (!number || *number < low || *number > high) return expected;
+                        value = *number;
                         return {};
                       }});
 }
@@ -66,10 +44,9 @@ void OptionTable::addAngle(const std::string& key, double& radians, double lowDe
                       // Rounded at 1e-9 deg, so that 0.5 deg reads back as 0.5.
                       [&radians] { return numberText(std::round(radians / kDegree * 1e9) / 1e9); },
                       [&radians, lowDeg, highDeg, expected](const std::string& text) -> std::string {
-                        double number = 0;
-                        if (!parseNumber(text, number) || number < lowDeg || number > highDeg)
-                          return expected;
-                        radians = number * kDegree;
+                        const auto number = parseFinite(text);
+                        if (!number || *number < lowDeg || *number > highDeg) return expected;
+                        radians = *number * kDegree;
                         return {};
                       }});
 }
@@ -78,11 +55,10 @@ void OptionTable::add(const std::string& key, int& value, int low, int high, con
   const std::string expected = "expected a whole number in " + rangeText(low, high);
   options_.push_back({key, "", rangeText(low, high), why, [&value] { return std::to_string(value); },
                       [&value, low, high, expected](const std::string& text) -> std::string {
-                        double number = 0;
-                        if (!parseNumber(text, number) || number != std::floor(number) || number < low ||
-                            number > high)
+                        const auto number = parseFinite(text);
+                        if (!number || *number != std::floor(*number) || *number < low || *number > high)
                           return expected;
-                        value = static_cast<int>(number);
+                        value = static_cast<int>(*number);
                         return {};
                       }});
 }

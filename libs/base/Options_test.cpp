@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 
+#include "base/CommaLocale.h"
 #include "base/Errors.h"
 
 namespace hybrid_slam {
@@ -92,6 +93,19 @@ TEST(Options, SavedAndLoadedAgainIsTheSame) {
   EXPECT_EQ(t.length, s.length);
   EXPECT_NEAR(t.angle, s.angle, 1e-12);
   EXPECT_EQ(t.colour, s.colour);
+}
+
+TEST(Options, AreTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  Sample s;
+  load(s, "length = 2.25\nangle_deg = 0.5\n");
+  EXPECT_EQ(s.length, 2.25);
+  EXPECT_NEAR(s.angle, 0.5 * M_PI / 180, 1e-15);
+  mrpt::config::CConfigFileMemory file;
+  s.saveToConfigFile(file, "s");
+  EXPECT_EQ(file.read_string("s", "length", ""), "2.25");
+  EXPECT_EQ(file.read_string("s", "angle_deg", ""), "0.5");
+  EXPECT_EQ(s.table().front().range, "0..10");
 }
 
 TEST(EditDistance, CountsInsertionsDeletionsSubstitutions) {

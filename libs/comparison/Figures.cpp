@@ -1,7 +1,8 @@
 #include "comparison/Figures.h"
 
-#include <cstdio>
 #include <ostream>
+
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 
@@ -34,10 +35,7 @@ const char* statusName(RunResult::Status status) {
 }
 
 std::string cell(const std::optional<double>& value) {
-  if (!value) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", *value);
-  return text;
+  return value ? numberText(*value, std::chars_format::general, 6) : std::string();
 }
 
 void writeResults(const std::vector<Group>& groups, const std::vector<RunResult>& results,

@@ -3,12 +3,14 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
+#include "base/Numbers.h"
 #include "comparison/PlanView.h"
+#include "comparison/TableLine.h"
 
 namespace hybrid_slam {
 
@@ -34,13 +36,15 @@ std::vector<ParticleSnapshot> loadParticles(const std::string& file) {
   std::string line;
   std::getline(in, line);
   while (std::getline(in, line)) {
-    double t = 0;
-    WeightedParticle p;
-    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &p.pose.x, &p.pose.y, &p.pose.phi,
-                    &p.logWeight) != 5)
-      throw std::runtime_error("broken table: " + file);
-    if (run.empty() || run.back().timestamp != t) run.push_back({t, {}});
-    run.back().particles.push_back(p);
+    const std::vector<std::string> fields = splitAtCommas(line);
+    std::array<double, 5> row{};
+    for (size_t i = 0; i < row.size(); ++i) {
+      const auto number = i < fields.size() ? parseNumber(fields[i]) : std::nullopt;
+      if (!number) throw std::runtime_error("broken table: " + file);
+      row[i] = *number;
+    }
+    if (run.empty() || run.back().timestamp != row[0]) run.push_back({row[0], {}});
+    run.back().particles.push_back({{row[1], row[2], row[3]}, row[4]});
   }
   return run;
 }
@@ -91,7 +95,8 @@ std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& align
         }
       }
     }
-  svg.circle(view.pixel({robot.x, robot.y}), 9, "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
+  svg.circle(view.pixel({robot.x, robot.y}), 9,
+             "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
   for (const WeightedParticle& particle : snapshot.particles) {
     const TPose2D pose = alignment + particle.pose;
     const Point at = view.pixel({pose.x, pose.y});

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/CommaLocale.h"
+#include "comparison/Svg.h"
 #include "comparison/XmlCheck.h"
 #include "io/TemporaryFolder.h"
 
@@ -37,6 +39,16 @@ TEST(Particles, AreReadUpdateByUpdate) {
   EXPECT_TRUE(loadParticles(folder.path("none.csv")).empty());
   EXPECT_THROW(loadParticles(folder.write("broken.csv", "timestamp,x,y,phi,log_weight\n1,2,x,0,0\n")),
                std::runtime_error);
+}
+
+TEST(Particles, AreReadAndPlottedTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  const TemporaryFolder folder;
+  const auto run =
+      loadParticles(folder.write("particles.csv", "timestamp,x,y,phi,log_weight\n10.5,1.25,2,0.5,-3\n"));
+  ASSERT_EQ(run.size(), 1u);
+  EXPECT_EQ(run[0].best().x, 1.25);
+  EXPECT_EQ(shortNumber(1.25), "1.25");
 }
 
 TEST(Particles, TheMomentsAreThoseOfTheLargestTurns) {

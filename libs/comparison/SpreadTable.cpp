@@ -4,21 +4,12 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
+#include "base/Numbers.h"
+#include "comparison/TableLine.h"
+
 namespace hybrid_slam {
-namespace {
-
-std::vector<std::string> splitAtCommas(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream in(line);
-  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
-  return fields;
-}
-
-}  // namespace
-
 std::vector<SpreadStep> loadSpread(const std::string& file) {
   std::ifstream in(file);
   std::string line;
@@ -35,15 +26,15 @@ std::vector<SpreadStep> loadSpread(const std::string& file) {
     bool isFirst = true;
     while (std::getline(in, line)) {
       const std::vector<std::string> fields = splitAtCommas(line);
-      SpreadStep step{std::stod(fields.at(timestamp)), {}};
-      for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = std::stod(fields.at(spreads[s]));
+      SpreadStep step{parseNumber(fields.at(timestamp)).value(), {}};
+      for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = parseNumber(fields.at(spreads[s])).value();
       step.spread[2] *= 180 / M_PI;
       if (isFirst)
         isFirst = false;
       else
         steps.push_back(step);
     }
-  } catch (const std::logic_error&) {  // no such column, no such field, no number
+  } catch (const std::exception&) {  // no such column, no such field, no number
     throw std::runtime_error("broken table: " + file);
   }
   return steps;

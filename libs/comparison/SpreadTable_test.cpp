@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/CommaLocale.h"
 #include "io/TemporaryFolder.h"
 
 namespace hybrid_slam {
@@ -31,6 +32,17 @@ TEST(SpreadTable, TakesItsColumnsByNameAndLeavesTheFirstScanOut) {
   EXPECT_NEAR(mean[0], 0.4, 1e-12);
   EXPECT_NEAR(mean[1], 0.3, 1e-12);
   EXPECT_NEAR(mean[2], 0.5, 1e-8);
+}
+
+TEST(SpreadTable, IsReadTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  const TemporaryFolder folder;
+  const auto steps = loadSpread(
+      folder.write("steps.csv", std::string(kHeader) + "10.5,20,1,0,0,0,0,0,0,,,0,0,7\n"
+                                                       "11.5,20,0.5,1,0.1,0.2,0,0.3,0.4,0.7,,5,4,9\n"));
+  ASSERT_EQ(steps.size(), 1u);
+  EXPECT_EQ(steps[0].timestamp, 11.5);
+  EXPECT_EQ(steps[0].spread[0], 0.3);
 }
 
 TEST(SpreadTable, ABrokenTableIsAnError) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
@@ -55,9 +56,7 @@ std::string escapeXml(const std::string& text) {
 }
 
 std::string shortNumber(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value == 0 ? 0.0 : value);
-  return text;
+  return numberText(value == 0 ? 0.0 : value, std::chars_format::general, digits);
 }
 
 void Svg::line(Point a, Point b, const std::string& style) {
@@ -81,8 +80,8 @@ void Svg::squares(const std::vector<Point>& centres, double side, const std::str
   const std::string length = pixels(side);
   body_ += "<path d=\"";
   for (const Point& c : centres)
-    body_ += "M" + pixels(c.x - side / 2) + " " + pixels(c.y - side / 2) + "h" + length + "v" + length + "h-" +
-             length + "z";
+    body_ += "M" + pixels(c.x - side / 2) + " " + pixels(c.y - side / 2) + "h" + length + "v" + length +
+             "h-" + length + "z";
   body_ += "\" " + styled(style);
 }
 

@@ -2,12 +2,11 @@
 
 #include <zlib.h>
 
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
@@ -34,13 +33,6 @@ std::string readWhole(const std::string& file, const std::string& expected) {
   return text;
 }
 
-/// The whole of the word, in every locale.
-bool parseNumber(const std::string& word, double& value) {
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  return error == std::errc() && stop == end && std::isfinite(value);
-}
-
 }  // namespace
 
 std::vector<NumberRow> readNumberTable(const std::string& file, const std::string& columns) {
@@ -55,9 +47,9 @@ std::vector<NumberRow> readNumberTable(const std::string& file, const std::strin
     if (entries.empty() || entries.front().front() == '#') continue;
     NumberRow row{number, {}};
     for (const std::string& entry : entries) {
-      double value = 0;
-      if (!parseNumber(entry, value)) break;
-      row.values.push_back(value);
+      const auto value = parseFinite(entry);
+      if (!value) break;
+      row.values.push_back(*value);
     }
     if (entries.size() != width || row.values.size() != width)
       throw InputError("broken line", "file `" + file + "`, line " + std::to_string(number), expected);

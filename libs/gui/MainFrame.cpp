@@ -33,7 +33,8 @@ void orTell(wxWindow* parent, const Action& action) {
 }  // namespace
 
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), timer_(this) {
-  std::setlocale(LC_NUMERIC, "C");  // GTK takes the user's, and then 0.5 in an INI file would be 0
+  // GTK takes the user's locale; MRPT, which reads numbers by it, would take 0.5 for 0.
+  std::setlocale(LC_NUMERIC, "C");
   SetSize(FromDIP(wxSize(1240, 760)));
   SetMinSize(FromDIP(wxSize(800, 560)));
   pages_ = new wxNotebook(this, wxID_ANY);

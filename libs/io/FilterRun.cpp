@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "grid/GridConversion.h"
 #include "io/MapFiles.h"
 #include "io/SimpleMapFile.h"
@@ -54,12 +55,6 @@ double peakMegabytes() {
   for (std::string word; status >> word;)
     if (word == "VmHWM:") status >> kilobytes;
   return kilobytes / 1024;
-}
-
-std::string textOf(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 }  // namespace
@@ -115,7 +110,7 @@ bool FilterRun::process(const Reading& reading) {
 std::string FilterRun::slipNote() const {
   if (slips_ == 0) return {};
   return std::to_string(slips_) + " updates in which the odometry was far off: first at " +
-         textOf("%.3f s", firstSlip_) + "; the motion is that of a scan match";
+         fixedText(firstSlip_, 3) + " s" + "; the motion is that of a scan match";
 }
 
 void FilterRun::refineResult(Result& result, RawlogSource& source) const {
@@ -183,9 +178,9 @@ std::string FilterRun::finish(const std::string& file, const RawlogSummary& log,
   folder_.write("metrics.json", [&](std::ostream& out) { out << metrics.dump(2) << '\n'; });
 
   return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
-         textOf("%.0f m", recorder_.distance()) + " in " + textOf("%.1f s", wall) +
-         textOf(" (%.0f times the log's pace): ", wall > 0 ? log.duration / wall : 0) +
-         folder_.path("map.png");
+         fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
+         fixedText(wall > 0 ? log.duration / wall : 0, 0) +
+         " times the log's pace): " + folder_.path("map.png");
 }
 
 }  // namespace hybrid_slam

@@ -1,8 +1,9 @@
 #include "io/LogFields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
@@ -34,13 +35,9 @@ std::string_view LogFields::word() {
 
 double LogFields::anyNumber() {
   const std::string_view field = word();
-  const std::string_view digits = field.substr(field.front() == '+' ? 1 : 0);
-  double value = 0;
-  // Not strtod, which would read a decimal comma in some locales.
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size())
-    throw BrokenLine(inBackquotes(field) + " is not a number");
-  return value;
+  const auto value = parseNumber(field);
+  if (!value) throw BrokenLine(inBackquotes(field) + " is not a number");
+  return *value;
 }
 
 double LogFields::number() {

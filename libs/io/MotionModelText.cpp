@@ -1,15 +1,15 @@
 #include "io/MotionModelText.h"
 
 #include <cstdio>
-#include <cstdlib>
+
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
 
-std::string textOf(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+/// A blank, then the text flush right in so many characters.
+std::string cell(const std::string& text, size_t width) {
+  return std::string(width > text.size() ? width - text.size() + 1 : 1, ' ') + text;
 }
 
 }  // namespace
@@ -19,7 +19,8 @@ std::string motionModelSection(const MotionModelOptions& model, const std::vecto
   for (const std::string& comment : comments) text += "# " + comment + "\n";
   text += "[motion_model]\n";
   for (const Option& option : model.table())
-    text += option.key + " = " + textOf("%.6g", std::strtod(option.get().c_str(), nullptr)) + "  // " +
+    text += option.key + " = " +
+            numberText(parseNumber(option.get()).value(), std::chars_format::general, 6) + "  // " +
             option.unit + ": " + option.why + "\n";
   return text;
 }
@@ -39,10 +40,13 @@ std::string motionModelTableHead() {
 }
 
 std::string motionModelTableRow(int iteration, double logLikelihood, const MotionModelOptions& model) {
-  std::string row = textOf("%9.0f", iteration) + textOf(" %11.4f", logLikelihood);
+  const auto variance = [](double value) {
+    return " " + cell(numberText(value, std::chars_format::scientific, 2), 8);
+  };
+  std::string row = cell(std::to_string(iteration), 8) + cell(fixedText(logLikelihood, 4), 11);
   for (const MotionTerm* term : {&model.distance, &model.drift, &model.turn})
-    row += " |" + textOf(" %7.4f", term->meanD) + textOf("  %7.4f", term->meanT) +
-           textOf("  %8.2e", term->varianceD) + textOf("  %8.2e", term->varianceT);
+    row += " |" + cell(fixedText(term->meanD, 4), 7) + " " + cell(fixedText(term->meanT, 4), 7) +
+           variance(term->varianceD) + variance(term->varianceT);
   return row + "\n";
 }
 

@@ -1,6 +1,7 @@
 #include "io/OutputFolder.h"
 
 #include <cerrno>
+#include <locale>
 #include <system_error>
 
 #include "base/Errors.h"
@@ -24,6 +25,7 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
 }
 
 GrowingFile::GrowingFile(const std::string& path) : file_(path) {
+  out_.imbue(std::locale::classic());
   errno = 0;
   out_.open(file_.path(), std::ios::binary);
   if (!out_) file_.fail(errno);

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 
+#include "base/CommaLocale.h"
 #include "base/Errors.h"
 #include "io/TemporaryFolder.h"
 #include "io/TestLogs.h"
@@ -89,6 +90,15 @@ TEST(OutputFolder, NotWritable) {
   fs::permissions(root.path("out"), fs::perms::owner_read | fs::perms::owner_exec);
   if (access(root.path("out").c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who may write everywhere";
   EXPECT_THAT(errorOf([&] { OutputFolder{root.path("out")}; }), HasSubstr("not writable"));
+}
+
+TEST(GrowingFile, TakesNumbersTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  const TemporaryFolder root;
+  GrowingFile file(root.path("steps.csv"));
+  file.stream() << 1234 << ' ' << 0.5;
+  file.finish();
+  EXPECT_EQ(contentOf(root.path("steps.csv")), "1234 0.5");
 }
 
 TEST(GrowingFile, HasItsNameOnlyOnceFinished) {

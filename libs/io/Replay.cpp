@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/Numbers.h"
 #include "io/FilterRun.h"
 #include "io/Progress.h"
 
@@ -25,9 +26,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log) {
 }
 
 std::string spreadNote(const FilterStep& step) {
-  char text[64];
-  std::snprintf(text, sizeof text, "spread %.2f m", std::hypot(step.stdX, step.stdY));
-  return text;
+  return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
 }
 
 }  // namespace

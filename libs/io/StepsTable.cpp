@@ -1,6 +1,6 @@
 #include "io/StepsTable.h"
 
-#include <cstdio>
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 
@@ -10,26 +10,22 @@ void writeStepsHeader(std::ostream& out) {
 }
 
 void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
-  const auto number = [&out](const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    out << text << ',';
-  };
-  number("%.6f", timestamp);
+  const auto number = [&out](double value, int decimals) { out << fixedText(value, decimals) << ','; };
+  number(timestamp, 6);
   out << s.particles << ',';
-  number("%.6f", s.ess);
+  number(s.ess, 6);
   if (s.resampled) out << (*s.resampled ? 1 : 0);
   out << ',';
-  for (const double spread : {s.stdX, s.stdY, s.stdPhi, s.stdAlong, s.stdAcross}) number("%.6f", spread);
+  for (const double spread : {s.stdX, s.stdY, s.stdPhi, s.stdAlong, s.stdAcross}) number(spread, 6);
   for (const auto& weight : {s.gridWeight, s.lineWeight})
     if (weight)
-      number("%.6f", *weight);
+      number(*weight, 6);
     else
       out << ',';
   out << s.linesSeen << ',' << s.linesMatched << ',';
-  number("%.3f", milliseconds);
+  number(milliseconds, 3);
   if (s.matched)
-    number("%.3f", *s.matched);
+    number(*s.matched, 3);
   else
     out << ',';
   if (s.slipped) out << (*s.slipped ? 1 : 0);
@@ -40,10 +36,8 @@ void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_wei
 
 void writeParticles(std::ostream& out, double timestamp, const FilterStep& step) {
   for (const auto& [pose, logWeight] : step.poses) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f,%.6f,%.6g\n", timestamp, pose.x, pose.y, pose.phi,
-                  logWeight);
-    out << text;
+    for (const double value : {timestamp, pose.x, pose.y, pose.phi}) out << fixedText(value, 6) << ',';
+    out << numberText(logWeight, std::chars_format::general, 6) << '\n';
   }
 }
 

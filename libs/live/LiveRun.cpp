@@ -3,11 +3,11 @@
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
@@ -98,11 +98,10 @@ void LiveRun::filter() {
 void LiveRun::tellState() {
   lastState_ = Clock::now();
   const FilterStep& step = run_.view().lastStep();
-  char text[160];
-  std::snprintf(text, sizeof text, "%zu scans, %zu updates, %zu skipped, spread %.2f m, latency %.0f ms",
-                run_.scans(), run_.view().updates(), skipped_.load(), std::hypot(step.stdX, step.stdY),
-                latencies_.back());
-  log_.report("filter", text);
+  log_.report("filter", std::to_string(run_.scans()) + " scans, " + std::to_string(run_.view().updates()) +
+                            " updates, " + std::to_string(skipped_) + " skipped, spread " +
+                            fixedText(std::hypot(step.stdX, step.stdY), 2) + " m, latency " +
+                            fixedText(latencies_.back(), 0) + " ms");
 }
 
 void LiveRun::stopFilter() {

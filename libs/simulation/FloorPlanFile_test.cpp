@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/CommaLocale.h"
 #include "base/Errors.h"
 #include "simulation/FloorPlan.h"
 #include "simulation/TemporaryFile.h"
@@ -30,6 +31,11 @@ double totalLength(const std::vector<Wall>& walls) {
   double length = 0;
   for (const Wall& wall : walls) length += wall.length();
   return length;
+}
+
+TEST(FloorPlanFile, IsTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  EXPECT_NEAR(totalLength(wallsOf("polyline 0 0.5 1.25 0.5")), 1.25, 1e-12);
 }
 
 TEST(FloorPlanFile, EveryWordMakesItsWalls) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "base/RandomStream.h"
 #include "simulation/FloorPlan.h"
 
@@ -16,12 +16,6 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kEdge = 0.1;  // m: surfaces closer than this in range are one to a beam
-
-std::string textOf(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 }  // namespace
 
@@ -48,12 +42,12 @@ void LaserOptions::describe(OptionTable& t) {
 Laser::Laser(const LaserOptions& options) : options_(options), spec_(laserSpec(options.sensor)) {
   std::string known;
   for (const LaserSpec::Mode& mode : spec_.modes) {
-    known += (known.empty() ? "" : " or ") + textOf(mode.resolutionDeg);
+    known += (known.empty() ? "" : " or ") + numberText(mode.resolutionDeg);
     if (mode.resolutionDeg != options.resolutionDeg) continue;
     if (options.rate > mode.rate)
       throw InputError(
           "the " + std::string(spec_.name) + " is not that fast", "section [laser], key `rate`",
-          "expected at most " + textOf(mode.rate) + " Hz at " + textOf(mode.resolutionDeg) + " deg");
+          "expected at most " + numberText(mode.rate) + " Hz at " + numberText(mode.resolutionDeg) + " deg");
     beamCount_ = static_cast<size_t>(std::lround(spec_.apertureDeg / mode.resolutionDeg)) + 1;
   }
   if (beamCount_ == 0)

@@ -1,14 +1,13 @@
 #include "simulation/RecordFile.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "base/Options.h"
 
 namespace hybrid_slam {
@@ -28,11 +27,11 @@ std::vector<Record> readRecords(const std::string& file, const std::vector<std::
       throw InputError("unknown word `" + record.word + "`", record.where,
                        "the nearest known word is `" + nearestName(record.word, words) + "`");
     for (std::string text; parts >> text;) {
-      char* end = nullptr;
-      record.numbers.push_back(std::strtod(text.c_str(), &end));
-      if (*end != '\0' || !std::isfinite(record.numbers.back()))
+      const auto value = parseFinite(text);
+      if (!value)
         throw InputError("`" + text + "` is not a number", record.where,
                          "expected only numbers after the word");
+      record.numbers.push_back(*value);
     }
     records.push_back(std::move(record));
   }

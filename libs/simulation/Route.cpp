@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "simulation/FloorPlan.h"
 
 namespace hybrid_slam {
@@ -17,9 +17,7 @@ namespace {
 constexpr double kCheckStep = 0.02;  // m between the points where the path's clearance is checked
 
 std::string positionText(const TPose2D& pose) {
-  char text[64];
-  std::snprintf(text, sizeof text, "at (%.2f, %.2f)", pose.x, pose.y);
-  return text;
+  return "at (" + fixedText(pose.x, 2) + ", " + fixedText(pose.y, 2) + ")";
 }
 
 }  // namespace
@@ -52,12 +50,11 @@ Route::Progress Route::progressAt(double time) const {
 }
 
 void Route::checkClear(const FloorPlan& plan, double robotRadius) const {
-  char radius[32];
-  std::snprintf(radius, sizeof radius, "%g m", robotRadius);
+  const std::string radius = numberText(robotRadius) + " m";
   const auto check = [&](const TPose2D& pose, const Piece& piece, const char* what) {
     if (plan.distanceToNearestWall({pose.x, pose.y}) < robotRadius)
       throw InputError(std::string(what) + " " + positionText(pose), piece.where,
-                       std::string("expected all walls at least the robot's radius, ") + radius + ", away");
+                       "expected all walls at least the robot's radius, " + radius + ", away");
   };
   for (const Piece& piece : pieces_) check(piece.start, piece, "way point inside a wall");
   for (const Piece& piece : pieces_) {

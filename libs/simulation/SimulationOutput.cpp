@@ -11,10 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
+#include "base/Numbers.h"
 #include "simulation/FloorPlan.h"
 
 namespace hybrid_slam {
@@ -127,12 +127,10 @@ void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
 
 void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file) {
   std::ofstream out(file);
-  for (const TruePose& p : poses) {
-    char row[160];
-    std::snprintf(row, sizeof row, "%.6f %.6f %.6f 0 0 0 %.9f %.9f\n", mrpt::Clock::toDouble(p.timestamp),
-                  p.pose.x, p.pose.y, std::sin(p.pose.phi / 2), std::cos(p.pose.phi / 2));
-    out << row;
-  }
+  for (const TruePose& p : poses)
+    out << fixedText(mrpt::Clock::toDouble(p.timestamp), 6) << ' ' << fixedText(p.pose.x, 6) << ' '
+        << fixedText(p.pose.y, 6) << " 0 0 0 " << fixedText(std::sin(p.pose.phi / 2), 9) << ' '
+        << fixedText(std::cos(p.pose.phi / 2), 9) << '\n';
   out.close();
   if (!out) throw std::runtime_error("cannot write " + file);
 }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "base/CommaLocale.h"
 #include "base/Errors.h"
 #include "simulation/FloorPlan.h"
 #include "simulation/Route.h"
@@ -64,6 +65,16 @@ TEST(Simulation, ScansAndOdometryComeAtTheirOwnRatesFromTheStartTime) {
   for (size_t i = 0; i < log.odometry.size(); ++i)
     EXPECT_NEAR(mrpt::Clock::toDouble(log.odometry[i]->timestamp),
                 1287388800.03 + 0.1 * static_cast<double>(i), 1e-6);
+}
+
+TEST(SimulationOutput, TheGroundTruthIsTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  const TemporaryFile file("");
+  writeGroundTruth({{mrpt::Clock::fromDouble(1234.5), {0.5, -2, 0}}}, file.path());
+  std::ifstream in(file.path());
+  std::string row;
+  std::getline(in, row);
+  EXPECT_EQ(row, "1234.500000 0.500000 -2.000000 0 0 0 0.000000000 1.000000000");
 }
 
 TEST(Simulation, PerfectOdometryIsTheTruth) {

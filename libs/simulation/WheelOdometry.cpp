@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "base/RandomStream.h"
 
 namespace hybrid_slam {
@@ -29,14 +30,14 @@ std::vector<Slip> parseSlips(const std::string& text) {
   std::vector<Slip> slips;
   std::istringstream events(text);
   for (std::string event; std::getline(events, event, ',');) {
-    std::istringstream numbers(event);
-    Slip slip;
-    std::string rest;
-    if (!(numbers >> slip.time >> slip.rotation >> slip.distance) || (numbers >> rest) || slip.time < 0)
+    std::istringstream words(event);
+    std::string t, deg, m, rest;
+    words >> t >> deg >> m >> rest;
+    const auto time = parseFinite(t), rotation = parseFinite(deg), distance = parseFinite(m);
+    if (!time || *time < 0 || !rotation || !distance || !rest.empty())
       throw InputError("wrong slip `" + event + "`", "section [odometry], key `slips`",
                        "expected `T DEG M, T DEG M, ...` (s, deg, m) with T >= 0");
-    slip.rotation *= M_PI / 180;
-    slips.push_back(slip);
+    slips.push_back({*time, *rotation * M_PI / 180, *distance});
   }
   return slips;
 }

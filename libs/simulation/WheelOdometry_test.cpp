@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/CommaLocale.h"
 #include "base/Errors.h"
 #include "base/RandomStream.h"
 
@@ -138,6 +139,14 @@ TEST(ParseSlips, TakesAListAndNamesWhatIsWrong) {
   EXPECT_EQ(slips[1].time, 20.5);
   for (const char* wrong : {"10", "10 30", "10 30 x", "10 30 0.2 1", "-1 30 0.2", "10 30 0.2,,20 1 1", "a"})
     EXPECT_THROW(parseSlips(wrong), InputError) << wrong;
+}
+
+TEST(ParseSlips, IsTheSameInEveryLocale) {
+  const test::CommaLocale german;
+  const auto slips = parseSlips("20.5 -5 0.25");
+  ASSERT_EQ(slips.size(), 1u);
+  EXPECT_EQ(slips[0].time, 20.5);
+  EXPECT_EQ(slips[0].distance, 0.25);
 }
 
 }  // namespace
