@@ -27,11 +27,25 @@ class Group:
         self.runs = tree["done"] + tree["failed"]
         self.successes = tree["success"]["successes"]
         self.interval = tree["success"]["wilson_95"]
-        self.median = next((tree["figures"][e]["median"] for e in ERRORS if e in tree.get("figures", {})), None)
+        self.success_p = tree["success"].get("sign_p", 1)
+        error = next((tree["figures"][e] for e in ERRORS if e in tree.get("figures", {})), {})
+        self.median = error.get("median")
+        self.against = error.get("against_first", {})
 
     @property
     def rate(self):
         return self.successes / self.runs
+
+    def is_better(self, p):
+        """Than the first group, over the seeds of both: more successes (McNemar) or smaller errors (Wilcoxon)."""
+        fewer_fail = self.success_p < p and self.rate > self.first.rate
+        ratio = self.against.get("median_ratio")
+        return fewer_fail or (ratio is not None and ratio < 1 and self.against["wilcoxon_p"] < p)
+
+    def paired(self):
+        ratio = self.against.get("median_ratio")
+        error = "" if ratio is None else f", error {ratio:.2f} times, p {self.against['wilcoxon_p']:.2g}"
+        return f"success p {self.success_p:.2g}{error}"
 
     def cell(self):
         error = "" if self.median is None else f", {self.median:.3f}" if self.median < 1 else f", {self.median:.1f}"
@@ -40,7 +54,10 @@ class Group:
 
 def groups(folder):
     file = Path(folder) / "summary.json"
-    return [Group(tree) for tree in json.loads(file.read_text())["groups"]] if file.is_file() else []
+    found = [Group(tree) for tree in json.loads(file.read_text())["groups"]] if file.is_file() else []
+    for group in found:
+        group.first = found[0]
+    return found
 
 
 def markdown(head, rows):
@@ -127,9 +144,9 @@ def particles(folder):
     worlds = [w for w in WORLDS if (folder / w / "summary.json").is_file()]
     for world in worlds:
         series = {}
-        for part in ("", "-many", "-stock"):
+        for part in ("", "-general", "-many", "-stock"):
             for g in groups(folder / f"{world}{part}"):
-                kind = {"hybrid": "graded", "hybrid-eq9": "eq9"}.get(g.name, g.name)
+                kind = {"hybrid": "graded", "hybrid-eq9": "eq9", "general": "general-best"}.get(g.name, g.name)
                 series.setdefault(kind, {})[g.particles] = g
         counts = sorted({n for s in series.values() for n in s})
         text += f"\n### {WORLDS[world]}\n\n" + markdown(

@@ -14,17 +14,23 @@ make_worlds "$out/worlds"
 seeds=${SEEDS:-20}
 few=$(((seeds + 3) / 4))
 options=(--first-seed "${FIRST_SEED:-1}" --set particle_filter.proposal=standard -q)
-general=(--variant "general/best:$general_best")
 worlds=(csie)
 [[ ${#public_worlds[@]} -eq 0 ]] || worlds+=(intel killian)
+best=()
+for setting in ${general_best//,/ }; do best+=(--set "$setting"); done
 for world in "${worlds[@]}"; do
   echo "== $world: $(date -u +%H:%M)"
-  compare "$world" "$out/worlds" "${options[@]}" --seeds "$seeds" --methods hybrid,general "${general[@]}" \
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$seeds" --methods hybrid \
     --variant hybrid/eq9:line_weight.method=paper -n 5,10,20,50,100,200 -o "$out/$world"
-  compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods general "${general[@]}" \
-    -n 500,1000,2000 -o "$out/$world-many"
-  [[ $world == killian ]] ||  # its map takes MRPT's filter tens of gigabytes
-    compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods stock -n 5,10,20,50,100,200 -j 1 \
-      -o "$out/$world-stock"
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$seeds" --methods general "${best[@]}" \
+    -n 5,10,20,50,60,100,200 -o "$out/$world-general"
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods general "${best[@]}" \
+    -n 500,2000 -o "$out/$world-many"
+done
+for world in "${worlds[@]}"; do
+  [[ $world != killian ]] || continue  # its map takes MRPT's filter tens of gigabytes
+  echo "== $world, MRPT's filter: $(date -u +%H:%M)"
+  compare "$world" "$out/worlds" "${options[@]}" --seeds "$few" --methods stock -n 5,20,50,200 -j 1 \
+    -o "$out/$world-stock"
 done
 scripts/experiment-tables.py particles "$out"

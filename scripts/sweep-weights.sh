@@ -18,21 +18,18 @@ standard=(--set particle_filter.proposal=standard -n 20 --variant "general/best:
 for threshold in 3 2 1 0.5 0.25 0.1; do
   standard+=(--variant "hybrid/eq9_$threshold:line_weight.method=paper,line_weight.threshold_deg=$threshold")
 done
-for sigma in 0.2 0.3 0.4 0.5 0.7 1; do
+for sigma in 0.2 0.4 0.7 1; do
   standard+=(--variant "hybrid/graded_$sigma:line_weight.sigma_deg=$sigma")
 done
-for sigma in 0.25 0.5 1; do
-  standard+=(--variant "hybrid/dominating_$sigma:line_weight.method=dominating_direction,line_weight.sigma_deg=$sigma")
-done
-improved=(--set particle_filter.proposal=improved -n 15)
-improved+=(--variant "hybrid/eq9_0.25:line_weight.method=paper")
-for sigma in 0.2 0.4; do
-  improved+=(--variant "hybrid/graded_$sigma:improved_proposal.line_sigma_deg=$sigma")
-done
+standard+=(--variant "hybrid/dominating_0.5:line_weight.method=dominating_direction,line_weight.sigma_deg=0.5")
+improved=(--set particle_filter.proposal=improved -n 15 --variant "general/best:$general_best_improved")
+improved+=(--variant "hybrid/graded_0.2:improved_proposal.line_sigma_deg=0.2")
 improved+=(--variant "hybrid/dominating_0.1:line_weight.method=dominating_direction")
 for world in "${worlds[@]}"; do
   echo "== $world, standard: $(date -u +%H:%M)"
   compare "$world" "$out/worlds" "${options[@]}" "${standard[@]}" -o "$out/$world-standard"
+done
+for world in "${worlds[@]}"; do
   echo "== $world, improved: $(date -u +%H:%M)"
   compare "$world" "$out/worlds" "${options[@]}" "${improved[@]}" -o "$out/$world-improved"
 done
