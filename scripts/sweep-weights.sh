@@ -23,7 +23,6 @@ for sigma in 0.2 0.4 0.7 1; do
 done
 standard+=(--variant "hybrid/dominating_0.5:line_weight.method=dominating_direction,line_weight.sigma_deg=0.5")
 improved=(--set particle_filter.proposal=improved -n 15 --variant "general/best:$general_best_improved")
-improved+=(--variant "hybrid/graded_0.2:improved_proposal.line_sigma_deg=0.2")
 improved+=(--variant "hybrid/dominating_0.1:line_weight.method=dominating_direction")
 for world in "${worlds[@]}"; do
   echo "== $world, standard: $(date -u +%H:%M)"

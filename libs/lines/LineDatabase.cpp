@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hybrid_slam {
 namespace {
@@ -96,6 +97,9 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
   ++result.count;
   return result;
 }
+
+LineDatabase::LineDatabase(std::vector<DatabaseLine> lines)
+    : lines_(std::move(lines)), dominatingDirection_(directionModuloRightAngle(lines_)) {}
 
 void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDatabaseOptions& options,
                           const AssociationOptions& association) {

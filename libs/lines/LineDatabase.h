@@ -66,6 +66,10 @@ void setDirections(std::vector<DatabaseLine>& lines, double window);
 /// The line database of one particle, in the map frame. Copied with its particle: one contiguous block.
 class LineDatabase {
  public:
+  LineDatabase() = default;
+  /// Of lines as lines() has them.
+  explicit LineDatabase(std::vector<DatabaseLine> lines);
+
   /// One step of Sec. III-C: search, insertion, update, and every pruneInterval steps pruning.
   ///
   /// A line seen now that matches a database line is merged into the closest one; otherwise it is inserted if

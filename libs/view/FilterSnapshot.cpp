@@ -40,7 +40,7 @@ UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses) {
 FilterWatch::FilterWatch(const Configuration& configuration)
     : method_(nameOf(configuration.run.method)),
       useLines_(configuration.run.method == RunOptions::Method::hybrid),
-      association_(configuration.filter.association),
+      lineWeight_(configuration.filter.lineWeight),
       prepare_(configuration.filter) {}
 
 void FilterWatch::saw(const FilterView& view, const Reading& reading, bool isUpdate) {
@@ -66,12 +66,10 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
   if (!scan_ || out->path.empty()) return out;
+  const LineDatabase before(linesBefore_);
   for (const LineSegment& line : prepare_(*scan_).lines) {
     const LineSegment placed = transformed(line, out->path.back());
-    const bool isMatched = std::any_of(linesBefore_.begin(), linesBefore_.end(), [&](const auto& known) {
-      return matchDistance(placed, known, association_).has_value();
-    });
-    out->scanLines.push_back({placed, isMatched});
+    out->scanLines.push_back({placed, matchDirection(placed.theta, before, lineWeight_).isMatched});
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "io/Configuration.h"
 #include "io/ReadingAssembler.h"
 #include "lines/LineDatabase.h"
+#include "lines/LineWeight.h"
 #include "rbpf/FilterView.h"
 #include "rbpf/PreparedScan.h"
 #include "view/MapImage.h"
@@ -28,7 +29,7 @@ struct PlotRow {
 /// A line of the present scan in the map frame, placed by the best particle.
 struct ScanLine {
   LineSegment segment;
-  bool isMatched = false;  ///< with the best particle's database as it was before this scan
+  bool isMatched = false;  ///< as w_line counts: in direction, with the database as it was before this scan
 };
 
 /// The 1-sigma ellipse of the particles' places.
@@ -66,7 +67,7 @@ class FilterWatch {
  private:
   std::string method_;
   bool useLines_;
-  AssociationOptions association_;
+  LineWeightOptions lineWeight_;
   ScanPreparation prepare_;
   std::optional<double> start_;  ///< s
   std::vector<PlotRow> plot_;
