@@ -9,6 +9,7 @@
 #include "Settings.h"
 #include "Stop.h"
 #include "io/IniFile.h"
+#include "live/TcpSocket.h"
 #include "sensors/PioneerOdometry.h"
 #include "sensors/ServeObservations.h"
 
@@ -50,7 +51,9 @@ int run(const CommandLine& line) {
   const auto log = std::make_shared<EventLog>("observation-server");
   const std::string summary = serveObservations(
       options, source, log, [] { return stop.load(); },
-      [&](uint16_t port) { std::cout << "listening at " << options.address << ":" << port << std::endl; });
+      [&](uint16_t port) {
+        std::cout << "listening at " << addressText(options.address, port) << std::endl;
+      });
   if (!line.isQuiet) std::cout << summary << "\n";
   return 0;
 }

@@ -1,13 +1,14 @@
 #include "live/LiveOptions.h"
 
-#include <cstdlib>
+#include <regex>
 
 #include "base/Errors.h"
 
 namespace hybrid_slam {
 
 void LiveOptions::describe(OptionTable& t) {
-  t.add("server", server, "HOST:PORT of an observation-server; empty: the sensors of this file");
+  t.add("server", server,
+        "HOST:PORT of an observation-server, an IPv6 address in brackets; empty: the sensors of this file");
   t.add("timeout", timeout, 1.5, 3600, "s",
         "a server that says nothing for so long is connected to anew; it beats every second");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "of the sensors of this file; 0: every scan is a cycle");
@@ -19,7 +20,8 @@ void LiveOptions::describe(OptionTable& t) {
 }
 
 void ServerOptions::describe(OptionTable& t) {
-  t.add("address", address, "of this machine to listen at; 0.0.0.0: at all (there is no password)");
+  t.add("address", address,
+        "of this machine to listen at; all of them: 0.0.0.0 (IPv4) or :: (there is no password)");
   t.add("port", port, 0, 65535, "TCP; 0: one that is free, told on standard output");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s",
         "cycles; a laser gives at most one scan a cycle; 0: every scan is a cycle");
@@ -34,14 +36,13 @@ void ServerOptions::describe(OptionTable& t) {
 }
 
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where) {
-  const auto colon = text.rfind(':');
-  char* end = nullptr;
-  const std::string digits = colon == std::string::npos ? "" : text.substr(colon + 1);
-  const unsigned long port = std::strtoul(digits.c_str(), &end, 10);
-  const bool isNumber = !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
-  if (colon == 0 || !isNumber || port < 1 || port > 65535)
-    throw InputError("wrong server `" + text + "`", where, "expected HOST:PORT, such as robot:4550");
-  return {text.substr(0, colon), static_cast<uint16_t>(port)};
+  static const std::regex form(R"((?:\[([^\]]+)\]|([^:\[\]]+)):(\d{1,5}))");  // an IPv6 address in brackets
+  std::smatch parts;
+  const int port = std::regex_match(text, parts, form) ? std::stoi(parts[3]) : 0;
+  if (port < 1 || port > 65535)
+    throw InputError("wrong server `" + text + "`", where,
+                     "expected HOST:PORT, such as robot:4550 or [::1]:4550");
+  return {parts[1].matched ? parts[1] : parts[2], static_cast<uint16_t>(port)};
 }
 
 }  // namespace hybrid_slam

@@ -22,7 +22,7 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
-  const std::string subject = "server " + settings_.host + ":" + std::to_string(settings_.port);
+  const std::string subject = "server " + addressText(settings_.host, settings_.port);
   pause_ = kShortestPause;
   while (!stop() && !hasEnded_) {
     std::string fault;
@@ -45,7 +45,8 @@ void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
 }
 
 void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
-  TcpSocket socket = TcpSocket::connectTo(settings_.host, settings_.port, settings_.timeout);
+  TcpSocket socket = TcpSocket::connectTo(settings_.host, settings_.port, settings_.timeout, stop);
+  if (!socket.isOpen()) return;
   ++connections_;
   MessageDecoder decoder;
   auto lastBytes = Clock::now();
@@ -60,7 +61,7 @@ void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
     while (const auto message = decoder.next()) {
       take(*message, sink);
       if (isFirst) {
-        log_.report("server " + settings_.host + ":" + std::to_string(settings_.port), "connected");
+        log_.report("server " + addressText(settings_.host, settings_.port), "connected");
         pause_ = kShortestPause;
       }
       isFirst = false;

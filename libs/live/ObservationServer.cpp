@@ -1,6 +1,6 @@
 #include "live/ObservationServer.h"
 
-#include <arpa/inet.h>
+#include <netdb.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -24,12 +24,13 @@ uint64_t drawSession() {
 }
 
 std::string nameOf(int descriptor) {
-  sockaddr_in peer{};
+  sockaddr_storage peer{};
   socklen_t size = sizeof peer;
   ::getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size);
-  char text[INET_ADDRSTRLEN] = "";
-  ::inet_ntop(AF_INET, &peer.sin_addr, text, sizeof text);
-  return "client " + std::string(text) + ":" + std::to_string(ntohs(peer.sin_port));
+  char host[NI_MAXHOST] = "", port[NI_MAXSERV] = "0";
+  ::getnameinfo(reinterpret_cast<sockaddr*>(&peer), size, host, sizeof host, port, sizeof port,
+                NI_NUMERICHOST | NI_NUMERICSERV);
+  return "client " + addressText(host, static_cast<uint16_t>(std::stoi(port)));
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <future>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "base/Errors.h"
 
@@ -22,6 +24,11 @@ namespace hybrid_slam {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr double kStopInterval = 0.1;  // s
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 [[noreturn]] void fail(int error) { throw std::runtime_error(std::strerror(error)); }
 
@@ -55,7 +62,7 @@ using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
 Addresses lookUp(const std::string& host, uint16_t port, int flags) {
   addrinfo hints{};
-  hints.ai_family = AF_INET;
+  hints.ai_family = AF_UNSPEC;
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = flags;
   addrinfo* found = nullptr;
@@ -64,7 +71,42 @@ Addresses lookUp(const std::string& host, uint16_t port, int flags) {
   return {found, ::freeaddrinfo};
 }
 
+/// In a thread of its own, which is left behind where nobody waits for it any more: getaddrinfo cannot be
+/// interrupted. @return none if it was to stop
+Addresses lookUp(const std::string& host, uint16_t port, double timeout,
+                 const std::function<bool()>& isStopped) {
+  std::packaged_task<Addresses()> task([host, port] { return lookUp(host, port, 0); });
+  auto found = task.get_future();
+  std::thread(std::move(task)).detach();
+  const auto start = Clock::now();
+  const std::chrono::duration<double> interval(std::min(timeout, kStopInterval));
+  while (found.wait_for(interval) != std::future_status::ready) {
+    if (isStopped()) return {nullptr, ::freeaddrinfo};
+    if (secondsSince(start) > timeout) fail(ETIMEDOUT);
+  }
+  return found.get();
+}
+
+/// @return 0 if somebody answered, else the reason
+int connectWithin(int descriptor, const addrinfo& address, double timeout,
+                  const std::function<bool()>& isStopped) {
+  const auto start = Clock::now();
+  prepare(descriptor);
+  if (::connect(descriptor, address.ai_addr, address.ai_addrlen) != 0 && errno != EINPROGRESS) return errno;
+  while (!waitFor(descriptor, POLLOUT, std::min(timeout, kStopInterval)))
+    if (isStopped() || secondsSince(start) > timeout) return ETIMEDOUT;
+  int error = 0;
+  socklen_t size = sizeof error;
+  ::getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size);
+  return error;
+}
+
 }  // namespace
+
+std::string addressText(const std::string& host, uint16_t port) {
+  const bool isIPv6 = host.find(':') != std::string::npos;
+  return (isIPv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
 
 TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {
   if (this != &other) {
@@ -84,19 +126,21 @@ void TcpSocket::close() {
   if (isOpen()) ::close(release());
 }
 
-TcpSocket TcpSocket::connectTo(const std::string& host, uint16_t port, double timeout) {
-  const Addresses address = lookUp(host, port, 0);
-  TcpSocket out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (!out.isOpen()) fail(errno);
-  prepare(out.descriptor_);
-  if (::connect(out.descriptor_, address->ai_addr, address->ai_addrlen) != 0 && errno != EINPROGRESS)
-    fail(errno);
-  if (!waitFor(out.descriptor_, POLLOUT, timeout)) fail(ETIMEDOUT);
-  int error = 0;
-  socklen_t size = sizeof error;
-  ::getsockopt(out.descriptor_, SOL_SOCKET, SO_ERROR, &error, &size);
-  if (error) fail(error);
-  return out;
+TcpSocket TcpSocket::connectTo(const std::string& host, uint16_t port, double timeout,
+                               const std::function<bool()>& isStopped) {
+  const auto start = Clock::now();
+  const Addresses found = lookUp(host, port, timeout, isStopped);
+  int left = 0, firstError = 0;
+  for (const addrinfo* address = found.get(); address; address = address->ai_next) ++left;
+  for (const addrinfo* address = found.get(); address && !isStopped(); address = address->ai_next, --left) {
+    TcpSocket out(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const double share = (timeout - secondsSince(start)) / left;
+    const int error = out.isOpen() ? connectWithin(out.descriptor_, *address, share, isStopped) : errno;
+    if (error == 0) return out;
+    if (firstError == 0) firstError = error;
+  }
+  if (!isStopped()) fail(firstError);
+  return {};
 }
 
 std::string TcpSocket::receive(double timeout) {
@@ -125,19 +169,20 @@ void TcpSocket::send(const std::string& bytes, double timeout) {
 }
 
 TcpListener::TcpListener(const std::string& address, uint16_t port) {
-  const std::string where = address + ":" + std::to_string(port);
+  const std::string where = addressText(address, port);
   const std::string expected = "expected an address of this machine and a port that is free";
   try {
     const Addresses found = lookUp(address, port, AI_PASSIVE | AI_NUMERICHOST);
-    socket_ = TcpSocket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    socket_ = TcpSocket(::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int on = 1;
     ::setsockopt(socket_.descriptor(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (::bind(socket_.descriptor(), found->ai_addr, found->ai_addrlen) != 0) fail(errno);
     if (::listen(socket_.descriptor(), 128) != 0) fail(errno);
-    sockaddr_in bound{};
+    sockaddr_storage bound{};
     socklen_t size = sizeof bound;
     ::getsockname(socket_.descriptor(), reinterpret_cast<sockaddr*>(&bound), &size);
-    port_ = ntohs(bound.sin_port);
+    port_ = ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6&>(bound).sin6_port
+                                              : reinterpret_cast<sockaddr_in&>(bound).sin_port);
   } catch (const std::runtime_error& e) {
     throw InputError(std::string("cannot listen (") + e.what() + ")", where, expected);
   }

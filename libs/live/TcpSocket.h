@@ -7,9 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace hybrid_slam {
+
+/// HOST:PORT, an IPv6 address in brackets.
+std::string addressText(const std::string& host, uint16_t port);
 
 /// One end of a connection; closed with the object.
 class TcpSocket {
@@ -20,9 +24,14 @@ class TcpSocket {
   TcpSocket(TcpSocket&& other) noexcept : descriptor_(other.release()) {}
   TcpSocket& operator=(TcpSocket&& other) noexcept;
 
-  /// @param timeout  s
+  /// Tries the host's addresses, IPv6 ones among them, one after the other.
+  /// @param timeout    s, in which each address that is left has an equal share
+  /// @param isStopped  asked every 0.1 s
+  /// @return a closed socket if it was to stop
   /// @throws std::runtime_error with the reason if nobody answers
-  static TcpSocket connectTo(const std::string& host, uint16_t port, double timeout);
+  static TcpSocket connectTo(
+      const std::string& host, uint16_t port, double timeout,
+      const std::function<bool()>& isStopped = [] { return false; });
 
   bool isOpen() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
@@ -45,7 +54,7 @@ class TcpSocket {
 /// Waits for connections.
 class TcpListener {
  public:
-  /// @param address  of this machine, "127.0.0.1", "0.0.0.0" for all
+  /// @param address  of this machine, "127.0.0.1", "::1"; "0.0.0.0" for all of IPv4, "::" for all
   /// @param port     0: one that is free
   /// @throws InputError if it cannot listen there
   TcpListener(const std::string& address, uint16_t port);
