@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "base/Errors.h"
 
@@ -32,7 +33,8 @@ void InputOptions::describe(OptionTable& t) {
         "odometry is interpolated at a scan's time between readings no farther apart than this");
 }
 
-RawlogSummary summarise(const std::string& file, const InputOptions& options) {
+RawlogSummary summarise(const std::string& file, const InputOptions& options,
+                        const std::function<bool()>& isStopped) {
   RawlogSummary summary;
   summary.sensorLabel = options.sensorLabel;
   RawlogReader reader(file);
@@ -61,6 +63,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options) {
     isFirst = false;
   };
   while (const auto object = reader.next()) {
+    if (isStopped())
+      throw std::runtime_error("interrupted: entry " + std::to_string(reader.entry()) + " of " + file);
     if (const auto increment = incrementOf(object)) noteOdometry(*increment, summary.hasActions);
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))

@@ -2,6 +2,7 @@
 /// @brief Scans with their odometry from a rawlog of either form.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,7 +39,10 @@ struct RawlogSummary {
 
 /// @throws InputError if there is no laser (or none of the wanted label), no scan with beams, or no odometry
 ///         where the options require it
-RawlogSummary summarise(const std::string& file, const InputOptions& options);
+/// @throws std::runtime_error if `isStopped`, asked at each entry, says so
+RawlogSummary summarise(
+    const std::string& file, const InputOptions& options,
+    const std::function<bool()>& isStopped = [] { return false; });
 
 /// The readings of a log, as ReadingAssembler makes them.
 class RawlogSource {

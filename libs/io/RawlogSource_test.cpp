@@ -82,6 +82,14 @@ TEST(RawlogSource, ActionObservationPairsSumUpTheOdometry) {
   }
 }
 
+TEST(RawlogSource, ASummaryCanBeStopped) {
+  const TemporaryFolder folder;
+  const std::string log = test::writePlain(folder.path("laps.rawlog"), test::laps(10));
+  int asked = 0;
+  EXPECT_THROW(summarise(log, {}, [&] { return ++asked == 3; }), std::runtime_error);
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   const Log log{odometry(10, {0, 0, 0}),
                 scan(10),

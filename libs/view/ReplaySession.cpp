@@ -157,7 +157,11 @@ void ReplaySession::work() {
 }
 
 void ReplaySession::runPass() {
-  if (!log_) log_ = summarise(configuration_.run.rawlog, configuration_.input);
+  if (!log_)
+    log_ = summarise(configuration_.run.rawlog, configuration_.input, [this] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      return isClosing_;
+    });
   Pass pass(configuration_, methods_, *log_);
   ++runs_;
   publish(pass, State::paused, false);

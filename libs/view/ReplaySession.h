@@ -36,7 +36,7 @@ class ReplaySession {
   /// Starts to read configuration.run.rawlog, and stands before its first scan.
   /// @param methods  one filter for each, with the same settings but for the lines
   ReplaySession(const Configuration& configuration, const std::vector<Method>& methods);
-  /// Waits for the scan that is being processed.
+  /// Waits for the scan that is being processed, or the results that are being written.
   ~ReplaySession();
   ReplaySession(const ReplaySession&) = delete;
   ReplaySession& operator=(const ReplaySession&) = delete;
@@ -45,8 +45,8 @@ class ReplaySession {
   void pause();
   /// One scan on, then paused.
   void step();
-  /// Runs to just after the scan of this number (from 1) as fast as it can, then paused; a scan that is passed
-  /// already is reached by starting anew, which gives the same maps. 0: before the first scan.
+  /// Runs to just after the scan of this number (from 1) as fast as it can, then paused; a scan that is
+  /// passed already is reached by starting anew, which gives the same maps. 0: before the first scan.
   void seek(size_t scan);
   /// @param factor  of the log's own pace; 0: as fast as the filters go
   void setSpeed(double factor);
@@ -55,6 +55,7 @@ class ReplaySession {
   void exportResults(const std::string& folder);
 
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
+
  private:
   struct Pass;
   enum class Goal { pause, play, reach };
