@@ -86,12 +86,12 @@ void HybridMapBuilder::update(const CObservation2DRangeScan& observation,
 
   odometry_ = TPose2D();
   hasMap_ = true;
-  ++updates_;
   if (remembersScans_) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(observations.getObservationByClass<CObservation2DRangeScan>());
-    scans_.push_back(frame);
+    scans_.emplace_back(updates_, frame);
   }
+  ++updates_;
 }
 
 void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, const mrpt::poses::CPosePDF* x0) {
@@ -129,8 +129,8 @@ mrpt::poses::CPose3DPDF::Ptr HybridMapBuilder::getCurrentPoseEstimation() const 
 void HybridMapBuilder::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const {
   map = initialMap_;
   const std::vector<TPose2D> path = bestPath();
-  for (size_t i = 0; i < scans_.size(); ++i)
-    map.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(path[i])), *scans_[i]);
+  for (const auto& [update, scan] : scans_)
+    map.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(path[update])), *scan);
 }
 
 const mrpt::maps::CMultiMetricMap* HybridMapBuilder::getCurrentlyBuiltMetricMap() const {

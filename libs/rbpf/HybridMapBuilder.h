@@ -40,7 +40,8 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public FilterView
   /// The best particle's path, one pose for each update.
   void getCurrentMostLikelyPath(std::deque<mrpt::math::TPose3D>& path) const;
 
-  /// Whether scans are kept for getCurrentlyBuiltMap (on by default); memory then grows with the log.
+  /// Whether the scans of the updates from now on are kept for getCurrentlyBuiltMap (on by default); memory
+  /// then grows with the log.
   void rememberScans(bool remember) { remembersScans_ = remember; }
 
   size_t updates() const override { return updates_; }
@@ -63,7 +64,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public FilterView
   bool hasMap_ = false;
   bool remembersScans_ = true;
   mrpt::maps::CSimpleMap initialMap_;
-  std::vector<mrpt::obs::CSensoryFrame::Ptr> scans_;  ///< one for each update
+  std::vector<std::pair<size_t, mrpt::obs::CSensoryFrame::Ptr>> scans_;  ///< update (from 0), its scan
   mutable mrpt::maps::CMultiMetricMap metricMap_;
 };
 

@@ -233,6 +233,31 @@ TEST(HybridMapBuilder, RemembersNoScansWhenItIsTold) {
   EXPECT_EQ(scans.size(), 0u);
 }
 
+TEST(HybridMapBuilder, ScansRememberedForAWhileKeepTheirPoses) {
+  HybridMapBuilder builder(roomConfiguration());
+  const auto steps = drive(1);
+  const size_t third = steps.size() / 3;
+  std::vector<size_t> remembered;  // updates
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const bool isKept = i / third == 1;
+    builder.rememberScans(isKept);
+    const size_t before = builder.updates();
+    feed(builder, steps[i]);
+    if (isKept && builder.updates() > before) remembered.push_back(before);
+  }
+  mrpt::maps::CSimpleMap scans;
+  builder.getCurrentlyBuiltMap(scans);
+  ASSERT_GT(remembered.size(), 1u);
+  ASSERT_GT(remembered.front(), 0u);
+  ASSERT_EQ(scans.size(), remembered.size());
+  EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), remembered.size());
+  const auto path = builder.bestPath();
+  for (size_t i = 0; i < scans.size(); ++i) {
+    const auto [pose, frame] = scans.getAsPair(i);
+    expectPose(TPose2D(pose->getMeanVal().asTPose()), path.at(remembered[i]), 1e-9);
+  }
+}
+
 TEST(HybridMapBuilder, InitializeStartsAnew) {
   HybridMapBuilder builder(roomConfiguration()), fresh(roomConfiguration());
   const auto steps = drive(1);
