@@ -7,32 +7,33 @@
 namespace hybrid_slam {
 
 void LiveOptions::describe(OptionTable& t) {
-  t.add("server", server,
-        "HOST:PORT of an observation-server, an IPv6 address in brackets; empty: the sensors of this file");
+  t.add(
+      "server", server,
+      "HOST:PORT of an observation-server, an IPv6 address in brackets; empty: use the sensors of this file");
   t.add("timeout", timeout, 1.5, 3600, "s",
-        "a server that says nothing for so long is connected to anew; it beats every second");
-  t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "of the sensors of this file; 0: every scan is a cycle");
+        "reconnect after this long without data; the server sends a heartbeat every second");
+  t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "cycle rate of this file's sensors; 0: one cycle per scan");
   t.add("sensor_timeout", sensorTimeout, 0.1, 3600, "s",
-        "a sensor of this file that gives nothing for so long is started anew");
+        "restart a sensor of this file after this long without data");
   t.add("max_waiting", maxWaiting, 1, 1000000,
         "when more scans wait for the filter, all but the newest are skipped; their motion is kept");
-  t.add("recording", recording, "name of the rawlog of the raw observations in the folder for the results");
+  t.add("recording", recording, "file name of the rawlog of raw observations, in the results folder");
 }
 
 void ServerOptions::describe(OptionTable& t) {
   t.add("address", address,
-        "of this machine to listen at; all of them: 0.0.0.0 (IPv4) or :: (there is no password)");
-  t.add("port", port, 0, 65535, "TCP; 0: one that is free, told on standard output");
+        "local address to listen on; all interfaces: 0.0.0.0 (IPv4) or :: (there is no password)");
+  t.add("port", port, 0, 65535, "TCP port; 0: any free port, printed on standard output");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s",
-        "cycles; a laser gives at most one scan a cycle; 0: every scan is a cycle");
-  t.add("sensor_timeout", sensorTimeout, 0.1, 3600, "s",
-        "a sensor that gives nothing for so long is started anew");
-  t.add("queue", queue, 1, 1000000, "cycles that wait for one client; when it is full the oldest goes");
-  t.add("max_clients", maxClients, 1, 10000, "clients at one time; more wait until one leaves");
-  t.add("rawlog", rawlog, "log to replay in place of sensors");
-  t.add("replay_rate", replayRate, 0, 1000000, "1/s", "cycles at which the log is replayed; 0: its own pace");
+        "cycle rate; each laser gives at most one scan per cycle; 0: one cycle per scan");
+  t.add("sensor_timeout", sensorTimeout, 0.1, 3600, "s", "restart a sensor after this long without data");
+  t.add("queue", queue, 1, 1000000,
+        "cycles queued per client; when the queue is full, the oldest is dropped");
+  t.add("max_clients", maxClients, 1, 10000, "simultaneous clients; others wait until one disconnects");
+  t.add("rawlog", rawlog, "log to replay instead of reading sensors");
+  t.add("replay_rate", replayRate, 0, 1000000, "1/s", "cycle rate of the replay; 0: the log's own pace");
   t.add("wait_for_clients", waitForClients, 0, 10000,
-        "clients that must be there before the log is replayed");
+        "clients that must be connected before the replay starts");
 }
 
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where) {

@@ -22,21 +22,20 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 
 void PioneerOptions::describe(OptionTable& t) {
   t.add("driver", driver, "PioneerOdometry");
-  t.add("sensorLabel", sensorLabel, "of the observations");
+  t.add("sensorLabel", sensorLabel, "label of the observations");
   t.add("process_rate", processRate, 0.1, 1000, "1/s",
-        "how often the line is read; the robot sends 10 packets a second");
-  t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: observations that wait at most");
-  t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: take one observation of so many; 0: all");
-  t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: leave this sensor out");
-  t.add("time_offset", timeOffset, -10, 10, "s", "added to the observations' times");
-  t.add("serial_port", serialPort, "device of the serial line, such as ttyUSB0; empty: TCP");
-  t.add("baud_rate", baudRate, 1200, 230400, "of the serial line");
-  t.add("host", host, "of a serial line behind TCP, or a simulator");
-  t.add("tcp_port", tcpPort, 1, 65535, "of the host");
+        "polling rate of the line; the robot sends 10 packets a second");
+  t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: maximum number of queued observations");
+  t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: keep one observation in this many; 0: all");
+  t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: ignore this sensor");
+  t.add("time_offset", timeOffset, -10, 10, "s", "added to the observations' timestamps");
+  t.add("serial_port", serialPort, "serial device, such as ttyUSB0; empty: TCP");
+  t.add("baud_rate", baudRate, 1200, 230400, "baud rate of the serial line");
+  t.add("host", host, "host of a serial-to-TCP bridge or of a simulator");
+  t.add("tcp_port", tcpPort, 1, 65535, "TCP port of the host");
   t.add("mm_per_unit", millimetresPerUnit, 0.01, 100, "mm",
-        "of the position's counters: DistConvFactor of the robot's parameter file (P3-DX with ARCOS: 1; with "
-        "an "
-        "older controller: 0.485)");
+        "unit of the position counters: DistConvFactor of the robot's parameter file "
+        "(P3-DX with ARCOS: 1; with an older controller: 0.485)");
 }
 
 PioneerOdometry::~PioneerOdometry() {
