@@ -28,15 +28,15 @@ const LaserSpec& laserSpec(LaserType type) {
 
 void LaserOptions::describe(OptionTable& t) {
   t.add("sensor", sensor, {{LaserType::lms100, "LMS-100"}, {LaserType::lms200, "LMS-200"}},
-        "the scanner: aperture, range, noise and rounding follow from it");
+        "scanner model: sets aperture, range, noise and rounding");
   t.add("resolution_deg", resolutionDeg, 0.25, 1, "deg",
-        "between beams; LMS-100: 0.5 or 0.25, LMS-200: 1 or 0.5");
-  t.add("rate", rate, 0.1, 75, "Hz", "scans stored per second, at most what the sensor gives");
-  t.add("noise", noise, "false: exact ranges, still rounded as the sensor does");
-  t.add("mixed_pixels", mixedPixels, "beams that straddle an edge read somewhere between its two sides");
-  t.add("x", x, -1, 1, "m", "the sensor ahead of the robot's centre");
-  t.add("y", y, -1, 1, "m", "the sensor to the left of the robot's centre");
-  t.addAngle("yaw_deg", yaw, -180, 180, "the sensor's heading on the robot");
+        "angle between beams; LMS-100: 0.5 or 0.25, LMS-200: 1 or 0.5");
+  t.add("rate", rate, 0.1, 75, "Hz", "scans stored per second, at most the sensor's rate");
+  t.add("noise", noise, "false: exact ranges, rounded as by the sensor");
+  t.add("mixed_pixels", mixedPixels, "beams that straddle an edge read a range between its two sides");
+  t.add("x", x, -1, 1, "m", "sensor position ahead of the robot's centre");
+  t.add("y", y, -1, 1, "m", "sensor position to the left of the robot's centre");
+  t.addAngle("yaw_deg", yaw, -180, 180, "sensor heading relative to the robot");
 }
 
 Laser::Laser(const LaserOptions& options) : options_(options), spec_(laserSpec(options.sensor)) {

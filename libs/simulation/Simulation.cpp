@@ -46,10 +46,10 @@ void SimulationOptions::describe(OptionTable& t) {
   t.add("route", route, "route file, relative to the INI file");
   t.add("form", form, {{RawlogForm::observations, "observations"}, {RawlogForm::pairs, "pairs"}},
         "observation-only rawlog, or action-observation pairs");
-  t.add("seed", seed, 0, 2147483647, "of all noise: the same seed gives the same bytes");
-  t.add("scans", scans, 0, 10000000, "end after so many scans; 0: the whole route");
+  t.add("seed", seed, 0, 2147483647, "seed of all noise: the same seed gives the same bytes");
+  t.add("scans", scans, 0, 10000000, "stop after this many scans; 0: the whole route");
   t.add("start_time", startTime, 0, 4e9, "s", "UNIX time of the first scan");
-  t.add("robot_radius", robotRadius, 0, 5, "m", "the path must keep so far from all walls");
+  t.add("robot_radius", robotRadius, 0, 5, "m", "minimum distance of the path from all walls");
 }
 
 SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,

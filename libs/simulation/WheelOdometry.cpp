@@ -17,13 +17,14 @@ void OdometryOptions::describe(OptionTable& t) {
   t.add("mean_c_t", meanCt, -1, 1, "m/rad", "sideways reading (left) per radian turned");
   t.addAngle("mean_t_d_deg", meanTd, -45, 45, "rotation read per metre driven: unequal wheels (deg/m)");
   t.add("mean_t_t", meanTt, 0.5, 2, "rad/rad", "rotation read per radian turned: wheel base");
-  t.add("sigma_d_d", sigmaDd, 0, 1, "m/sqrt(m)", "forward noise of driving");
-  t.add("sigma_d_t", sigmaDt, 0, 1, "m/sqrt(rad)", "forward noise of turning");
-  t.add("sigma_c_d", sigmaCd, 0, 1, "m/sqrt(m)", "sideways noise of driving");
-  t.add("sigma_c_t", sigmaCt, 0, 1, "m/sqrt(rad)", "sideways noise of turning");
-  t.addAngle("sigma_t_d_deg", sigmaTd, 0, 45, "rotation noise of driving (deg/sqrt(m))");
-  t.addAngle("sigma_t_t_deg", sigmaTt, 0, 45, "rotation noise of turning (deg/sqrt(rad))");
-  t.add("slips", slips, "`T DEG M, ...`: at T s from the start the wheels turn DEG and drive M m too much");
+  t.add("sigma_d_d", sigmaDd, 0, 1, "m/sqrt(m)", "forward noise from driving");
+  t.add("sigma_d_t", sigmaDt, 0, 1, "m/sqrt(rad)", "forward noise from turning");
+  t.add("sigma_c_d", sigmaCd, 0, 1, "m/sqrt(m)", "sideways noise from driving");
+  t.add("sigma_c_t", sigmaCt, 0, 1, "m/sqrt(rad)", "sideways noise from turning");
+  t.addAngle("sigma_t_d_deg", sigmaTd, 0, 45, "rotation noise from driving (deg/sqrt(m))");
+  t.addAngle("sigma_t_t_deg", sigmaTt, 0, 45, "rotation noise from turning (deg/sqrt(rad))");
+  t.add("slips", slips,
+        "`T DEG M, ...`: at T s from the start the odometry gains DEG of rotation and M m of distance");
 }
 
 std::vector<Slip> parseSlips(const std::string& text) {
