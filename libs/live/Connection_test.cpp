@@ -117,6 +117,24 @@ TEST(Connection, EveryClientGetsEveryCycleUntilTheEnd) {
   EXPECT_EQ(server.dropped(), 0u);
 }
 
+/// As a heartbeat is made by another thread than the cycles: what comes is in the order of its numbers.
+TEST(Connection, CyclesOfSeveralThreadsAreInOrder) {
+  Events events;
+  ObservationServer server(kAnywhere, 0, limits(10000), events.log());
+  Listener listener(server.port(), events);
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 500; ++k) server.publish(cycle(10));
+    });
+  for (std::thread& thread : threads) thread.join();
+  server.finish(30);
+  ASSERT_TRUE(happens([&] { return listener.hasReturned(); }));
+  EXPECT_EQ(listener.count(), 2000u);
+  EXPECT_EQ(listener.client().lost(), 0u);
+}
+
 TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   Events events;
   ObservationServer server(kAnywhere, 0, limits(20), events.log());

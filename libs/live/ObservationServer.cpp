@@ -60,13 +60,16 @@ void ObservationServer::wake() const {
 void ObservationServer::publish(const mrpt::obs::CSensoryFrame& cycle) {
   std::string payload = serialise(cycle);
   if (payload.size() > kMaxPayload) return log_.report("server", "cycle of more than 16 MiB: left out");
-  enqueue({MessageKind::cycle, session_, ++number_, std::move(payload)});
+  enqueue(MessageKind::cycle, std::move(payload));
 }
 
-void ObservationServer::enqueue(const Message& message) {
-  const auto bytes = std::make_shared<const std::string>(encode(message));
+void ObservationServer::enqueue(MessageKind kind, std::string payload) {
   {
+    // Numbered and queued at once: a heartbeat that overtakes its cycle would make it count as lost.
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (kind == MessageKind::cycle) ++number_;
+    const auto bytes =
+        std::make_shared<const std::string>(encode({kind, session_, number_, std::move(payload)}));
     for (Client& client : clients_) {
       // A message that is on its way must be finished; the next one is the oldest that can go.
       const auto oldest = client.queue.begin() + (client.sent > 0 ? 1 : 0);
@@ -81,7 +84,7 @@ void ObservationServer::enqueue(const Message& message) {
 }
 
 void ObservationServer::finish(double timeout) {
-  enqueue({MessageKind::end, session_, number_, {}});
+  enqueue(MessageKind::end);
   const auto end = Clock::now() + std::chrono::duration<double>(timeout);
   const auto isAllSent = [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -126,7 +129,7 @@ void ObservationServer::serve() {
     clientCount_ = clients_.size();
 
     if (Clock::now() - lastHeartbeat >= std::chrono::milliseconds(kHeartbeat)) {
-      if (number_ == lastNumber) enqueue({MessageKind::heartbeat, session_, number_, {}});
+      if (number_ == lastNumber) enqueue(MessageKind::heartbeat);
       lastNumber = number_;
       lastHeartbeat = Clock::now();
     }

@@ -39,7 +39,7 @@ class ObservationServer {
   size_t cycles() const { return number_; }
   size_t dropped() const { return dropped_; }  ///< cycles, over all clients
 
-  /// Puts the cycle into every client's queue; takes microseconds.
+  /// Puts the cycle into every client's queue; takes microseconds. From any thread.
   void publish(const mrpt::obs::CSensoryFrame& cycle);
   /// Tells the clients that nothing comes any more, and waits at most `timeout` s for them to take all.
   void finish(double timeout);
@@ -58,7 +58,7 @@ class ObservationServer {
   void accept();
   void read(Client& client);
   void write(Client& client);
-  void enqueue(const Message& message);
+  void enqueue(MessageKind kind, std::string payload = {});
   void wake() const;
 
   Limits limits_;
@@ -69,7 +69,8 @@ class ObservationServer {
   std::atomic<uint64_t> number_{0};
   std::atomic<size_t> clientCount_{0}, dropped_{0};
   std::atomic<bool> stop_{false};
-  std::mutex mutex_;  ///< of the clients' queues; only the thread adds and removes clients
+  /// Of the clients' queues and the growth of number_; only the thread adds and removes clients.
+  std::mutex mutex_;
   std::list<Client> clients_;
   bool isFull_ = false;  ///< more clients wait than can be served
   std::thread thread_;
