@@ -4,6 +4,7 @@
   scripts/experiment-tables.py weights FOLDER      of scripts/sweep-weights.sh: weights.md, weights.svg in FOLDER
   scripts/experiment-tables.py search FOLDER       of scripts/search-settings.sh: search.md in FOLDER
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
+  scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 The tables go to standard output, too. Needs gnuplot for the figures."""
 import json
@@ -86,19 +87,20 @@ def swept(name):
 
 def weights(folder):
     text, panels = "", ""
-    worlds = [w for w in WORLDS if (folder / f"{w}-standard/summary.json").is_file()]
     for proposal, particles in (("standard", 20), ("improved", 15)):
+        worlds = [w for w in WORLDS if (folder / f"{w}-{proposal}/summary.json").is_file()]
+        mark = "<!-- made by: scripts/sweep-weights.sh -->\n"
         all_groups = {w: {g.name: g for g in groups(folder / f"{w}-{proposal}")} for w in worlds}
         names = list(next(iter(all_groups.values())))
-        text += f"\n### Proposal {proposal}, {particles} particles\n\n"
+        text += f"\n### Proposal {proposal}, {particles} particles\n\n{mark}"
         text += markdown(["weight"] + [WORLDS[w] for w in worlds],
-                         [[n.replace("hybrid", "default", 1) if n == "hybrid" else n.replace("hybrid-", "")] +
+                         [["graded (default)" if n == "hybrid" else n.replace("hybrid-", "")] +
                           [all_groups[w][n].cell() if n in all_groups[w] else "" for w in worlds] for n in names])
         if proposal == "standard":
-            panels = "".join(weight_panel(WORLDS[w], all_groups[w]) for w in worlds)
+            panels, rows = "".join(weight_panel(WORLDS[w], all_groups[w]) for w in worlds), (len(worlds) + 3) // 4
     (folder / "weights.md").write_text(text)
-    plot(f"""set terminal svg size 1100,{250 * ((len(worlds) + 3) // 4)} font 'sans,11' background '#ffffff'
-set multiplot layout {(len(worlds) + 3) // 4},4
+    plot(f"""set terminal svg size 1100,{250 * rows} font 'sans,11' background '#ffffff'
+set multiplot layout {rows},4
 set logscale x
 set xrange [0.08:4]
 set yrange [-0.05:1.05]
@@ -106,9 +108,17 @@ set xtics ('0.1' 0.1, '0.3' 0.3, '1' 1, '3' 3)
 set xlabel 'threshold or sigma (deg)'
 set ylabel 'success'
 set grid lc '#dddddd'
-{panels}unset multiplot
+set key off
+{panels}{legend(("eq9", "dominating", "graded"), ("general", "general-best"))}unset multiplot
 """, folder / "weights.svg")
     print(text)
+
+
+def legend(lines, levels):
+    """A panel of its own, which leaves the plots their room."""
+    entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
+    entries += [f"NaN with lines dt 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in levels]
+    return f"unset border\nunset tics\nunset xlabel\nunset ylabel\nset title ''\nset key center\nplot {', '.join(entries)}\n"
 
 
 def weight_panel(title, by_name):
@@ -120,8 +130,7 @@ def weight_panel(title, by_name):
     for kind in ("general", "general-best"):
         if kind in by_name:
             lines.append(f"{by_name[kind].rate:g} with lines dt 2 lc '{COLOURS[kind]}' title '{LABELS[kind]}'")
-    key = "set key bottom left" if title == "CSIE" else "set key off"
-    return f"{script}{key}\nset title \"{title}\"\nplot " + ", ".join(lines) + "\n"
+    return f"{script}set title \"{title}\"\nplot " + ", ".join(lines) + "\n"
 
 
 def search(folder):
@@ -149,7 +158,7 @@ def particles(folder):
                 kind = {"hybrid": "graded", "hybrid-eq9": "eq9", "general": "general-best"}.get(g.name, g.name)
                 series.setdefault(kind, {})[g.particles] = g
         counts = sorted({n for s in series.values() for n in s})
-        text += f"\n### {WORLDS[world]}\n\n" + markdown(
+        text += f"\n### {WORLDS[world]}\n\n<!-- made by: scripts/sweep-particles.sh -->\n" + markdown(
             ["particles"] + [LABELS[k] for k in series],
             [[str(n)] + [s[n].cell() if n in s else "" for s in series.values()] for n in counts])
         lines = []
@@ -177,6 +186,9 @@ set grid lc '#dddddd'
 
 def main():
     commands = {"weights": weights, "search": search, "particles": particles}
+    if len(sys.argv) == 5 and sys.argv[1] == "always":
+        sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
+                         for g in groups(sys.argv[2])))
     if len(sys.argv) != 3 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     commands[sys.argv[1]](Path(sys.argv[2]))

@@ -7,7 +7,7 @@
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/paper}
 export SEEDS=${SEEDS:-20} FIRST_SEED=${FIRST_SEED:-1}
-install_packages "${packages[@]}" gnuplot-nox
+install_packages "${packages[@]}" gnuplot-nox librsvg2-bin
 build release
 bin=build/release/bin
 source scripts/worlds.sh
@@ -48,7 +48,16 @@ experiment "MRPT's own RBPF on the loop, with our settings and with its shipped 
   --particles 20 config-ini/csie-lms100.ini $csie/csie-loop.rawlog --reference $csie/csie-loop.tum \
   --floorplan $csie/csie.plan -o "$out/stock"
 
-scripts/experiment-tables.py figures "$out"
+# The pictures of doc/experiments.md.
+mkdir -p "$out/images"
+cp "$out/weights/weights.svg" "$out/particles/particles.svg" "$out/images"
+scripts/report-figure.py "$out/images/fig3-particles.png" 4 "$out/fig3/report.html" "particles of hybrid-20" \
+  "particles of general-best-20"
+scripts/report-figure.py "$out/images/fig5-spread.png" 1 "$out/fig5-exponent-2/report.html" \
+  "spread across the heading" "spread of the heading"
+walls="occupied cells over the walls"
+scripts/report-figure.py "$out/images/fig6-walls.png" 2 "$out/particles/csie/report.html" "$walls, hybrid-20:" \
+  "$out/particles/csie-general/report.html" "$walls, general-20:"
 echo "Reports: $(ls "$out"/*/report.html "$out"/*/*/report.html | tr '\n' ' ')"
 experiment "What these runs say" scripts/claims.py "$out"
 exit $failed

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # The tables of doc/slam-eval.md: slam-eval revisits on good and bad maps of logs that have no reference.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/revisits-table.sh [OUT]     OUT defaults to out/revisits
-# The last column of the first is left to the reader, after a look at OUT/NAME/map.png. The programs are those of
-# build/release/bin.
+# The programs are those of build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=build/release/bin
@@ -22,13 +21,13 @@ row() {
   "$bin/slam-eval" revisits --trajectory "$run/trajectory.tum" --rawlog "$log" --distance "$distance" |
     python3 -c 'import json, sys
 e = json.load(sys.stdin)
-form = "| {} | {revisits} | {apart} | {median_m:.3f} | {p95_m:.3f} | |" if e["revisits"] else "| {} | 0 | | | | |"
+form = "| {} | {revisits} | {apart} | {median_m:.3f} | {p95_m:.3f} |" if e["revisits"] else "| {} | 0 | | | |"
 print(form.format(sys.argv[1], **e))' \
       "$([[ $log == "$loop" ]] && echo DP-SLAM loop || echo Malaga), $distance | $name, $particles particles, seed $seed"
 }
 
-echo "| log, \`--distance\` | trajectory | revisits | apart | median_m | p95_m | \`map.png\` |"
-echo "|---|---|---|---|---|---|---|"
+echo "| log, \`--distance\` | trajectory | revisits | apart | median_m | p95_m |"
+echo "|---|---|---|---|---|---|"
 dpslam=(config-ini/lms-logs.ini)
 for seed in 1 2 3; do row "$loop" 8 "hybrid, improved" "${dpslam[@]}" 15 $seed -p improved; done
 for seed in 1 2; do row "$loop" 8 "general, improved" "${dpslam[@]}" 15 $seed -p improved -m general; done
