@@ -81,14 +81,13 @@ std::vector<Kernel> kernelsOf(Scene& s) {
                    forEachStep(s, s.scan.beams, 0, [&](int x, int y) { sum += x ^ y; });
                    DoNotOptimize(sum);
                  },
-                 "the sum that the benchmark keeps"});
+                 "the sum that the benchmark computes"});
   // The next place 1, the next column 1, the loop's count 1; where the beam enters and leaves 4, two places
   // of counts 4, compare 1, two additions: 14 halves; two counts read and written.
   all.push_back(
       {"insertion", "column", crossedColumns(s), 7, 4, false,
        [&s] { s.particle.grid.insert(s.scan.beams, s.pose, s.options.grid); },
-       "a count is read, changed and written back before the next can be; and the tiles that the scan "
-       "touches are gone through"});
+       "each count is read, changed and written back before the next; iteration over the scan's tiles"});
   static const PenetrationModel model(s.options.gridWeight, s.particle.grid.resolution());
   // Where nothing can stop a beam, 8 steps at once: its last place 4, the tiles of both 6, the tile looked up
   // 3, their squares 4, the bits of four squares 16, put together and compared 5, the next block 6: 44
@@ -104,8 +103,8 @@ std::vector<Kernel> kernelsOf(Scene& s) {
       {"penetration weight", "step", weighed, ((weighed - met) / 8 * 22 + met * (kStep + 2 + 5)) / weighed,
        ((weighed - met) / 8 * 8 + met * 17) / weighed, false,
        [&s] { DoNotOptimize(model.meanLogLikelihood(s.scan.weighedBeams, s.pose, s.particle.grid)); },
-       "free cells near others are gone through one by one; each product waits for the one before; where "
-       "free squares end is guessed wrong now and then"});
+       "free cells near others are traversed one by one; each product depends on the previous one; the ends "
+       "of free squares are sometimes mispredicted"});
   // End of the beam 12, floors 4, residual 3; on four floats weights 12, columns 7, row 4. The patch of 16
   // floats is kept from call to call.
   static const ScanMatcher matcher(s.options.matcher);
@@ -114,13 +113,13 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   constexpr double kValue = 19 + 2 * 23, kPatch = 16 * 4 + 12;
   all.push_back({"logLikelihoodValue", "beam", matched, kValue, kPatch, true,
                  [&s] { DoNotOptimize(likelihood.value(s.pose)); },
-                 "single numbers are put into and taken out of the vectors of four"});
+                 "packing and unpacking of single numbers in vectors of four"});
   // The same with slopes: on four floats weights +8, columns +7, rows +8; the products of gradient and
   // information 30.
   constexpr double kSlope = kValue + 2 * 23 + 30;
   all.push_back({"logLikelihood", "beam", matched, kSlope, kPatch, true,
                  [&s] { DoNotOptimize(likelihood(s.pose)); },
-                 "as above; ten sums are carried from beam to beam"});
+                 "as above; ten sums carried from beam to beam"});
   const TPose2D start = s.pose + TPose2D(0.03, 0.02, 0.01);
   double evaluations = -1;  // the prior is asked once more at the end
   const auto match = [&s, start](const Prior& prior) {
@@ -128,10 +127,9 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   };
   match([&](const TPose2D&) { return ++evaluations, LogDensity(); });
   // Every step is one logLikelihood, the curvature six, the fit one value.
-  all.push_back(
-      {"match", "beam", matched, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7), true,
-       [match] { match([](const TPose2D&) { return LogDensity(); }); },
-       "that of logLikelihood; and the cells around the ends are read again where a step changes them"});
+  all.push_back({"match", "beam", matched, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7),
+                 true, [match] { match([](const TPose2D&) { return LogDensity(); }); },
+                 "as logLikelihood; cells around the end points are read again where a step changes them"});
   // What a copy reads and writes; the map itself is shared.
   all.push_back(
       {"particle copy", "copy", 1, 0, 2 * sizeof(Particle) + 4 * 2 * 8, false,
@@ -139,8 +137,8 @@ std::vector<Kernel> kernelsOf(Scene& s) {
          const Particle copy(s.particle);
          DoNotOptimize(&copy);
        },
-       "counting the owners of shared tiles is atomic (some 20 cycles each, up and down), and the window "
-       "of blocks is allocated anew"});
+       "atomic reference counts of shared tiles (some 20 cycles each, up and down); allocation of the window "
+       "of blocks"});
   // Each beam votes once for every angle: 4 for rho, round, abs, compare, index, count; segmentation and
   // fits 60.
   const auto& hough = s.options.hough;
@@ -149,7 +147,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   all.push_back(
       {"line extraction", "beam", beams, 60 + 9 * angles, 16 + 24 * angles, false,
        [&s] { DoNotOptimize(extractor.extract(s.scan.scan)); },
-       "votes go to memory one by one, std::round is a call without SSE4.1, and fits are made again for "
+       "votes are written to memory one by one; std::round is a call without SSE4.1; fits are repeated for "
        "every split"});
   return all;
 }
@@ -193,7 +191,7 @@ void printTable(const Machine& m, const std::vector<Kernel>& kernels,
               m.sse);
   std::printf("| triad in L1, L2, L3, memory | %.0f, %.0f, %.0f, %.0f GB/s |\n", m.l1, m.l2, m.l3, m.memory);
   std::printf(
-      "\n| kernel | per | measured (ns) | operations | bytes | lower bound (ns) | ratio | why |\n"
+      "\n| kernel | per | measured (ns) | operations | bytes | lower bound (ns) | ratio | overhead |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const Kernel& k : kernels) {
     const auto found = ns.find(k.name);
@@ -204,8 +202,8 @@ void printTable(const Machine& m, const std::vector<Kernel>& kernels,
                 measured, k.operations, k.bytes, bound, measured / bound, k.why.c_str());
   }
   std::printf(
-      "\nA room's tiles (about 200 kB) are in L2, those along one beam in L1, so the bounds take L1.\n"
-      "A particle: %zu B of its own; tiles of 1 kB and blocks are shared until one writes.\n",
+      "\nA room's tiles (about 200 kB) fit in L2, those along one beam in L1, so the bounds use L1.\n"
+      "A particle: %zu B of its own; tiles of 1 kB and blocks are shared until written.\n",
       sizeof(Particle));
 }
 

@@ -87,7 +87,7 @@ intel_tables() {
   echo "| | ours: CPU (s) | wall (s) | peak (MB) | rbpf-slam: CPU (s) | wall (s) | peak (MB) | CPU ratio | wall ratio | memory ratio |"
   echo "|---|---|---|---|---|---|---|---|---|---|"
   side_by_side "standard proposal, 50 particles, 5 cm, one core" standard-50 rbpf-standard
-  [[ -z ${FULL:-} ]] || side_by_side "improved, 15 particles, two cores; its shipped ICP set-up, 10, one core" improved-15 rbpf-icp
+  [[ -z ${FULL:-} ]] || side_by_side "improved, 15 particles, two cores; rbpf-slam: shipped ICP set-up, 10 particles, one core" improved-15 rbpf-icp
   echo
   echo "Improved proposal: 15 particles on two cores $(cpu improved-15) s CPU, $(wall improved-15) s wall, $(memory improved-15) MB;" \
     "30 particles on one core $(cpu improved-30) s CPU, $(wall improved-30) s wall, $(memory improved-30) MB."
@@ -161,8 +161,8 @@ simulated_tables() {
       "| $(ratio "$last" "$first") | $(memory "$name") |"
   done
   echo
-  echo "200 m against 20 m, about the same way driven: $(ratio "$(mean_step world-200 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
-  echo "Ten times the log of 20 m: $(ratio "$(mean_step world-20-long 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
+  echo "200 m against 20 m, about the same distance driven: $(ratio "$(mean_step world-200 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
+  echo "A log of 20 m ten times as long: $(ratio "$(mean_step world-20-long 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
   local csie=500
   [[ -z ${FULL:-} ]] || csie=5000
   measure csie "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$PWD/datasets/csie/csie-loop.rawlog" -q -o csie \
@@ -173,7 +173,7 @@ simulated_tables() {
 {
   echo "# Benchmark"
   echo
-  echo "$(lscpu | sed -n 's/^Model name: *//p'), $(nproc --all) cores; load when begun: $(cut -d' ' -f1-3 /proc/loadavg); $(date -u +%FT%RZ); commit $(git rev-parse --short HEAD)."
+  echo "$(lscpu | sed -n 's/^Model name: *//p'), $(nproc --all) cores; load at the start: $(cut -d' ' -f1-3 /proc/loadavg); $(date -u +%FT%RZ); commit $(git rev-parse --short HEAD)."
   simulated_tables
   if [[ -n ${HYBRID_SLAM_DATASETS:-} ]]; then
     intel_tables
