@@ -151,12 +151,14 @@ def search(folder):
 def particles(folder):
     text, panels = "", ""
     worlds = [w for w in WORLDS if (folder / w / "summary.json").is_file()]
+    kinds = {}
     for world in worlds:
         series = {}
         for part in ("", "-general", "-many", "-stock"):
             for g in groups(folder / f"{world}{part}"):
                 kind = {"hybrid": "graded", "hybrid-eq9": "eq9", "general": "general-best"}.get(g.name, g.name)
                 series.setdefault(kind, {})[g.particles] = g
+        kinds.update(series)
         counts = sorted({n for s in series.values() for n in s})
         text += f"\n### {WORLDS[world]}\n\n<!-- made by: scripts/sweep-particles.sh -->\n" + markdown(
             ["particles"] + [LABELS[k] for k in series],
@@ -167,11 +169,11 @@ def particles(folder):
             panels += data(name, [(n, g.rate, *g.interval) for n, g in sorted(s.items())])
             lines.append(f"${name} using 1:2:3:4 with yerrorbars pt 7 ps 0.4 lc '{COLOURS[kind]}' notitle, "
                          f"${name} with lines lw 2 lc '{COLOURS[kind]}' title '{LABELS[kind]}'")
-        key = "set key top left" if world == worlds[0] else "set key off"
-        panels += f"{key}\nset title \"{WORLDS[world]}\"\nplot " + ", ".join(lines) + "\n"
+        panels += f"set title \"{WORLDS[world]}\"\nplot " + ", ".join(lines) + "\n"
     (folder / "particles.md").write_text(text)
-    plot(f"""set terminal svg size {370 * len(worlds)},340 font 'sans,12' background '#ffffff'
-set multiplot layout 1,{len(worlds)}
+    plot(f"""set terminal svg size {340 * len(worlds) + 200},340 font 'sans,12' background '#ffffff'
+set multiplot layout 1,{len(worlds) + 1}
+set key off
 set logscale x
 set xrange [4:2500]
 set yrange [-0.05:1.05]
@@ -179,7 +181,7 @@ set xtics (5, 20, 50, 200, 500, 2000)
 set xlabel 'particles'
 set ylabel 'runs that close the loop'
 set grid lc '#dddddd'
-{panels}unset multiplot
+{panels}{legend(kinds, ())}unset multiplot
 """, folder / "particles.svg")
     print(text)
 
