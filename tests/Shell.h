@@ -20,10 +20,9 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs shell code in a folder. @param after  more shell code, whose output is not kept
-inline Outcome shell(const TemporaryFolder& folder, const std::string& command,
-                     const std::string& after = "") {
-  const std::string whole = "cd '" + folder.path("") + "' || exit; " + command + " >.out 2>.err" + after;
+/// Runs shell code in a folder.
+inline Outcome shell(const TemporaryFolder& folder, const std::string& command) {
+  const std::string whole = "cd '" + folder.path("") + "' || exit; " + command + " >.out 2>.err";
   const int status = std::system(whole.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder.path(".out")),
           contentOf(folder.path(".err"))};

@@ -1,18 +1,16 @@
 /// Results that cannot be written; the program beside others: its terminal, its signals, its memory.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <thread>
 
+#include "ChildProgram.h"
 #include "HybridSlamProgram.h"
 #include "evaluation/Trajectory.h"
 
@@ -93,24 +91,6 @@ std::vector<char*> pointersTo(const std::vector<std::string>& arguments) {
   return argv;
 }
 
-/// Starts the program without a shell between; gives its process.
-pid_t start(const std::vector<std::string>& arguments, const std::string& errorFile) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const int file = open(errorFile.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    dup2(file, STDERR_FILENO);
-    execv(HYBRID_SLAM, pointersTo(arguments).data());
-    _exit(127);
-  }
-  return child;
-}
-
-int exitCodeOf(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 /// What the program writes on a terminal, and its exit code.
 std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments) {
   int terminal = 0;
@@ -124,7 +104,9 @@ std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments
   for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
     text.append(buffer, static_cast<size_t>(n));
   close(terminal);
-  return {text, exitCodeOf(child)};
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {text, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
 }
 
 TEST_F(HybridSlam, ATerminalGetsABarWithTheTimeLeft) {
@@ -148,14 +130,15 @@ TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4000));
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove_all(output);
-    const pid_t child =
-        start({"hybrid-slam", "-q", "-n", "300", "-o", output, ini, log}, folder.path("stderr"));
-    while (!fs::exists(output + "/.partial.steps.csv") && kill(child, 0) == 0)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // so that some scans are through
-    kill(child, signal);
-    EXPECT_EQ(exitCodeOf(child), 1);
-    err = contentOf(folder.path("stderr"));
+    test::ChildProgram program(folder, "run", {HYBRID_SLAM, "-q", "-n", "300", "-o", output, ini, log});
+    const std::string steps = output + "/.partial.steps.csv";  // its first rows come in one block
+    EXPECT_TRUE(test::happens([&] {
+      std::error_code none;
+      return program.hasEnded() || (fs::file_size(steps, none) > 0 && !none);
+    }));
+    program.signal(signal);
+    EXPECT_EQ(program.wait(), 1);
+    err = program.err();
     EXPECT_THAT(err, MatchesRegex(kErrorLine));
     EXPECT_THAT(err, HasSubstr("interrupted: entry "));
     EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
@@ -168,7 +151,8 @@ TEST_F(HybridSlam, PeakMemoryIsThatOfTheProgramAlone) {
   {
     const std::vector<char> large(700 << 20, 'x');  // resident in the process that starts it
     ASSERT_EQ(large.back(), 'x');
-    EXPECT_EQ(exitCodeOf(start({"hybrid-slam", "-q", "-o", output, ini, log}, folder.path("stderr"))), 0);
+    test::ChildProgram program(folder, "run", {HYBRID_SLAM, "-q", "-o", output, ini, log});
+    EXPECT_EQ(program.wait(), 0);
   }
   EXPECT_LT(nlohmann::json::parse(result("metrics.json"))["peak_rss_mb"], 700);
 }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "ChildProgram.h"
 #include "ResultFiles.h"
 #include "Shell.h"
 #include "io/RawlogReader.h"
@@ -21,50 +22,11 @@
 namespace hybrid_slam {
 namespace {
 
+using Program = test::ChildProgram;
 using test::contentOf;
 using test::happens;
 using testing::HasSubstr;
 using testing::MatchesRegex;
-
-/// A program that runs beside the test; it is killed if the test ends before it.
-class Program {
- public:
-  /// @param name  of the files beside which its output goes: NAME.out and NAME.err
-  Program(const TemporaryFolder& folder, const std::string& name, std::vector<std::string> arguments)
-      : out_(folder.path(name + ".out")), err_(folder.path(name + ".err")) {
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    child_ = ::fork();
-    if (child_ != 0) return;
-    ::dup2(::open(out_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
-    ::dup2(::open(err_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  ~Program() {
-    if (child_ <= 0) return;
-    signal(SIGKILL);
-    ::waitpid(child_, nullptr, 0);
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  void signal(int number) const { ::kill(child_, number); }
-  /// Exit code; -1 for one that a signal ended, or that does not end.
-  int wait() {
-    int status = 0;
-    if (!happens([&] { return ::waitpid(child_, &status, WNOHANG) == child_; })) return -1;
-    child_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string out() const { return contentOf(out_); }
-  std::string err() const { return contentOf(err_); }
-
- private:
-  std::string out_, err_;
-  pid_t child_ = 0;
-};
 
 class LivePrograms : public testing::Test {
  protected:
@@ -95,6 +57,13 @@ class LivePrograms : public testing::Test {
     Program program(folder, "replay", {HYBRID_SLAM, ini, log, "-q", "-o", folder.path(to)});
     EXPECT_EQ(program.wait(), 0) << program.err();
     return contentOf(folder.path(to + "/trajectory.tum"));
+  }
+  /// Waits for the first cycles in the recording: they come in one block, within 5 s.
+  bool isRecording() const {
+    return happens([&] {
+      std::error_code none;
+      return std::filesystem::file_size(output + "/.partial.recording.rawlog", none) > 1000 && !none;
+    });
   }
   std::string result(const std::string& name) const { return contentOf(output + "/" + name); }
   /// All that a replay writes, and the recording.
@@ -149,8 +118,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
   const auto map = live();
   // The recording grows by blocks; a few cycles are enough.
   ASSERT_TRUE(happens([&] { return robot->err().find("connected") != std::string::npos; }));
-  ASSERT_TRUE(happens([&] { return map->err().find("connected") != std::string::npos; })) << map->err();
-  ::usleep(300000);
+  ASSERT_TRUE(isRecording()) << map->err();
   map->signal(SIGINT);
   EXPECT_EQ(map->wait(), 0) << map->err();
   expectAllResults();
@@ -165,8 +133,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
 TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
   auto robot = replaying(5000, "100");
   const auto map = live();
-  ASSERT_TRUE(happens([&] { return map->err().find("connected") != std::string::npos; })) << map->err();
-  ::usleep(200000);
+  ASSERT_TRUE(isRecording()) << map->err();
   robot->signal(SIGKILL);
   EXPECT_EQ(robot->wait(), -1);
   ASSERT_TRUE(happens([&] { return map->err().find("trying again") != std::string::npos; }));

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "ChildProgram.h"
 #include "Shell.h"
 #include "evaluation/Trajectory.h"
 #include "io/Configuration.h"
@@ -30,9 +31,8 @@ const std::string kCorridor = SOURCE_DIR "/datasets/csie/csie-corridor.rawlog";
 
 class MotionModelLearn : public testing::Test {
  protected:
-  /// Runs the program; `after` is shell code that follows the command.
-  int run(const std::string& arguments, const std::string& after = "") {
-    const test::Outcome outcome = test::shell(folder, "'" MOTION_MODEL_LEARN "' " + arguments, after);
+  int run(const std::string& arguments) {
+    const test::Outcome outcome = test::shell(folder, "'" MOTION_MODEL_LEARN "' " + arguments);
     out = outcome.out;
     err = test::withoutProgress(outcome.err);
     return outcome.status;
@@ -263,12 +263,14 @@ TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
 TEST_F(MotionModelLearn, CtrlCLeavesNothingHalfWritten) {
   const std::string log = logOf(4000);
   folder.write("motion.ini", "before");
-  for (const std::string signal : {"INT", "TERM"}) {
-    const std::string wait =
-        "while [ ! -e '" + folder.path(".partial.motion.ini") + "' ]; do sleep 0.05; done; ";
-    EXPECT_EQ(run(arguments(log, "-q -n 300"), " & pid=$!; " + wait + "kill -" + signal + " $pid; wait $pid"),
-              1);
-    EXPECT_THAT(err,
+  for (const int signal : {SIGINT, SIGTERM}) {
+    test::ChildProgram program(folder, "run",
+                               {MOTION_MODEL_LEARN, ini, log, "-o", output, "-q", "-n", "300"});
+    EXPECT_TRUE(
+        test::happens([&] { return program.hasEnded() || fs::exists(folder.path(".partial.motion.ini")); }));
+    program.signal(signal);
+    EXPECT_EQ(program.wait(), 1);
+    EXPECT_THAT(test::withoutProgress(program.err()),
                 MatchesRegex("motion-model-learn: error: interrupted: entry [0-9]+ of [^\n]*; nothing was "
                              "written\n"));
     EXPECT_EQ(contentOf(output), "before");

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "ChildProgram.h"
 #include "ResultFiles.h"
 #include "Shell.h"
 #include "comparison/XmlCheck.h"
@@ -240,13 +241,20 @@ TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
   const std::string whole = untimedTable();
   fs::remove_all(folder.path("out"));
 
-  const Outcome stopped =
-      shell("{ " + call(kSmall + kTruth + " -j 1") +
-            " & pid=$!; until ls out/runs/*/metrics.json; do sleep 0.02; done; kill -INT $pid; "
-            "wait $pid; }");
-  EXPECT_EQ(stopped.status, 1);
-  EXPECT_THAT(stopped.err, HasSubstr("slam-compare: error: interrupted: "));
-  EXPECT_THAT(stopped.err, HasSubstr("of 4 runs are finished; the same call goes on"));
+  test::ChildProgram stopped(
+      folder, "stopped",
+      {"/bin/sh", "-c", "cd '" + folder.path("") + "' && exec " + call(kSmall + kTruth + " -j 1")});
+  const auto isOneDone = [&] {
+    const auto names = runs();
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return name[0] != '.' && fs::exists(folder.path("out/runs/" + name + "/metrics.json"));
+    });
+  };
+  EXPECT_TRUE(test::happens([&] { return stopped.hasEnded() || isOneDone(); }));
+  stopped.signal(SIGINT);
+  EXPECT_EQ(stopped.wait(), 1);
+  EXPECT_THAT(stopped.err(), HasSubstr("slam-compare: error: interrupted: "));
+  EXPECT_THAT(stopped.err(), HasSubstr("of 4 runs are finished; the same call goes on"));
   EXPECT_FALSE(fs::exists(folder.path("out/report.html")));
   const auto left = runs();
   EXPECT_GE(left.size(), 1u);

@@ -8,6 +8,7 @@
 #include <map>
 #include <thread>
 
+#include "base/Happens.h"
 #include "io/TemporaryFolder.h"
 
 namespace hybrid_slam {
@@ -61,13 +62,12 @@ TEST_F(ChildProcessesTest, AMissingProgramIsAFailedCommand) {
 TEST_F(ChildProcessesTest, StoppingEndsTheChildrenAndStartsNoMore) {
   const std::string pidFile = folder.path("pid");
   std::thread stopper([&] {
-    for (std::ifstream in; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
-      in.open(pidFile);
+    EXPECT_TRUE(test::happens([&] {
+      std::ifstream in(pidFile);
       std::string line;
-      if (std::getline(in, line) && !in.eof()) stop = true;
-      in.close();
-      in.clear();
-    }
+      return std::getline(in, line) && !in.eof();
+    }));
+    stop = true;
   });
   EXPECT_FALSE(run({"echo $$ > " + pidFile + "; exec sleep 1000", "exit 0"}, 1));
   stopper.join();

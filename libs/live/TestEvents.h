@@ -1,15 +1,13 @@
 /// @file TestEvents.h
-/// @brief For the tests: events that can be looked at, and waiting for what other threads do.
+/// @brief For the tests: events that can be looked at.
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "base/Happens.h"
 #include "live/EventLog.h"
 
 namespace hybrid_slam::test {
@@ -44,15 +42,5 @@ class Events {
         lines->all.push_back(line);
       });
 };
-
-/// Waits for a condition; a minute is for machines that are busy, not for what is being waited for.
-inline bool happens(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 }  // namespace hybrid_slam::test

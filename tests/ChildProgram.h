@@ -1,0 +1,66 @@
+/// @file ChildProgram.h
+/// @brief For the tests: a program that runs beside the test.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "base/Happens.h"
+#include "io/TemporaryFolder.h"
+#include "io/TestLogs.h"
+
+namespace hybrid_slam::test {
+
+/// Started without a shell between; it does not outlive the object.
+class ChildProgram {
+ public:
+  /// @param name  of the files in the folder that take its output: NAME.out and NAME.err
+  ChildProgram(const TemporaryFolder& folder, const std::string& name, std::vector<std::string> arguments)
+      : out_(folder.path(name + ".out")), err_(folder.path(name + ".err")) {
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ != 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::dup2(::open(out_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+    ::dup2(::open(err_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~ChildProgram() {
+    if (hasEnded()) return;
+    signal(SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  ChildProgram(const ChildProgram&) = delete;
+  ChildProgram& operator=(const ChildProgram&) = delete;
+
+  void signal(int number) {
+    if (!hasEnded()) ::kill(child_, number);
+  }
+  bool hasEnded() {
+    if (!hasEnded_) hasEnded_ = ::waitpid(child_, &status_, WNOHANG) == child_;
+    return hasEnded_;
+  }
+  /// Exit code; -1 for one that a signal ended, or that does not end.
+  int wait() {
+    return happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+  std::string out() const { return contentOf(out_); }
+  std::string err() const { return contentOf(err_); }
+
+ private:
+  std::string out_, err_;
+  pid_t child_ = -1;
+  int status_ = 0;
+  bool hasEnded_ = false;
+};
+
+}  // namespace hybrid_slam::test
