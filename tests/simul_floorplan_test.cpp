@@ -197,6 +197,16 @@ TEST_F(SimulFloorplan, TheCommittedCsieLogsAreRemadeByteForByte) {
     EXPECT_LT(fs::file_size(entry.path()), 1000000u) << entry.path();
 }
 
+TEST_F(SimulFloorplan, TheCsieBuildingIsSimulatedForAsLongAsWanted) {
+  const std::string ini = "'" + std::string(SOURCE_DIR) + "/config-ini/simul-csie.ini'";
+  ASSERT_EQ(simulate(ini + " -q -o out.rawlog --set simulation.scans=50").status, 0);
+  mrpt::obs::CRawlog rawlog;
+  ASSERT_TRUE(rawlog.loadFromRawLogFile(folder.path("out.rawlog")));
+  size_t scans = 0;
+  for (const auto& entry : rawlog) scans += IS_CLASS(*entry, mrpt::obs::CObservation2DRangeScan);
+  EXPECT_EQ(scans, 50u);
+}
+
 TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {
   mrpt::obs::CRawlog rawlog;
   ASSERT_TRUE(rawlog.loadFromRawLogFile(std::string(SOURCE_DIR) + "/datasets/csie/csie-corridor.rawlog"));
