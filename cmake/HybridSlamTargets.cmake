@@ -3,6 +3,12 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# s; of one test, on a machine that is busy. A test that hangs ends.
+set(hybrid_slam_test_timeout 300)
+if(HYBRID_SLAM_SANITIZE)
+  set(hybrid_slam_test_timeout 1200)
+endif()
+
 add_library(hybrid_slam_flags INTERFACE)
 target_compile_options(hybrid_slam_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
@@ -36,7 +42,8 @@ endfunction()
 function(hybrid_slam_test name)
   add_executable(hybrid_slam_${name}_test ${ARGN})
   target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${hybrid_slam_test_timeout})
 endfunction()
 
 # hybrid_slam_app(NAME TARGET...): apps/NAME/main.cpp, with what is beside it in apps/ -> program NAME.
