@@ -8,14 +8,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
 #include "ChildProgram.h"
-#include "ResultFiles.h"
-#include "Shell.h"
+#include "SlamCompareProgram.h"
 #include "comparison/XmlCheck.h"
-#include "evaluation/Trajectory.h"
-#include "io/TemporaryFolder.h"
 
 namespace hybrid_slam {
 namespace {
@@ -28,48 +24,6 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 using testing::UnorderedElementsAre;
-
-const std::string kCsie = SOURCE_DIR "/datasets/csie/";
-const std::string kLog = kCsie + "csie-corridor.rawlog";
-const std::string kTruth = " --reference " + kCsie + "csie-corridor.tum --floorplan " + kCsie + "csie.plan";
-const std::string kSmall = " --methods hybrid,general --particles 4 --seeds 2 -q";
-
-struct SlamCompare : testing::Test {
-  TemporaryFolder folder;
-  std::string config = folder.write("small.ini", "[particle_filter]\nparticles = 3\nupdate_distance = 1\n");
-
-  Outcome shell(const std::string& command) const { return test::shell(folder, command); }
-  std::string call(const std::string& arguments) const {
-    return std::string("'") + SLAM_COMPARE + "' " + config + " " + kLog + " -o out " + arguments;
-  }
-  Outcome run(const std::string& arguments) const { return shell(call(arguments)); }
-  /// Exit 2, nothing on standard output, no run started; the one line on standard error.
-  std::string errorLine(const Outcome& o) const {
-    test::expectInputError(o, "slam-compare", "");
-    return o.err;
-  }
-  std::vector<std::string> runs() const { return test::namesIn(folder.path("out/runs")); }
-  std::vector<std::map<std::string, std::string>> table(const std::string& name) const {
-    const auto cells = test::csv(contentOf(folder.path("out/" + name)));
-    std::vector<std::map<std::string, std::string>> rows;
-    for (size_t row = 1; row < cells.size(); ++row) {
-      EXPECT_EQ(cells[row].size(), cells[0].size()) << name << ", row " << row;
-      rows.emplace_back();
-      for (size_t i = 0; i < std::min(cells[row].size(), cells[0].size()); ++i)
-        rows.back()[cells[0][i]] = cells[row][i];
-    }
-    return rows;
-  }
-  /// results.csv without what a clock says.
-  std::string untimedTable() const {
-    std::string text;
-    for (auto& row : table("results.csv"))
-      for (const auto& [column, cell] : row)
-        if (column != "wall_s" && column != "cpu_s" && column != "peak_rss_mb" && column != "realtime_factor")
-          text += column + "=" + cell + " ";
-    return text;
-  }
-};
 
 TEST_F(SlamCompare, HelpAndVersion) {
   const Outcome help = shell(std::string("'") + SLAM_COMPARE + "' --help");
@@ -152,88 +106,6 @@ TEST_F(SlamCompare, ParticlesArePicturedWhereTheRunsHaveThem) {
   EXPECT_EQ(xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
   EXPECT_THAT(report, HasSubstr("particles of general-4, "));
-}
-
-TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
-  const Trajectory truth = loadTum(kCsie + "csie-corridor.tum");
-  std::ostringstream relations;
-  relations.precision(15);
-  for (size_t i = 0; i + 60 < truth.size(); i += 20) {
-    const auto motion = truth[i + 60].pose - truth[i].pose;
-    relations << std::fixed << truth[i].timestamp << ' ' << truth[i + 60].timestamp << ' ' << motion.x << ' '
-              << motion.y << " 0 0 0 " << motion.phi << '\n';
-  }
-  folder.write("truth.relations", relations.str());
-  ASSERT_EQ(run("--methods general --seeds 1 -q --relations truth.relations").status, 0);
-  const Outcome eval =
-      shell(std::string("'") + SLAM_EVAL +
-            "' relations --trajectory out/runs/general-3-1/trajectory.tum --relations truth.relations");
-  ASSERT_EQ(eval.status, 0) << eval.err;
-  const auto json = nlohmann::json::parse(eval.out);
-  const auto row = table("results.csv").at(0);
-  EXPECT_NEAR(std::stod(row.at("trans_mean_m")), json.at("trans_mean_m"),
-              1e-5 * json.at("trans_mean_m").get<double>());
-  EXPECT_NEAR(std::stod(row.at("rot_mean_deg")), json.at("rot_mean_deg"),
-              1e-5 * json.at("rot_mean_deg").get<double>());
-
-  for (const std::string share : {"1.01", "0.99"}) {
-    const std::string bound = std::to_string(std::stod(share) * json.at("trans_mean_m").get<double>());
-    ASSERT_EQ(
-        run("--methods general --seeds 1 -q --relations truth.relations --success-relations " + bound).status,
-        0);
-    EXPECT_EQ(table("results.csv").at(0).at("success"), share == "1.01" ? "1" : "0");
-  }
-  EXPECT_THAT(contentOf(folder.path("out/report.html")), HasSubstr("relations' mean translation error is"));
-}
-
-TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndSaysWhatSucceeds) {
-  test::writeGzipped(folder.path("laps.rawlog"), test::laps(240));
-  const std::string compare = std::string("'") + SLAM_COMPARE + "' " + config +
-                              " laps.rawlog -o out --methods general --seeds 1 -q --revisits 2.5 ";
-  ASSERT_EQ(shell(compare).status, 0);
-  const Outcome eval = shell(
-      std::string("'") + SLAM_EVAL +
-      "' revisits --trajectory out/runs/general-3-1/trajectory.tum --rawlog laps.rawlog --distance 2.5");
-  ASSERT_EQ(eval.status, 0) << eval.err;
-  const auto json = nlohmann::json::parse(eval.out);
-  const auto row = table("results.csv").at(0);
-  const double error = json.at("median_m");
-  EXPECT_NEAR(std::stod(row.at("revisit_median_m")), error, 1e-5 * error);
-  EXPECT_EQ(std::stoi(row.at("revisits")), json.at("revisits"));
-  EXPECT_EQ(row.at("success"), error < 0.07 ? "1" : "0");
-
-  for (const std::string share : {"1.01", "0.99"}) {
-    ASSERT_EQ(shell(compare + "--success-revisit " + std::to_string(std::stod(share) * error)).status, 0);
-    EXPECT_EQ(table("results.csv").at(0).at("success"), share == "1.01" ? "1" : "0");
-  }
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
-  EXPECT_THAT(report, HasSubstr("scans revisit earlier ones, up to 2.5 m apart"));
-  EXPECT_THAT(report, HasSubstr("revisit error, median (m)"));
-}
-
-TEST_F(SlamCompare, WithoutARevisitThereIsNoErrorAndNoSuccess) {
-  test::writeGzipped(folder.path("laps.rawlog"), test::laps(80));
-  const Outcome o = shell(std::string("'") + SLAM_COMPARE + "' " + config +
-                          " laps.rawlog -o out --methods general --seeds 1 -q --revisits 3");
-  ASSERT_EQ(o.status, 0) << o.err;
-  const auto row = table("results.csv").at(0);
-  EXPECT_EQ(row.at("revisit_median_m"), "");
-  EXPECT_EQ(row.at("revisits"), "0");
-  EXPECT_EQ(row.at("success"), "0");
-}
-
-TEST_F(SlamCompare, EveryCriterionThatAppliesMustHold) {
-  folder.write("truth.relations", "1287388800.0 1287388801.0 0 0 0 0 0 0\n");  // any motion is an error
-  const std::string reference = "--methods general --seeds 1 -q --reference " + kCsie +
-                                "csie-corridor.tum --success-trans 99 --success-rot 180";
-  const auto success = [&](const std::string& arguments) {
-    EXPECT_EQ(run(reference + arguments).status, 0);
-    return table("results.csv").at(0).at("success");
-  };
-  EXPECT_EQ(success(""), "1");
-  EXPECT_EQ(success(" --relations truth.relations --success-relations 99"), "1");
-  EXPECT_EQ(success(" --relations truth.relations --success-relations 1e-9"), "0");
 }
 
 TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {

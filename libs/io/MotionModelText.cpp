@@ -7,7 +7,7 @@
 namespace hybrid_slam {
 namespace {
 
-/// A blank, then the text flush right in so many characters.
+/// A blank, then the text right-aligned in a field of `width` characters.
 std::string cell(const std::string& text, size_t width) {
   return std::string(width > text.size() ? width - text.size() + 1 : 1, ' ') + text;
 }
