@@ -16,7 +16,7 @@ inline void ignoreHangUps() { std::signal(SIGPIPE, SIG_IGN); }
 /// Last of all: ends the program at once where a driver is still at work. @return the exit code, as it came
 inline int leaveDrivers(int code) {
   std::cout.flush();
-  if (SensorThread::leftBehind() > 0) std::_Exit(code);
+  if (sensors::SensorThread::leftBehind() > 0) std::_Exit(code);
   return code;
 }
 

@@ -13,10 +13,10 @@
 #include <map>
 
 #include "Machine.h"
-#include "grid/PenetrationModel.h"
-#include "grid/RaySamples.h"
-#include "rbpf/HybridMapBuilder.h"
-#include "rbpf/MappedRoom.h"
+#include "slam/filter/HybridMapBuilder.h"
+#include "slam/grid/PenetrationModel.h"
+#include "slam/grid/RaySamples.h"
+#include "testing/MappedRoom.h"
 
 namespace hybrid_slam::bench {
 namespace {

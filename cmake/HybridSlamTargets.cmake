@@ -41,6 +41,7 @@ endfunction()
 # hybrid_slam_test(NAME FILE...): one GoogleTest program, its cases known to ctest one by one.
 function(hybrid_slam_test name)
   add_executable(hybrid_slam_${name}_test ${ARGN})
+  target_include_directories(hybrid_slam_${name}_test PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/libs)
   target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
   gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${hybrid_slam_test_timeout})

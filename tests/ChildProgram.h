@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "base/Happens.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "testing/Happens.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam::test {
 
@@ -21,7 +21,8 @@ namespace hybrid_slam::test {
 class ChildProgram {
  public:
   /// @param name  of the files in the folder that take its output: NAME.out and NAME.err
-  ChildProgram(const TemporaryFolder& folder, const std::string& name, std::vector<std::string> arguments)
+  ChildProgram(const files::TemporaryFolder& folder, const std::string& name,
+               std::vector<std::string> arguments)
       : out_(folder.path(name + ".out")), err_(folder.path(name + ".err")) {
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -51,10 +52,10 @@ class ChildProgram {
   }
   /// Exit code; -1 for one that a signal ended, or that does not end.
   int wait() {
-    return happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+    return test::happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
   }
-  std::string out() const { return contentOf(out_); }
-  std::string err() const { return contentOf(err_); }
+  std::string out() const { return test::contentOf(out_); }
+  std::string err() const { return test::contentOf(err_); }
 
  private:
   std::string out_, err_;

@@ -10,8 +10,8 @@
 
 #include "ResultFiles.h"
 #include "Shell.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 
@@ -52,7 +52,7 @@ class HybridSlam : public testing::Test {
                                       testing::HasSubstr(warning)));
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   std::string ini = folder.write("run.ini",
                                  "[run]\nmethod = hybrid\n[particle_filter]\nparticles = 5\nupdate_distance "
                                  "= 0.2\n[grid]\nresolution = 0.1\n");

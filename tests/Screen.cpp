@@ -13,8 +13,9 @@ Screen grabScreen() {
   if (!display) throw std::runtime_error("no X display");
   const int number = DefaultScreen(display);
   Screen screen{DisplayWidth(display, number), DisplayHeight(display, number), {}};
-  XImage* const image = XGetImage(display, RootWindow(display, number), 0, 0, static_cast<unsigned>(screen.width),
-                                  static_cast<unsigned>(screen.height), AllPlanes, ZPixmap);
+  XImage* const image =
+      XGetImage(display, RootWindow(display, number), 0, 0, static_cast<unsigned>(screen.width),
+                static_cast<unsigned>(screen.height), AllPlanes, ZPixmap);
   if (!image) throw std::runtime_error("no picture of the X display");
   for (int y = 0; y < screen.height; ++y)
     for (int x = 0; x < screen.width; ++x) {

@@ -10,8 +10,8 @@
 #include <regex>
 #include <string>
 
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam::test {
 
@@ -21,11 +21,11 @@ struct Outcome {
 };
 
 /// Runs shell code in a folder.
-inline Outcome shell(const TemporaryFolder& folder, const std::string& command) {
+inline Outcome shell(const files::TemporaryFolder& folder, const std::string& command) {
   const std::string whole = "cd '" + folder.path("") + "' || exit; " + command + " >.out 2>.err";
   const int status = std::system(whole.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder.path(".out")),
-          contentOf(folder.path(".err"))};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::contentOf(folder.path(".out")),
+          test::contentOf(folder.path(".err"))};
 }
 
 /// What standard error looks like after an error, as a regular expression: what, where, what was expected.

@@ -11,7 +11,7 @@
 
 #include "ResultFiles.h"
 #include "Shell.h"
-#include "io/TemporaryFolder.h"
+#include "files/TemporaryFolder.h"
 
 namespace hybrid_slam {
 
@@ -22,7 +22,7 @@ inline const std::string kTruth =
 inline const std::string kSmall = " --methods hybrid,general --particles 4 --seeds 2 -q";
 
 struct SlamCompare : testing::Test {
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   std::string config = folder.write("small.ini", "[particle_filter]\nparticles = 3\nupdate_distance = 1\n");
 
   test::Outcome shell(const std::string& command) const { return test::shell(folder, command); }

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "Shell.h"
-#include "io/TemporaryFolder.h"
+#include "files/TemporaryFolder.h"
 
 namespace hybrid_slam {
 
 struct SlamEval : testing::Test {
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
 
   void write(const std::string& file, const std::string& text) const { folder.write(file, text); }
 

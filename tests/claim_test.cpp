@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/AbsoluteTrajectoryError.h"
-#include "evaluation/RelationErrors.h"
-#include "io/TemporaryFolder.h"
+#include "files/TemporaryFolder.h"
+#include "study/evaluation/AbsoluteTrajectoryError.h"
+#include "study/evaluation/RelationErrors.h"
 
 namespace hybrid_slam {
 namespace {
@@ -23,27 +23,28 @@ const std::string kEqNine = "-m hybrid --set line_weight.method=paper";
 
 class Claim : public testing::Test {
  protected:
-  Trajectory run(const std::string& ini, const std::string& log, const std::string& options, int seed) {
+  files::Trajectory run(const std::string& ini, const std::string& log, const std::string& options,
+                        int seed) {
     const std::string command = std::string("'") + HYBRID_SLAM + "' '" SOURCE_DIR "/config-ini/" + ini +
                                 "' '" + log + "' -q -p standard -n 20 -s " + std::to_string(seed) + " -o '" +
                                 folder_.path("out") + "' " + options;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    return loadTum(folder_.path("out/trajectory.tum"));
+    return files::loadTum(folder_.path("out/trajectory.tum"));
   }
 
   /// Root of the mean square error of the positions on the simulated CSIE loop, m, for seeds 1 to kSeeds.
   std::vector<double> onTheLoop(const std::string& options) {
     const std::string loop = SOURCE_DIR "/datasets/csie/csie-loop";
-    const Trajectory truth = loadTum(loop + ".tum");
+    const files::Trajectory truth = files::loadTum(loop + ".tum");
     std::vector<double> errors;
     for (int seed = 1; seed <= kSeeds; ++seed)
-      errors.push_back(
-          absoluteTrajectoryError(run("csie-lms100.ini", loop + ".rawlog", options, seed), truth, 0.02)
-              .translation.rmse);
+      errors.push_back(evaluation::absoluteTrajectoryError(
+                           run("csie-lms100.ini", loop + ".rawlog", options, seed), truth, 0.02)
+                           .translation.rmse);
     return errors;
   }
 
-  TemporaryFolder folder_;
+  files::TemporaryFolder folder_;
 };
 
 double median(std::vector<double> values) {
@@ -79,10 +80,11 @@ TEST_F(Claim, LinesBeatNoLinesOnKillianCourt) {
   const std::string convert =
       std::string("'") + LOG2RAWLOG + "' '" + log + ".clf.gz' '" + rawlog + "' >/dev/null 2>&1";
   ASSERT_EQ(std::system(convert.c_str()), 0) << convert;
-  const auto relations = loadRelations(log + ".relations");
-  const Trajectory odometry = loadOdometry(log + ".odom.gz");
+  const auto relations = evaluation::loadRelations(log + ".relations");
+  const files::Trajectory odometry = files::loadOdometry(log + ".odom.gz");
   const auto errorOf = [&](const std::string& options, int seed) {
-    return evaluateRelations(run("lms-logs.ini", rawlog, options, seed), relations, &odometry, 0.006)
+    return evaluation::evaluateRelations(run("lms-logs.ini", rawlog, options, seed), relations, &odometry,
+                                         0.006)
         .translation.mean;
   };
   std::vector<double> lines, noLines;

@@ -10,16 +10,16 @@
 #include <filesystem>
 
 #include "base/Errors.h"
-#include "evaluation/Trajectory.h"
-#include "io/Replay.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "files/Trajectory.h"
 #include "live/CycleGrouper.h"
-#include "live/LiveRun.h"
-#include "live/TestEvents.h"
+#include "live_run/LiveRun.h"
+#include "run/Replay.h"
 #include "sensors/SensorSource.h"
 #include "standins/LmsStandIn.h"
 #include "standins/PioneerStandIn.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -45,16 +45,17 @@ std::string pioneerSection(uint16_t port) {
 /// would hold back odometry without scans for a second.
 class Sensors {
  public:
-  Sensors(const std::string& ini, test::Events& events, double timeout = 0.5, CycleSink sink = {}) {
+  Sensors(const std::string& ini, test::Events& events, double timeout = 0.5, live::CycleSink sink = {}) {
     mrpt::config::CConfigFileMemory config(ini);
     std::vector<std::string> sections;
     config.getAllSections(sections);
     for (const std::string& section : sections)
       if (config.keyExists(section, "driver"))
-        threads_.push_back(std::make_unique<SensorThread>(config, section, timeout, inbox_, events.shared()));
+        threads_.push_back(
+            std::make_unique<sensors::SensorThread>(config, section, timeout, inbox_, events.shared()));
     for (const auto& sensor : threads_) sensor->start();
     thread_ = std::thread([this, sink = std::move(sink)] {
-      CycleGrouper grouper(
+      live::CycleGrouper grouper(
           0, sink ? sink : [](const CSensoryFrame::Ptr&) {});
       while (!stop_)
         for (const auto& observation : inbox_->take(0.02)) {
@@ -88,8 +89,8 @@ class Sensors {
       odometry_.push_back(odometry->odometry.asTPose());
   }
 
-  std::shared_ptr<ObservationInbox> inbox_ = std::make_shared<ObservationInbox>();
-  std::vector<std::unique_ptr<SensorThread>> threads_;
+  std::shared_ptr<sensors::ObservationInbox> inbox_ = std::make_shared<sensors::ObservationInbox>();
+  std::vector<std::unique_ptr<sensors::SensorThread>> threads_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   std::vector<CObservation2DRangeScan::Ptr> scans_;
@@ -107,7 +108,7 @@ class DeviceTest : public testing::Test {
 TEST_F(DeviceTest, TheLms100sScansComeAsTheyWereMade) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events);
-  ASSERT_TRUE(happens([&] { return sensors.scans().size() >= 3; })) << events.text();
+  ASSERT_TRUE(test::happens([&] { return sensors.scans().size() >= 3; })) << events.text();
   const auto truth = robot.scans();
   const auto scan = sensors.scans()[1];
   // One of the scans that the device made, not mirrored.
@@ -129,23 +130,23 @@ TEST_F(DeviceTest, TheLms100sScansComeAsTheyWereMade) {
 TEST_F(DeviceTest, ThePioneersOdometryIsTheRobots) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events);
-  ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); })) << events.text();
+  ASSERT_TRUE(test::happens([&] { return !sensors.odometry().empty(); })) << events.text();
   for (int i = 0; i < 30; ++i) robot.scan();
   const auto truth = robot.odometry();
-  ASSERT_TRUE(happens([&] { return std::abs(sensors.odometry().back().x - truth.x) < 0.001; }));
+  ASSERT_TRUE(test::happens([&] { return std::abs(sensors.odometry().back().x - truth.x) < 0.001; }));
   EXPECT_NEAR(sensors.odometry().back().y, truth.y, 0.001);
   EXPECT_NEAR(sensors.odometry().back().phi, truth.phi, M_PI / 4096 + 1e-9);
-  ASSERT_TRUE(happens([&] { return pioneer.pulses() >= 2; })) << "the watchdog is fed";
+  ASSERT_TRUE(test::happens([&] { return pioneer.pulses() >= 2; })) << "the watchdog is fed";
   sensors.stop();
-  EXPECT_TRUE(happens([&] { return pioneer.closes() == 1; }));
-  EXPECT_THAT(pioneer.commands(), testing::IsSubsetOf({arcos::pulse, arcos::close}))
+  EXPECT_TRUE(test::happens([&] { return pioneer.closes() == 1; }));
+  EXPECT_THAT(pioneer.commands(), testing::IsSubsetOf({live::arcos::pulse, live::arcos::close}))
       << "and nothing that moves it";
 }
 
 /// A serial line (a pseudo-terminal) that ends in a TCP connection.
 class SerialLine {
  public:
-  explicit SerialLine(uint16_t port) : socket_(TcpSocket::connectTo("127.0.0.1", port, 10)) {
+  explicit SerialLine(uint16_t port) : socket_(live::TcpSocket::connectTo("127.0.0.1", port, 10)) {
     master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
     ::grantpt(master_), ::unlockpt(master_);
     char text[64];
@@ -173,7 +174,7 @@ class SerialLine {
   const std::string& name() const { return name_; }
 
  private:
-  TcpSocket socket_;
+  live::TcpSocket socket_;
   int master_ = -1, slave_ = -1;
   std::string name_;
   std::atomic<bool> stop_{false};
@@ -185,40 +186,41 @@ TEST_F(DeviceTest, APioneerOnASerialLine) {
   const SerialLine line(pioneer.port());
   Sensors sensors(
       "[PIONEER]\ndriver = PioneerOdometry\nprocess_rate = 50\nserial_port = " + line.name() + "\n", events);
-  ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); })) << events.text();
+  ASSERT_TRUE(test::happens([&] { return !sensors.odometry().empty(); })) << events.text();
   for (int i = 0; i < 10; ++i) robot.scan();
-  EXPECT_TRUE(happens([&] { return std::abs(sensors.odometry().back().x - robot.odometry().x) < 0.001; }));
+  EXPECT_TRUE(
+      test::happens([&] { return std::abs(sensors.odometry().back().x - robot.odometry().x) < 0.001; }));
   sensors.stop();
-  EXPECT_TRUE(happens([&] { return pioneer.closes() == 1; }));
+  EXPECT_TRUE(test::happens([&] { return pioneer.closes() == 1; }));
 }
 
 TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
   test::LmsStandIn lms(robot);
   test::PioneerStandIn pioneer(robot, 100);
-  const TemporaryFolder folder;
+  const files::TemporaryFolder folder;
   const std::string ini =
       folder.write("run.ini", "[particle_filter]\nparticles = 10\n" + lmsSection(lms.port()) +
                                   pioneerSection(pioneer.port()));
-  LiveOptions options;
+  live::LiveOptions options;
   options.maxWaiting = 1000;
-  Configuration configuration(ini, {"run.output=" + folder.path("live")});
-  LiveRun run(configuration, options, events.log(), true);
+  run::Configuration configuration(ini, {"run.output=" + folder.path("live")});
+  live::LiveRun run(configuration, options, events.log(), true);
   Sensors sensors(test::contentOf(ini), events, 5, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
-  ASSERT_TRUE(happens([&] { return sensors.scans().size() >= 25; })) << events.text();
+  ASSERT_TRUE(test::happens([&] { return sensors.scans().size() >= 25; })) << events.text();
   sensors.stop();
   run.finish("test", 0);
   EXPECT_EQ(run.skipped(), 0u);
 
-  Configuration again(ini, {"run.output=" + folder.path("offline")});
+  run::Configuration again(ini, {"run.output=" + folder.path("offline")});
   again.run.rawlog = folder.path("live/recording.rawlog");
   const std::atomic<bool> stop{false};
-  replay(again, true, stop, "test");
+  run::replay(again, true, stop, "test");
   const std::string trajectory = test::contentOf(folder.path("live/trajectory.tum"));
   EXPECT_EQ(trajectory, test::contentOf(folder.path("offline/trajectory.tum")));
   EXPECT_EQ(test::contentOf(folder.path("live/map.pgm")), test::contentOf(folder.path("offline/map.pgm")));
 
   // The robot's way, as far as it had come when the last scan was grouped.
-  const auto poses = loadTum(folder.path("live/trajectory.tum"));
+  const auto poses = files::loadTum(folder.path("live/trajectory.tum"));
   ASSERT_GE(poses.size(), 25u);
   const double way =
       std::hypot(poses.back().pose.x - poses.front().pose.x, poses.back().pose.y - poses.front().pose.y);
@@ -228,26 +230,26 @@ TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
 TEST_F(DeviceTest, AnLms100ThatIsNotThereIsWaitedFor) {
   uint16_t port = 0;
   {
-    TcpListener reserved("127.0.0.1", 0);
+    live::TcpListener reserved("127.0.0.1", 0);
     port = reserved.port();
   }
   Sensors sensors(lmsSection(port), events);
-  ASSERT_TRUE(happens([&] { return events.count("sensor LASER: fault") == 1; }));
+  ASSERT_TRUE(test::happens([&] { return events.count("sensor LASER: fault") == 1; }));
   test::LmsStandIn lms(robot, port);
-  EXPECT_TRUE(happens([&] { return !sensors.scans().empty(); })) << events.text();
+  EXPECT_TRUE(test::happens([&] { return !sensors.scans().empty(); })) << events.text();
 }
 
 TEST_F(DeviceTest, AnLms100ComesBackAfterEveryFault) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events, 0.3);
   for (const Fault fault : {Fault::cut, Fault::garbled, Fault::silent, Fault::refusing}) {
-    ASSERT_TRUE(happens([&] { return !sensors.scans().empty(); }));
+    ASSERT_TRUE(test::happens([&] { return !sensors.scans().empty(); }));
     const size_t faults = events.count("sensor LASER: fault");
     lms.set(fault);
-    ASSERT_TRUE(happens([&] { return events.count("sensor LASER: fault") > faults; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return events.count("sensor LASER: fault") > faults; })) << events.text();
     lms.set(Fault::none);
     const size_t before = sensors.scans().size();
-    ASSERT_TRUE(happens([&] { return sensors.scans().size() > before + 2; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return sensors.scans().size() > before + 2; })) << events.text();
   }
   for (const auto& scan : sensors.scans()) EXPECT_EQ(scan->getScanSize(), 541u) << "no part of a scan";
 }
@@ -257,14 +259,15 @@ TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events, 0.3);
   for (const Fault fault : {Fault::refusing, Fault::silent}) {
-    ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return !sensors.odometry().empty(); })) << events.text();
     const size_t faults = events.count("sensor PIONEER: fault");
     pioneer.set(fault);
-    ASSERT_TRUE(happens([&] { return events.count("sensor PIONEER: fault") > faults; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return events.count("sensor PIONEER: fault") > faults; }))
+        << events.text();
     for (int i = 0; i < 10; ++i) robot.scan();  // it drives meanwhile: not known to anybody
     pioneer.set(Fault::none);
     const size_t before = sensors.odometry().size();
-    ASSERT_TRUE(happens([&] { return sensors.odometry().size() > before; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return sensors.odometry().size() > before; })) << events.text();
     robot.scan();
   }
   const auto poses = sensors.odometry();
@@ -276,11 +279,11 @@ TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
 TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events);
-  ASSERT_TRUE(happens([&] { return !sensors.odometry().empty(); }));
+  ASSERT_TRUE(test::happens([&] { return !sensors.odometry().empty(); }));
   for (const Fault fault : {Fault::cut, Fault::garbled}) {
     pioneer.set(fault);
     const size_t before = sensors.odometry().size();
-    ASSERT_TRUE(happens([&] { return sensors.odometry().size() > before + 20; }));
+    ASSERT_TRUE(test::happens([&] { return sensors.odometry().size() > before + 20; }));
   }
   for (const auto& pose : sensors.odometry())
     EXPECT_EQ(pose, mrpt::math::TPose2D(0, 0, 0)) << "it stands still";
@@ -292,7 +295,7 @@ TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
   const auto errorOf = [&](const std::string& ini) -> std::string {
     try {
       mrpt::config::CConfigFileMemory config(ini);
-      SensorSource(config, 5, 1, events.shared());
+      sensors::SensorSource(config, 5, 1, events.shared());
     } catch (const InputError& e) {
       EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
       return e.what();

@@ -14,17 +14,17 @@
 
 #include "Screen.h"
 #include "base/Errors.h"
-#include "gui/MainFrame.h"
-#include "gui/ParametersDialog.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
 #include "live/ObservationServer.h"
-#include "live/TestEvents.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
+#include "window/gui/MainFrame.h"
+#include "window/gui/ParametersDialog.h"
 
 namespace hybrid_slam {
 namespace {
 
-using State = ReplaySnapshot::State;
+using State = window::ReplaySnapshot::State;
 using testing::HasSubstr;
 
 /// Answers dialogs in the user's place.
@@ -45,7 +45,7 @@ class GuiTest : public testing::Test {
  protected:
   void SetUp() override {
     dialogs.Register();
-    frame = new MainFrame;
+    frame = new window::MainFrame;
     frame->Move(0, 0);
     frame->Show();
     ini = folder.write(
@@ -68,16 +68,16 @@ class GuiTest : public testing::Test {
   }
   void settle(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    happens([&] { return std::chrono::steady_clock::now() > end; });
+    test::happens([&] { return std::chrono::steady_clock::now() > end; });
   }
   void menu(int command) {
     wxCommandEvent event(wxEVT_MENU, command);
     event.SetEventObject(frame);
     frame->ProcessWindowEvent(event);
   }
-  ReplaySnapshot now() { return *frame->replay()->session()->snapshot(); }
+  window::ReplaySnapshot now() { return *frame->replay()->session()->snapshot(); }
   bool stands(State state, size_t scans) {
-    return happens([&] { return now().state == state && now().scans == scans; });
+    return test::happens([&] { return now().state == state && now().scans == scans; });
   }
   /// The screen; also a PNG in the folder that HYBRID_SLAM_SCREENSHOTS names.
   wxImage screenshot(const std::string& name) {
@@ -109,31 +109,31 @@ class GuiTest : public testing::Test {
     return found;
   }
   /// The grey of the screen at a place of the map.
-  int greyAt(const wxImage& screen, const MapCanvas& canvas, double x, double y) const {
+  int greyAt(const wxImage& screen, const window::MapCanvas& canvas, double x, double y) const {
     const auto at = canvas.view().toPicture(x, y, canvas.size());
     const wxPoint p =
         onScreen({canvas.ClientToScreen(wxPoint(wxRound(at.x), wxRound(at.y))), wxSize(1, 1)}).GetTopLeft();
     return screen.GetRed(p.x, p.y);
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   Dialogs dialogs;
-  MainFrame* frame = nullptr;
+  window::MainFrame* frame = nullptr;
   std::string ini, log;
 };
 
 TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   frame->open(ini, log);
   ASSERT_TRUE(stands(State::paused, 0));
-  menu(kStep);
+  menu(window::kStep);
   ASSERT_TRUE(stands(State::paused, 1));
   frame->replay()->seek(60);
   ASSERT_TRUE(stands(State::ended, 60));
-  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
   const wxImage screen = screenshot("room");
   for (size_t i : {0, 1}) {
-    const MapCanvas& canvas = *frame->replay()->canvas(i);
-    const MapImage& map = canvas.shown()->map;
+    const window::MapCanvas& canvas = *frame->replay()->canvas(i);
+    const window::MapImage& map = canvas.shown()->map;
     size_t wall = 0, wallSeen = 0, free = 0, freeSeen = 0;
     for (int y = 0; y < map.height; ++y)
       for (int x = 0; x < map.width; ++x) {
@@ -153,7 +153,7 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 70, 230), 200u) << "matched lines of the scan";
   EXPECT_EQ(count(screen, *frame->replay()->canvas(1), 0, 70, 230), 0u) << "the general filter has none";
 
-  menu(kScanLines);
+  menu(window::kScanLines);
   EXPECT_EQ(count(screenshot("room-without-scan-lines"), *frame->replay()->canvas(0), 0, 70, 230), 0u);
 }
 
@@ -163,7 +163,7 @@ TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
   const size_t target = now().total * 6 / 10;
   frame->replay()->seek(target);
   ASSERT_TRUE(stands(State::paused, target));
-  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
   const wxImage screen = screenshot("replay");
   EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 150, 0), 300u) << "the line database";
   EXPECT_GT(count(screen, *frame->replay()->canvas(1), 255, 255, 255), 3000u) << "free space";
@@ -172,15 +172,15 @@ TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
 TEST_F(GuiTest, PlaysPausesAndGoesBackWhileTheWindowAnswers) {
   frame->open(ini, log);
   ASSERT_TRUE(stands(State::paused, 0));
-  menu(kPlay);
-  ASSERT_TRUE(happens([&] { return now().state == State::playing && now().scans > 3; }));
-  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  menu(window::kPlay);
+  ASSERT_TRUE(test::happens([&] { return now().state == State::playing && now().scans > 3; }));
+  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
   settle(0.1);
-  menu(kPlay);
-  ASSERT_TRUE(happens([&] { return now().state == State::paused; }));
+  menu(window::kPlay);
+  ASSERT_TRUE(test::happens([&] { return now().state == State::paused; }));
   const size_t there = now().scans;
   EXPECT_LT(there, 60u);
-  menu(kRestart);
+  menu(window::kRestart);
   ASSERT_TRUE(stands(State::paused, 0));
   frame->replay()->seek(there);
   ASSERT_TRUE(stands(State::paused, there));
@@ -188,13 +188,13 @@ TEST_F(GuiTest, PlaysPausesAndGoesBackWhileTheWindowAnswers) {
 }
 
 TEST_F(GuiTest, ExportsThePictureAndTheResults) {
-  menu(kExportPicture);
+  menu(window::kExportPicture);
   ASSERT_EQ(dialogs.messages.size(), 1u);
   EXPECT_THAT(dialogs.messages.back(), HasSubstr("play or step the log first"));
   frame->open(ini, log);
   frame->replay()->seek(40);
   ASSERT_TRUE(stands(State::paused, 40));
-  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
   frame->exportPictureTo(folder.path("map.png"));
   const wxImage picture(folder.path("map.png"), wxBITMAP_TYPE_PNG);
   ASSERT_TRUE(picture.IsOk());
@@ -207,18 +207,18 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   EXPECT_TRUE(scene.getByName("grid"));
   for (const char* const name : {"/proc/nowhere/map.png", "/proc/nowhere/map.3Dscene"})
     EXPECT_THROW(frame->exportPictureTo(name), InputError) << name;
-  menu(kExportPicture);  // cancelled
+  menu(window::kExportPicture);  // cancelled
   EXPECT_EQ(dialogs.messages.size(), 1u);
 
   frame->exportResultsTo(folder.path("out"));
-  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 2; }));
   EXPECT_THAT(dialogs.messages.back(), HasSubstr("Results of 40 scans"));
   for (const char* name : {"hybrid/trajectory.tum", "general/trajectory.tum", "hybrid/lines.csv"})
     EXPECT_FALSE(test::contentOf(folder.path(std::string("out/") + name)).empty()) << name;
 }
 
 TEST_F(GuiTest, SaysWhatIsWrongWithTheFiles) {
-  menu(kOpenRawlog);
+  menu(window::kOpenRawlog);
   frame->open(folder.path("missing.ini"), "");
   frame->open(folder.write("typo.ini", "[particle_filter]\nparticle = 3\n"), "");
   ASSERT_EQ(dialogs.messages.size(), 3u);
@@ -226,16 +226,16 @@ TEST_F(GuiTest, SaysWhatIsWrongWithTheFiles) {
   EXPECT_THAT(dialogs.messages[1], HasSubstr("missing.ini"));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("`particles`"));
   frame->open(ini, folder.write("no.rawlog", "this is none"));
-  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 4; }));
+  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 4; }));
   EXPECT_THAT(dialogs.messages[3], HasSubstr("no.rawlog"));
 }
 
 TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
   frame->open(ini, log);
-  EXPECT_EQ(ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "12"), "");
-  EXPECT_THAT(ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "-1"),
+  EXPECT_EQ(window::ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "12"), "");
+  EXPECT_THAT(window::ParametersDialog::fault(*frame->settings(), "particle_filter", "particles", "-1"),
               HasSubstr("expected a whole number"));
-  ParametersDialog dialog(frame, *frame->settings());
+  window::ParametersDialog dialog(frame, *frame->settings());
   dialog.Show();
   screenshot("parameters");
   auto* const grid = dynamic_cast<wxPropertyGrid*>(dialog.GetChildren().front());
@@ -246,22 +246,22 @@ TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
   frame->applyChanges(dialog.changes());
   EXPECT_EQ(frame->settings()->configuration.filter.filter.particles, 12);
   frame->saveIniTo(folder.path("saved.ini"));
-  const auto saved = Settings::fromFile(folder.path("saved.ini"));
+  const auto saved = window::Settings::fromFile(folder.path("saved.ini"));
   EXPECT_EQ(saved->configuration.filter.filter.particles, 12);
-  EXPECT_EQ(saved->configuration.run.method, RunOptions::Method::general);
+  EXPECT_EQ(saved->configuration.run.method, run::RunOptions::Method::general);
   EXPECT_EQ(saved->configuration.run.rawlog, log);
   EXPECT_TRUE(dialogs.messages.empty());
 }
 
 TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
-  menu(kLivePage);
+  menu(window::kLivePage);
   frame->live()->connectOrStop();
   ASSERT_EQ(dialogs.messages.size(), 1u);
   EXPECT_THAT(dialogs.messages[0], HasSubstr("open an INI file first"));
   frame->open(ini, log);
   ASSERT_TRUE(stands(State::paused, 0));
   test::Events events;
-  ObservationServer server("127.0.0.1", 0, {}, events.log());
+  live::ObservationServer server("127.0.0.1", 0, {}, events.log());
   frame->live()->setServer("127.0.0.1");
   frame->live()->connectOrStop();
   ASSERT_EQ(dialogs.messages.size(), 2u);
@@ -270,7 +270,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
   frame->live()->setOutput(folder.path("live"));
   frame->live()->connectOrStop();
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
   ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
   frame->replay()->seek(60);
   const test::Log all = test::laps(60);
@@ -281,16 +281,16 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
     server.publish(cycle);
     settle(0.03);
   }
-  ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
+  ASSERT_TRUE(test::happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
   const wxImage screen = screenshot("live");
   EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);
   EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
   EXPECT_GT(count(screen, *frame->live()->canvas(), 220, 0, 0), 30u) << "path and particles";
-  menu(kPath);
-  menu(kParticles);
+  menu(window::kPath);
+  menu(window::kParticles);
   EXPECT_EQ(count(screenshot("live-without-path"), *frame->live()->canvas(), 220, 0, 0), 0u);
   frame->live()->connectOrStop();
-  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
+  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 3; }));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
   EXPECT_TRUE(stands(State::ended, 60));

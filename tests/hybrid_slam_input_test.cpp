@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "HybridSlamProgram.h"
-#include "evaluation/Trajectory.h"
+#include "files/Trajectory.h"
 
 namespace hybrid_slam {
 namespace {
@@ -63,11 +63,11 @@ TEST_F(HybridSlam, WrongLog) {
   expectError(replay(folder.write("empty", "")), "empty");
   expectError(replay(folder.write("text", "ODOM 1 2 3\nFLASER 4 5 6\n")), "not a rawlog");
   expectError(replay(HYBRID_SLAM), "not a rawlog");
-  expectError(replay(Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");
-  expectError(replay(Log{test::scan(1), test::scan(2)}), "require_odometry = false");
-  expectError(replay(Log{test::odometry(1, {}), test::scan(1, {}, 0)}), "zero length");
+  expectError(replay(test::Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");
+  expectError(replay(test::Log{test::scan(1), test::scan(2)}), "require_odometry = false");
+  expectError(replay(test::Log{test::odometry(1, {}), test::scan(1, {}, 0)}), "zero length");
   expectError(replay(test::laps(4), "--set input.sensor_label=REAR"), "the log has `LASER`");
-  Log tilted = test::laps(4);
+  test::Log tilted = test::laps(4);
   for (auto& object : tilted)
     if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
       scan->sensorPose.setYawPitchRoll(0, 0.5, 0);
@@ -82,13 +82,14 @@ TEST_F(HybridSlam, UnreadableLog) {
 }
 
 TEST_F(HybridSlam, ScansOnlyOnRequest) {
-  expectDone(replay(Log{test::scan(1), test::scan(2), test::scan(3)}, "--set input.require_odometry=false"));
-  for (const auto& row : loadTum(output + "/trajectory.tum")) EXPECT_LT(row.pose.norm(), 0.2);
+  expectDone(
+      replay(test::Log{test::scan(1), test::scan(2), test::scan(3)}, "--set input.require_odometry=false"));
+  for (const auto& row : files::loadTum(output + "/trajectory.tum")) EXPECT_LT(row.pose.norm(), 0.2);
 }
 
 TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   std::vector<size_t> ends;
-  const std::string bytes = contentOf(test::writePlain(folder.path("whole"), test::laps(40), &ends));
+  const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), test::laps(40), &ends));
   ASSERT_EQ(replay(folder.write("part", bytes.substr(0, ends[41]))), 0) << err;
   const std::string part = result("trajectory.tum");
   fs::remove_all(output);
@@ -98,20 +99,20 @@ TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   EXPECT_THAT(err, HasSubstr("cut off in the middle of an object: entry 43 of " + log));
   EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
   EXPECT_EQ(result("trajectory.tum"), part);
-  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 21u);
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 21u);
 }
 
 TEST_F(HybridSlam, ACutGzippedLogToo) {
-  const std::string bytes = contentOf(test::writeGzipped(folder.path("whole"), test::laps(40)));
+  const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), test::laps(40)));
   EXPECT_EQ(replay(folder.write("cut.rawlog", bytes.substr(0, bytes.size() / 2))), 1);
   EXPECT_THAT(err, AllOf(MatchesRegex(kErrorLine), HasSubstr("gzip file damaged or cut off: entry ")));
   EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
-  EXPECT_GT(loadTum(output + "/trajectory.tum").size(), 5u);
+  EXPECT_GT(files::loadTum(output + "/trajectory.tum").size(), 5u);
 }
 
 /// Laps with some beams of each scan changed.
-Log withBeams(const std::function<void(test::CObservation2DRangeScan&, size_t)>& change) {
-  Log log = test::laps(30, 80, 91);
+test::Log withBeams(const std::function<void(test::CObservation2DRangeScan&, size_t)>& change) {
+  test::Log log = test::laps(30, 80, 91);
   for (auto& object : log)
     if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
       for (size_t i = 3; i < 91; i += 9) change(*scan, i);
@@ -119,9 +120,10 @@ Log withBeams(const std::function<void(test::CObservation2DRangeScan&, size_t)>&
 }
 
 TEST_F(HybridSlam, ReadingsThatAreNoneAreIgnoredBeamByBeam) {
-  const Log marked = withBeams([](auto& scan, size_t i) { scan.setScanRangeValidity(i, false); });
+  const test::Log marked = withBeams([](auto& scan, size_t i) { scan.setScanRangeValidity(i, false); });
   const float odd[] = {kNaN, HUGE_VALF, -HUGE_VALF, -3, 0, 20, 81.83f, 1e30f};
-  const Log unmarked = withBeams([&odd](auto& scan, size_t i) { scan.setScanRange(i, odd[i / 9 % 8]); });
+  const test::Log unmarked =
+      withBeams([&odd](auto& scan, size_t i) { scan.setScanRange(i, odd[i / 9 % 8]); });
   for (const std::string method : {"hybrid", "general", "stock"}) {
     SCOPED_TRACE(method);
     expectDone(replay(marked, "-m " + method));
@@ -132,19 +134,19 @@ TEST_F(HybridSlam, ReadingsThatAreNoneAreIgnoredBeamByBeam) {
 }
 
 TEST_F(HybridSlam, AllReadingsInvalid) {
-  Log log = test::laps(10);
+  test::Log log = test::laps(10);
   for (auto& object : log)
     if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
       for (size_t i = 0; i < 181; ++i) scan->setScanRange(i, kNaN);
   expectDone(replay(log));
-  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 10u);
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 10u);
 }
 
 TEST_F(HybridSlam, ScansWithoutBeamsAreLeftOut) {
-  Log log = test::laps(10);
+  test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
   expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; left out");
-  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 9u);
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 9u);
 }
 
 TEST_F(HybridSlam, AnyNumberOfBeams) {
@@ -155,8 +157,8 @@ TEST_F(HybridSlam, AnyNumberOfBeams) {
 }
 
 /// 10 scans, the last five with the odometry `jump` m farther on.
-Log withJump(double jump) {
-  Log log = test::laps(10);
+test::Log withJump(double jump) {
+  test::Log log = test::laps(10);
   for (size_t i = 10; i < 20; i += 2)
     std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[i])->odometry.x_incr(jump);
   return log;
@@ -175,11 +177,11 @@ TEST_F(HybridSlam, OdometryThatJumps) {
 TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
   const auto timesOf = [this] {
     std::vector<double> times;
-    for (const auto& row : loadTum(output + "/trajectory.tum")) times.push_back(row.timestamp - 1000);
+    for (const auto& row : files::loadTum(output + "/trajectory.tum")) times.push_back(row.timestamp - 1000);
     return times;
   };
   const auto withTimes = [](const std::vector<double>& times) {
-    Log log;
+    test::Log log;
     for (size_t i = 0; i < times.size(); ++i) {
       const double time = 1000 + times[i];
       log.push_back(test::odometry(time, test::poseOnLap(i, 40)));
@@ -196,7 +198,7 @@ TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 2, 1, 3));
   expectDone(replay(withTimes(std::vector<double>(4, test::kNoTime))),
              "4 scans without timestamp: first at entry 2");
-  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 4u);
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 4u);
 }
 
 }  // namespace

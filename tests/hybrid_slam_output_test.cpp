@@ -12,7 +12,7 @@
 
 #include "ChildProgram.h"
 #include "HybridSlamProgram.h"
-#include "evaluation/Trajectory.h"
+#include "files/Trajectory.h"
 
 namespace hybrid_slam {
 namespace {
@@ -34,7 +34,7 @@ TEST_F(HybridSlam, OutputThatCannotBeWritten) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   output = folder.write("file", "in its place");
   expectError(replay(log), output);
-  EXPECT_EQ(contentOf(output), "in its place");
+  EXPECT_EQ(test::contentOf(output), "in its place");
   output += "/below";
   expectError(replay(log), output);
 }
@@ -110,7 +110,7 @@ std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments
 }
 
 TEST_F(HybridSlam, ATerminalGetsABarWithTheTimeLeft) {
-  Log log = test::laps(100);
+  test::Log log = test::laps(100);
   const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
   const auto [text, code] = onTerminal({"hybrid-slam", "-o", output, ini, path});
   EXPECT_EQ(code, 0);
@@ -142,7 +142,7 @@ TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
     EXPECT_THAT(err, MatchesRegex(kErrorLine));
     EXPECT_THAT(err, HasSubstr("interrupted: entry "));
     EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
-    EXPECT_LT(loadTum(output + "/trajectory.tum").size(), 4000u);
+    EXPECT_LT(files::loadTum(output + "/trajectory.tum").size(), 4000u);
   }
 }
 

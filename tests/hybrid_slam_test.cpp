@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "HybridSlamProgram.h"
-#include "evaluation/Trajectory.h"
+#include "files/Trajectory.h"
 
 namespace hybrid_slam {
 namespace {
@@ -39,7 +39,7 @@ TEST_F(HybridSlam, WritesAllResultsAndSumsUp) {
               MatchesRegex("80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ times the log's pace\\): " +
                            output + "/map.png\n"));
 
-  const Trajectory trajectory = loadTum(output + "/trajectory.tum");
+  const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 80u);
   for (size_t i = 0; i < trajectory.size(); ++i) {
     EXPECT_NEAR(trajectory[i].timestamp, 1000 + 0.2 * static_cast<double>(i), 1e-6) << "the scan's own time";
@@ -93,8 +93,8 @@ TEST_F(HybridSlam, ConfigIniGivesTheSameRunAgain) {
   expectDone(replay(test::laps(40), "-n 6 -s 3 --set grid.resolution=0.2"));
   const std::string trajectory = result("trajectory.tum");
   EXPECT_EQ(run("'" + output + "/config.ini' -o '" + folder.path("again") + "'"), 0) << err;
-  EXPECT_EQ(contentOf(folder.path("again/trajectory.tum")), trajectory);
-  EXPECT_THAT(contentOf(folder.path("again/config.ini")),
+  EXPECT_EQ(test::contentOf(folder.path("again/trajectory.tum")), trajectory);
+  EXPECT_THAT(test::contentOf(folder.path("again/config.ini")),
               AllOf(HasSubstr("particles = 6"), HasSubstr("resolution = 0.2")));
 }
 
@@ -156,7 +156,7 @@ TEST_F(HybridSlam, AllMethodsAndProposals) {
     SCOPED_TRACE(options);
     fs::remove_all(output);
     expectDone(replay(log, options));
-    const Trajectory trajectory = loadTum(output + "/trajectory.tum");
+    const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(trajectory.size(), 24u);
     // The odometry is exact; MRPT's weights pull its few particles farther off than ours.
     EXPECT_LT((trajectory.back().pose - (test::poseOnLap(23, 80) - test::poseOnLap(0, 80))).norm(),
@@ -177,7 +177,7 @@ TEST_F(HybridSlam, SameSeedSameBytesForAnyNumberOfThreads) {
     return result("trajectory.tum");
   };
   const std::string first = trajectoryOf("-s 1 -j 1");
-  EXPECT_EQ(loadTum(output + "/trajectory.tum").size(), 225u);
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 225u);
   EXPECT_EQ(trajectoryOf("-s 1 -j 1"), first);
   EXPECT_EQ(trajectoryOf("-s 1 -j 2"), first);
   EXPECT_EQ(trajectoryOf("-s 1 -j 4"), first);
@@ -194,7 +194,8 @@ TEST_F(HybridSlam, StockWithMrptsOwnIni) {
   EXPECT_EQ(metrics["scans"], 225);
   const std::string trajectory = result("trajectory.tum");
   EXPECT_EQ(run("'" + output + "/config.ini' -q -o '" + folder.path("again") + "'"), 0) << err;
-  EXPECT_EQ(contentOf(folder.path("again/trajectory.tum")), trajectory) << "config.ini has MRPT's sections";
+  EXPECT_EQ(test::contentOf(folder.path("again/trajectory.tum")), trajectory)
+      << "config.ini has MRPT's sections";
 }
 
 // ---- command line

@@ -14,10 +14,10 @@
 #include "ChildProgram.h"
 #include "ResultFiles.h"
 #include "Shell.h"
-#include "io/RawlogReader.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
-#include "live/TestEvents.h"
+#include "files/RawlogReader.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -34,7 +34,8 @@ class LivePrograms : public testing::Test {
     std::vector<std::string> arguments{OBSERVATION_SERVER, config};
     arguments.insert(arguments.end(), more.begin(), more.end());
     auto program = std::make_unique<Program>(folder, "server", arguments);
-    EXPECT_TRUE(happens([&] { return program->out().find('\n') != std::string::npos; })) << program->err();
+    EXPECT_TRUE(test::happens([&] { return program->out().find('\n') != std::string::npos; }))
+        << program->err();
     const std::string line = program->out();
     port = line.substr(line.rfind(':') + 1, line.find('\n') - line.rfind(':') - 1);
     return program;
@@ -56,16 +57,16 @@ class LivePrograms : public testing::Test {
   std::string replay(const std::string& log, const std::string& to) {
     Program program(folder, "replay", {HYBRID_SLAM, ini, log, "-q", "-o", folder.path(to)});
     EXPECT_EQ(program.wait(), 0) << program.err();
-    return contentOf(folder.path(to + "/trajectory.tum"));
+    return test::contentOf(folder.path(to + "/trajectory.tum"));
   }
   /// Waits for the first cycles in the recording: they come in one block, within 5 s.
   bool isRecording() const {
-    return happens([&] {
+    return test::happens([&] {
       std::error_code none;
       return std::filesystem::file_size(output + "/.partial.recording.rawlog", none) > 1000 && !none;
     });
   }
-  std::string result(const std::string& name) const { return contentOf(output + "/" + name); }
+  std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
   /// All that a replay writes, and the recording.
   void expectAllResults() const {
     std::vector<std::string> all = test::kResults;
@@ -74,7 +75,7 @@ class LivePrograms : public testing::Test {
   }
   std::vector<std::string> results() const { return test::namesIn(output); }
   size_t recorded() const {
-    RawlogReader reader(output + "/recording.rawlog");
+    files::RawlogReader reader(output + "/recording.rawlog");
     size_t scans = 0;
     while (const auto object = reader.next())
       if (std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object)) ++scans;
@@ -87,7 +88,7 @@ class LivePrograms : public testing::Test {
     EXPECT_THAT(program.err(), HasSubstr(text));
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   std::string ini = folder.write(
       "live.ini",
       "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\nresolution = 0.1\n[live]\n");
@@ -117,7 +118,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
   const auto robot = replaying(5000, "50");
   const auto map = live();
   // The recording grows by blocks; a few cycles are enough.
-  ASSERT_TRUE(happens([&] { return robot->err().find("connected") != std::string::npos; }));
+  ASSERT_TRUE(test::happens([&] { return robot->err().find("connected") != std::string::npos; }));
   ASSERT_TRUE(isRecording()) << map->err();
   map->signal(SIGINT);
   EXPECT_EQ(map->wait(), 0) << map->err();
@@ -136,7 +137,7 @@ TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
   ASSERT_TRUE(isRecording()) << map->err();
   robot->signal(SIGKILL);
   EXPECT_EQ(robot->wait(), -1);
-  ASSERT_TRUE(happens([&] { return map->err().find("trying again") != std::string::npos; }));
+  ASSERT_TRUE(test::happens([&] { return map->err().find("trying again") != std::string::npos; }));
   robot = replaying(50, "500", port);
   EXPECT_EQ(map->wait(), 0) << map->err();
   EXPECT_THAT(map->err(), HasSubstr("another server: it goes on from the last pose"));
@@ -149,7 +150,7 @@ TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
 TEST_F(LivePrograms, WithoutAServerThereAreNoResultsButNoHarm) {
   port = "1";
   const auto map = live();
-  ASSERT_TRUE(happens([&] { return map->err().find("refused") != std::string::npos; })) << map->err();
+  ASSERT_TRUE(test::happens([&] { return map->err().find("refused") != std::string::npos; })) << map->err();
   map->signal(SIGTERM);
   EXPECT_EQ(map->wait(), 1);
   EXPECT_THAT(map->err(), HasSubstr("no scan came"));
@@ -167,7 +168,7 @@ TEST_F(LivePrograms, TheShippedConfigurationsWaitForTheirSensors) {
                    {HYBRID_SLAM_LIVE, SOURCE_DIR "/config-ini/live-p3dx-lms100.ini", "-o", output});
   Program map(folder, "live", arguments);
   for (Program* program : {robot.get(), &map}) {
-    EXPECT_TRUE(happens([&] {
+    EXPECT_TRUE(test::happens([&] {
       return program->err().find("sensor LASER: fault") != std::string::npos &&
              program->err().find("sensor PIONEER: fault") != std::string::npos;
     })) << program->err();
@@ -214,7 +215,7 @@ TEST_F(LivePrograms, HelpAndVersion) {
 }
 
 TEST_F(LivePrograms, EveryKeyIsInTheManual) {
-  const std::string manual = contentOf(SOURCE_DIR "/doc/live.md");
+  const std::string manual = test::contentOf(SOURCE_DIR "/doc/live.md");
   for (const char* path : {OBSERVATION_SERVER, HYBRID_SLAM_LIVE}) {
     Program help(folder, "help", {path, "--help-config"});
     EXPECT_EQ(help.wait(), 0);

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "Shell.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -49,7 +49,7 @@ class Log2Rawlog : public testing::Test {
     return log.loadFromRawLogFile(rawlog) ? log.size() : 0;
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   std::string rawlog = folder.path("out.rawlog");
   std::string out, err;
 };
@@ -67,12 +67,12 @@ TEST_F(Log2Rawlog, ConvertsAndSumsUp) {
 TEST_F(Log2Rawlog, GzippedGivesTheSameBytes) {
   const std::string log = scanRow("10") + scanRow("12.5");
   EXPECT_EQ(convert(folder.write("in.clf", log)), 0);
-  const std::string plain = contentOf(rawlog);
+  const std::string plain = test::contentOf(rawlog);
   gzFile file = gzopen(folder.path("in.clf.gz").c_str(), "wb");
   gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
   gzclose(file);
   EXPECT_EQ(convert(folder.path("in.clf.gz")), 0);
-  EXPECT_EQ(contentOf(rawlog), plain);
+  EXPECT_EQ(test::contentOf(rawlog), plain);
 }
 
 TEST_F(Log2Rawlog, BrokenLinesAreReportedAndDoNotStop) {
@@ -143,7 +143,7 @@ TEST_F(Log2Rawlog, WrongInput) {
   expectError(convert(folder.write("odometry", "ODOM 1 2 3 0 0 0 5 host 6\n")), "no laser scan");
   const std::string whole = folder.write("whole", scanRow("1"));
   ASSERT_EQ(convert(whole), 0);
-  const std::string bytes = contentOf(rawlog);
+  const std::string bytes = test::contentOf(rawlog);
   fs::remove(rawlog);
   expectError(convert(folder.write("rawlog", bytes)), "not a robot log");
 }
@@ -154,7 +154,7 @@ TEST_F(Log2Rawlog, CutGzip) {
   gzFile file = gzopen(folder.path("whole.gz").c_str(), "wb");
   gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
   gzclose(file);
-  const std::string bytes = contentOf(folder.path("whole.gz"));
+  const std::string bytes = test::contentOf(folder.path("whole.gz"));
   // The last line that could still be read may be a broken one, which is reported before.
   EXPECT_EQ(convert(folder.write("cut.gz", bytes.substr(0, bytes.size() / 2))), 2);
   EXPECT_THAT(err,
@@ -178,7 +178,7 @@ TEST_F(Log2Rawlog, OutputThatCannotBeWritten) {
   EXPECT_THAT(err, HasSubstr("expected the name of a file"));
   EXPECT_EQ(run("'" + log + "' '" + log + "'"), 2);
   EXPECT_THAT(err, HasSubstr("the output is the input"));
-  EXPECT_EQ(contentOf(log), scanRow("10"));
+  EXPECT_EQ(test::contentOf(log), scanRow("10"));
 }
 
 /// A limit on the size of files stands in for a full disk: writing fails in the middle.

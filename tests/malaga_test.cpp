@@ -11,8 +11,8 @@
 #include <string>
 
 #include "ResultFiles.h"
-#include "evaluation/Trajectory.h"
-#include "io/TestLogs.h"
+#include "files/Trajectory.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -25,11 +25,11 @@ class Malaga : public testing::Test {
   Malaga() : folder_(fs::path(testing::TempDir()) / ("malaga-" + std::to_string(getpid()))) {}
   ~Malaga() override { fs::remove_all(folder_); }
 
-  Trajectory run(const std::string& arguments) {
+  files::Trajectory run(const std::string& arguments) {
     const std::string command = std::string(HYBRID_SLAM) + " " + SOURCE_DIR +
                                 "/config-ini/malaga.ini -q -o '" + folder_.string() + "' " + arguments;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    return loadTum((folder_ / "trajectory.tum").string());
+    return files::loadTum((folder_ / "trajectory.tum").string());
   }
 
   /// Mean of a column of steps.csv over the updates that have it, the first (no map yet) left out.
@@ -55,7 +55,7 @@ class Malaga : public testing::Test {
 /// 0.56-0.69.
 TEST_F(Malaga, EndsWhereItWasRecordedToEnd) {
   for (const int seed : {1, 2, 3}) {
-    const Trajectory trajectory = run("-n 50 -s " + std::to_string(seed));
+    const files::Trajectory trajectory = run("-n 50 -s " + std::to_string(seed));
     ASSERT_EQ(trajectory.size(), 225u);
     const auto& end = trajectory.back().pose;
     EXPECT_NEAR(end.x, 4.15, 0.25) << "seed " << seed;

@@ -8,13 +8,13 @@
 
 #include "ChildProgram.h"
 #include "Shell.h"
-#include "evaluation/Trajectory.h"
-#include "io/Configuration.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
-#include "motion/MotionModelFit.h"
-#include "motion/SimulatedMotions.h"
-#include "simulation/WheelOdometry.h"
+#include "files/TemporaryFolder.h"
+#include "files/Trajectory.h"
+#include "run/Configuration.h"
+#include "slam/motion/MotionModelFit.h"
+#include "study/simulation/WheelOdometry.h"
+#include "testing/SimulatedMotions.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -50,8 +50,8 @@ class MotionModelLearn : public testing::Test {
   }
   /// As hybrid-slam reads `cat config.ini motion.ini`.
   MotionModelOptions learnt() const {
-    const std::string both = folder.write("both.ini", contentOf(ini) + contentOf(output));
-    return Configuration(both, {}).filter.motion;
+    const std::string both = folder.write("both.ini", test::contentOf(ini) + test::contentOf(output));
+    return run::Configuration(both, {}).filter.motion;
   }
   /// The numbers of the table of iterations, a list for each row.
   std::vector<std::vector<double>> rows() const {
@@ -66,7 +66,7 @@ class MotionModelLearn : public testing::Test {
     return all;
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
   std::string ini = folder.write("run.ini",
                                  "[particle_filter]\nparticles = 3\nproposal = improved\n"
                                  "[improved_proposal]\nupdate_distance = 0.3\nupdate_angle_deg = 15\n"
@@ -79,8 +79,8 @@ class MotionModelLearn : public testing::Test {
 /// From the true poses, as EM's M-step would learn it if nothing were hidden.
 std::vector<MotionSample> trueMotions(const std::string& log, const std::string& truth) {
   constexpr double kUpdateDistance = 0.3, kUpdateAngle = 15 * M_PI / 180;  // as in the INI file
-  const Trajectory poses = loadTum(truth);
-  RawlogSource source(log, InputOptions(), summarise(log, InputOptions()));
+  const files::Trajectory poses = files::loadTum(truth);
+  readings::RawlogSource source(log, readings::InputOptions(), summarise(log, readings::InputOptions()));
   std::vector<MotionSample> samples;
   mrpt::math::TPose2D odometry, last = poses.front().pose;
   for (size_t i = 0; const auto reading = source.next(); ++i) {
@@ -115,7 +115,7 @@ TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
   const double length = squaredWay / way, turn = squaredTurns / turns;
   // The inverse of what the simulated wheels do; its variances grow with the way, the model's with its
   // square.
-  const OdometryOptions wheels;
+  const simulation::OdometryOptions wheels;
   const auto variance = [](double sigma, double step, double minStd) {
     return sigma * sigma / step - minStd * minStd / (step * step);
   };
@@ -187,7 +187,8 @@ TEST_F(MotionModelLearn, SaysWhatTheLogDoesNotDetermineAndKeepsThePrior) {
                     why = "the robot turned 2.9 deg or more";
   EXPECT_THAT(err, MatchesRegex("motion-model-learn: warning: prior kept for " + keys + ": [^\n]*; " + why +
                                 " in [0-9]+ updates, it takes 20\n"));
-  EXPECT_THAT(contentOf(output), HasSubstr("# Not learnt but kept from " + ini + ": " + keys + ": " + why));
+  EXPECT_THAT(test::contentOf(output),
+              HasSubstr("# Not learnt but kept from " + ini + ": " + keys + ": " + why));
   EXPECT_EQ(learnt().turn.meanT, 1.05);
   EXPECT_EQ(learnt().distance.varianceT, MotionModelOptions().distance.varianceT);
   EXPECT_NE(learnt().distance.meanD, 0.95);
@@ -199,13 +200,13 @@ TEST_F(MotionModelLearn, SameSeedSameBytesForAnyNumberOfThreads) {
   ASSERT_EQ(learn(log, options + " -s 3 -j 1 -q"), 0) << err;
   EXPECT_THAT(out, IsEmpty());
   EXPECT_THAT(err, IsEmpty());
-  const std::string first = contentOf(output);
+  const std::string first = test::contentOf(output);
   EXPECT_THAT(first, HasSubstr(log));
   EXPECT_THAT(first, HasSubstr("\n# For updates every 0.3 m or 5 deg"));
   ASSERT_EQ(learn(log, options + " -s 3 -j 2 -q"), 0) << err;
-  EXPECT_EQ(contentOf(output), first);
+  EXPECT_EQ(test::contentOf(output), first);
   ASSERT_EQ(learn(log, options + " -s 4 -q"), 0) << err;
-  EXPECT_NE(contentOf(output), first);
+  EXPECT_NE(test::contentOf(output), first);
 }
 
 TEST_F(MotionModelLearn, ALogThatIsCutOffIsLearntFromUpToThere) {
@@ -249,13 +250,13 @@ TEST_F(MotionModelLearn, WrongCommandLine) {
 }
 
 TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
-  const std::string log = logOf(100), before = contentOf(log), settings = contentOf(ini);
+  const std::string log = logOf(100), before = test::contentOf(log), settings = test::contentOf(ini);
   EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + log + "'"), 2);
   EXPECT_THAT(err, HasSubstr("the output is the input: " + log));
   EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + ini + "'"), 2);
   EXPECT_THAT(err, HasSubstr("the output is the input: " + ini));
-  EXPECT_EQ(contentOf(log), before);
-  EXPECT_EQ(contentOf(ini), settings);
+  EXPECT_EQ(test::contentOf(log), before);
+  EXPECT_EQ(test::contentOf(ini), settings);
   output = folder.path("none/motion.ini");
   expectError(learn(log), "cannot write: " + output);
 }
@@ -273,7 +274,7 @@ TEST_F(MotionModelLearn, CtrlCLeavesNothingHalfWritten) {
     EXPECT_THAT(test::withoutProgress(program.err()),
                 MatchesRegex("motion-model-learn: error: interrupted: entry [0-9]+ of [^\n]*; nothing was "
                              "written\n"));
-    EXPECT_EQ(contentOf(output), "before");
+    EXPECT_EQ(test::contentOf(output), "before");
     EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
   }
 }

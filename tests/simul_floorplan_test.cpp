@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "Shell.h"
-#include "io/TemporaryFolder.h"
-#include "simulation/Simulation.h"
+#include "files/TemporaryFolder.h"
+#include "study/simulation/Simulation.h"
 
 namespace hybrid_slam {
 namespace {
@@ -47,7 +47,7 @@ class SimulFloorplan : public testing::Test {
     EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
   }
 
-  TemporaryFolder folder;
+  files::TemporaryFolder folder;
 };
 
 constexpr const char* kRun = "room.ini -o out.rawlog";
@@ -74,7 +74,7 @@ TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
   }
   EXPECT_EQ(scans, 76u);  // 5 m and 1.5 m at 0.5 m/s, 2 s of turning, at 5 Hz, both ends counted
   EXPECT_EQ(rows, scans);
-  EXPECT_THAT(contentOf(folder.path("out.png")), StartsWith("\x89PNG"));
+  EXPECT_THAT(test::contentOf(folder.path("out.png")), StartsWith("\x89PNG"));
   EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
 }
 
@@ -84,11 +84,11 @@ TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
   ASSERT_EQ(simulate("room.ini -q -s 1 -o b.rawlog").status, 0);
   ASSERT_EQ(simulate("room.ini -s 2 -o c.rawlog").status, 0);
   for (const char* extension : {".rawlog", ".tum", ".png"})
-    EXPECT_TRUE(contentOf(folder.path("a" + std::string(extension))) ==
-                contentOf(folder.path("b" + std::string(extension))))
+    EXPECT_TRUE(test::contentOf(folder.path("a" + std::string(extension))) ==
+                test::contentOf(folder.path("b" + std::string(extension))))
         << extension;
-  EXPECT_FALSE(contentOf(folder.path("a.rawlog")) == contentOf(folder.path("c.rawlog")));
-  const std::string header = contentOf(folder.path("a.rawlog")).substr(4, 4);
+  EXPECT_FALSE(test::contentOf(folder.path("a.rawlog")) == test::contentOf(folder.path("c.rawlog")));
+  const std::string header = test::contentOf(folder.path("a.rawlog")).substr(4, 4);
   EXPECT_EQ(header, std::string(4, '\0'));  // gzip's MTIME
 }
 
@@ -170,7 +170,7 @@ TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNothingBehind) {
 
 /// Where bytes differ: which file, how large each, and whether only the compression is another.
 std::string differenceOf(const fs::path& made, const fs::path& committed) {
-  const std::string a = contentOf(made), b = contentOf(committed);
+  const std::string a = test::contentOf(made), b = test::contentOf(committed);
   if (a == b) return "none";
   std::string text = made.filename().string() + ": " + std::to_string(a.size()) + " bytes made, " +
                      std::to_string(b.size()) + " committed";
@@ -226,10 +226,10 @@ std::string rowsOf(const Options& options) {
 }
 
 TEST(SimulationDocument, ListsEveryKeyWithItsDefaultUnitAndBounds) {
-  const std::string document = contentOf(std::string(SOURCE_DIR) + "/doc/simulation.md");
-  EXPECT_THAT(document, HasSubstr(rowsOf(SimulationOptions())));
-  EXPECT_THAT(document, HasSubstr(rowsOf(LaserOptions())));
-  EXPECT_THAT(document, HasSubstr(rowsOf(OdometryOptions())));
+  const std::string document = test::contentOf(std::string(SOURCE_DIR) + "/doc/simulation.md");
+  EXPECT_THAT(document, HasSubstr(rowsOf(simulation::SimulationOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(simulation::LaserOptions())));
+  EXPECT_THAT(document, HasSubstr(rowsOf(simulation::OdometryOptions())));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "SlamCompareProgram.h"
-#include "comparison/XmlCheck.h"
-#include "evaluation/Trajectory.h"
-#include "io/TestLogs.h"
+#include "files/Trajectory.h"
+#include "study/comparison/XmlCheck.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -19,7 +19,7 @@ using test::Outcome;
 using testing::HasSubstr;
 
 TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
-  const Trajectory truth = loadTum(kCsie + "csie-corridor.tum");
+  const files::Trajectory truth = files::loadTum(kCsie + "csie-corridor.tum");
   std::ostringstream relations;
   relations.precision(15);
   for (size_t i = 0; i + 60 < truth.size(); i += 20) {
@@ -47,7 +47,8 @@ TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
         0);
     EXPECT_EQ(table("results.csv").at(0).at("success"), share == "1.01" ? "1" : "0");
   }
-  EXPECT_THAT(contentOf(folder.path("out/report.html")), HasSubstr("relations' mean translation error is"));
+  EXPECT_THAT(test::contentOf(folder.path("out/report.html")),
+              HasSubstr("relations' mean translation error is"));
 }
 
 TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndSaysWhatSucceeds) {
@@ -70,8 +71,8 @@ TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndSaysWhatSucceeds) {
     ASSERT_EQ(shell(compare + "--success-revisit " + std::to_string(std::stod(share) * error)).status, 0);
     EXPECT_EQ(table("results.csv").at(0).at("success"), share == "1.01" ? "1" : "0");
   }
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  EXPECT_EQ(comparison::xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("scans revisit earlier ones, up to 2.5 m apart"));
   EXPECT_THAT(report, HasSubstr("revisit error, median (m)"));
 }

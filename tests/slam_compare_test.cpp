@@ -11,7 +11,7 @@
 
 #include "ChildProgram.h"
 #include "SlamCompareProgram.h"
-#include "comparison/XmlCheck.h"
+#include "study/comparison/XmlCheck.h"
 
 namespace hybrid_slam {
 namespace {
@@ -46,8 +46,8 @@ TEST_F(SlamCompare, AWholeComparison) {
     EXPECT_TRUE(fs::exists(one / name)) << name;
   for (const char* name : {"map.simplemap.gz", "map.pgm", "map.yaml"})
     EXPECT_FALSE(fs::exists(one / name)) << name;
-  EXPECT_THAT(contentOf(one / "config.ini"), HasSubstr("seed = 2"));
-  EXPECT_THAT(contentOf(one / "config.ini"), HasSubstr("method = paper"));
+  EXPECT_THAT(test::contentOf(one / "config.ini"), HasSubstr("seed = 2"));
+  EXPECT_THAT(test::contentOf(one / "config.ini"), HasSubstr("method = paper"));
 
   const auto rows = table("results.csv");
   ASSERT_EQ(rows.size(), 6u);
@@ -65,15 +65,15 @@ TEST_F(SlamCompare, AWholeComparison) {
     EXPECT_GT(std::stod(row.at("peak_rss_mb")), 1);
     EXPECT_THAT((std::vector<std::string>{"0", "1"}), testing::Contains(row.at("success")));
   }
-  const auto json = nlohmann::json::parse(contentOf(folder.path("out/summary.json")));
+  const auto json = nlohmann::json::parse(test::contentOf(folder.path("out/summary.json")));
   EXPECT_EQ(json.at("groups").size(), 3u);
   EXPECT_GT(table("summary.csv").size(), 20u);
 }
 
 TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
   ASSERT_EQ(run(kSmall + kTruth).status, 0);
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  EXPECT_EQ(comparison::xmlDefect(report), "");
   for (const char* part :
        {"--methods hybrid,general --particles 4 --seeds 2", "Success rates",
         "absolute trajectory error, rmse (m)", "heading error at the return (deg)", "share of doubled wall",
@@ -95,15 +95,15 @@ TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
     EXPECT_EQ(row.at("success"), "");
     EXPECT_GT(std::stod(row.at("std_phi_deg")), 0);
   }
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  EXPECT_EQ(comparison::xmlDefect(report), "");
   EXPECT_THAT(report, Not(HasSubstr("Success rates")));
 }
 
 TEST_F(SlamCompare, ParticlesArePicturedWhereTheRunsHaveThem) {
   ASSERT_EQ(run(kSmall + kTruth + " --set run.particles_every=2").status, 0);
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  EXPECT_EQ(comparison::xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
   EXPECT_THAT(report, HasSubstr("particles of general-4, "));
 }
@@ -175,10 +175,10 @@ TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersGoOn) {
   EXPECT_EQ(rows[0].at("status"), "done");
   EXPECT_EQ(rows[3].at("status"), "failed");
   EXPECT_EQ(rows[3].at("ate_rmse_m"), "");
-  const std::string report = contentOf(folder.path("out/report.html"));
-  EXPECT_EQ(xmlDefect(report), "");
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  EXPECT_EQ(comparison::xmlDefect(report), "");
   EXPECT_THAT(report, HasSubstr("no scans of the laser `NONE`"));
-  const auto json = nlohmann::json::parse(contentOf(folder.path("out/summary.json")));
+  const auto json = nlohmann::json::parse(test::contentOf(folder.path("out/summary.json")));
   EXPECT_EQ(json["groups"][1]["success"]["successes"], 0);
 }
 
@@ -191,7 +191,7 @@ TEST_F(SlamCompare, ReportOnlyStartsNothing) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].at("status"), "done");
   EXPECT_EQ(rows[2].at("status"), "missing");
-  EXPECT_EQ(xmlDefect(contentOf(folder.path("out/report.html"))), "");
+  EXPECT_EQ(comparison::xmlDefect(test::contentOf(folder.path("out/report.html"))), "");
 }
 
 TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "SlamEvalProgram.h"
-#include "evaluation/Trajectory.h"
-#include "io/TestLogs.h"
+#include "files/Trajectory.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -22,14 +22,14 @@ struct Revisits : SlamEval {
   void writeLaps(size_t steps, double shift) const {
     const test::Log log = test::laps(steps);
     test::writeGzipped(folder.path("laps.rawlog"), log);
-    Trajectory trajectory;
+    files::Trajectory trajectory;
     for (size_t i = 0; i < steps; ++i) {
-      StampedPose p{1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80)};
+      files::StampedPose p{1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80)};
       if (i >= 160) p.pose.y += shift;
       trajectory.push_back(p);
     }
     std::ofstream text(folder.path("laps.tum"));
-    saveTum(trajectory, text);
+    files::saveTum(trajectory, text);
   }
   const std::string call = "revisits --trajectory laps.tum --rawlog laps.rawlog ";
 };

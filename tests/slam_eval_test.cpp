@@ -13,8 +13,8 @@
 
 #include "SlamEvalProgram.h"
 #include "base/RandomStream.h"
-#include "evaluation/RelationErrors.h"
-#include "evaluation/Trajectory.h"
+#include "files/Trajectory.h"
+#include "study/evaluation/RelationErrors.h"
 
 namespace hybrid_slam {
 namespace {
@@ -172,7 +172,7 @@ TEST_F(SlamEval, FailedWriteIsNotTakenForSuccess) {
 /// The Intel log's odometry as a trajectory: no good one, but with everything that makes the metric hard.
 struct ReferenceEvaluator : SlamEval {
   fs::path datasets, evaluator;
-  Trajectory odometry;
+  files::Trajectory odometry;
 
   void SetUp() override {
     const char* const name = std::getenv("HYBRID_SLAM_DATASETS");
@@ -181,19 +181,19 @@ struct ReferenceEvaluator : SlamEval {
     evaluator = datasets / ".." / "tools";
     if (!fs::exists(evaluator / "evalrel.py")) GTEST_SKIP() << "no evalrel.py in " << evaluator;
     if (shell("python3 --version").status != 0) GTEST_SKIP() << "no python3";
-    odometry = loadOdometry((datasets / "intel-lab.odom.gz").string());
+    odometry = files::loadOdometry((datasets / "intel-lab.odom.gz").string());
     std::ofstream text(folder.path("odometry.txt"));  // it reads plain text only
     text << std::setprecision(17);
-    for (const StampedPose& o : odometry)
+    for (const files::StampedPose& o : odometry)
       text << o.timestamp << ' ' << o.pose.x << ' ' << o.pose.y << ' ' << o.pose.phi << '\n';
   }
 
   /// Every `step`-th reading with noise, in log order, with the stamps as a TUM file holds them.
-  Trajectory noisyTrajectory(size_t step) const {
+  files::Trajectory noisyTrajectory(size_t step) const {
     RandomStream random(9, step, 0);
-    Trajectory t;
+    files::Trajectory t;
     for (size_t i = 0; i < odometry.size(); i += step) {
-      StampedPose p = odometry[i];
+      files::StampedPose p = odometry[i];
       p.pose.x += 0.05 * random.gaussian();
       p.pose.y += 0.05 * random.gaussian();
       p.pose.phi += 0.02 * random.gaussian();
@@ -202,11 +202,11 @@ struct ReferenceEvaluator : SlamEval {
     return t;
   }
 
-  json expected(const Trajectory& trajectory, bool bridge, double tolerance) const {
+  json expected(const files::Trajectory& trajectory, bool bridge, double tolerance) const {
     {
       std::ofstream text(folder.path("trajectory.txt"));
       text << std::setprecision(17);
-      for (const StampedPose& p : trajectory)
+      for (const files::StampedPose& p : trajectory)
         text << p.timestamp << ' ' << p.pose.x << ' ' << p.pose.y << ' ' << p.pose.phi << '\n';
     }
     write("run.py",
@@ -226,12 +226,12 @@ struct ReferenceEvaluator : SlamEval {
 
   void compare(size_t step, bool bridge, double tolerance) const {
     SCOPED_TRACE(testing::Message() << "every " << step << "th reading, bridge " << bridge);
-    const Trajectory trajectory = noisyTrajectory(step);
+    const files::Trajectory trajectory = noisyTrajectory(step);
     const json theirs = expected(trajectory, bridge, tolerance);
     ASSERT_TRUE(theirs.is_object());
     {
       std::ofstream text(folder.path("trajectory.tum"));
-      saveTum(trajectory, text);
+      files::saveTum(trajectory, text);
     }
     const json ours =
         figures("relations --trajectory trajectory.tum --relations '" + relationsFile() + "' --tolerance " +
@@ -247,8 +247,8 @@ struct ReferenceEvaluator : SlamEval {
       EXPECT_NEAR(ours.at(ourName), theirs.at(theirName), 1e-6) << ourName;
 
     // In process nothing is rounded, so that the agreement must be closer, and holds for all figures.
-    const RelationErrors e = evaluateRelations(trajectory, loadRelations(relationsFile()),
-                                               bridge ? &odometry : nullptr, tolerance);
+    const evaluation::RelationErrors e = evaluation::evaluateRelations(
+        trajectory, evaluation::loadRelations(relationsFile()), bridge ? &odometry : nullptr, tolerance);
     EXPECT_EQ(e.used, theirs.at("usable"));
     EXPECT_NEAR(e.translation.rmse * e.translation.rmse, theirs.at("trans_sq"), 1e-9);
     EXPECT_NEAR(e.translation.mean, theirs.at("trans_abs"), 1e-9);

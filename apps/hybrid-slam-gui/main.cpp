@@ -11,7 +11,7 @@
 #include <cstdlib>
 
 #include "Program.h"
-#include "gui/MainFrame.h"
+#include "window/gui/MainFrame.h"
 
 namespace {
 
@@ -29,7 +29,7 @@ class GuiApp : public wxApp {
       return false;
     }
     wxInitAllImageHandlers();
-    auto* const frame = new hybrid_slam::MainFrame;
+    auto* const frame = new hybrid_slam::window::MainFrame;
     frame->Show();
     if (!config.empty()) frame->CallAfter([frame] { frame->open(config, rawlog); });
     return true;

@@ -9,8 +9,8 @@
 #include "SensorProgram.h"
 #include "Settings.h"
 #include "Stop.h"
-#include "live/LiveRun.h"
 #include "live/ObservationClient.h"
+#include "live_run/LiveRun.h"
 #include "sensors/SensorSource.h"
 
 namespace {
@@ -50,37 +50,37 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
 }
 
 /// Runs until Ctrl-C, or the end of the log that the server replays. @return the summary
-std::string runLive(Configuration& configuration, const LiveOptions& options, bool isQuiet) {
-  const auto log = std::make_shared<EventLog>("hybrid-slam-live");
-  std::unique_ptr<CycleSource> source;
-  const ObservationClient* client = nullptr;
+std::string runLive(run::Configuration& configuration, const live::LiveOptions& options, bool isQuiet) {
+  const auto log = std::make_shared<live::EventLog>("hybrid-slam-live");
+  std::unique_ptr<live::CycleSource> source;
+  const live::ObservationClient* client = nullptr;
   if (options.server.empty()) {
-    source =
-        std::make_unique<SensorSource>(configuration.source, options.cycleRate, options.sensorTimeout, log);
+    source = std::make_unique<sensors::SensorSource>(configuration.source, options.cycleRate,
+                                                     options.sensorTimeout, log);
   } else {
-    const auto [host, port] = hostAndPort(options.server, "section [live], key `server`");
-    auto owned =
-        std::make_unique<ObservationClient>(ObservationClient::Settings{host, port, options.timeout}, *log);
+    const auto [host, port] = live::hostAndPort(options.server, "section [live], key `server`");
+    auto owned = std::make_unique<live::ObservationClient>(
+        live::ObservationClient::Settings{host, port, options.timeout}, *log);
     client = owned.get();
     source = std::move(owned);
   }
-  LiveRun run(configuration, options, *log, isQuiet);
+  live::LiveRun run(configuration, options, *log, isQuiet);
   source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
               [&] { return stop || run.hasFailed(); });
   return run.finish(HYBRID_SLAM_VERSION, client ? client->lost() : 0);
 }
 
-int run(const CommandLine& line, const std::vector<std::string>& settings) {
-  LiveOptions options;
-  const Sections sections{{"live", &options}};
+int execute(const CommandLine& line, const std::vector<std::string>& settings) {
+  live::LiveOptions options;
+  const files::Sections sections{{"live", &options}};
   if (line.wantsManual) {
-    writeManual(sections, std::cout);
+    files::writeManual(sections, std::cout);
     return 0;
   }
   if (line.config.empty()) return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini");
   ignoreHangUps();
   stopOnSignals();
-  Configuration configuration(line.config, settings, sections);
+  run::Configuration configuration(line.config, settings, sections);
   const std::string summary = runLive(configuration, options, line.isQuiet);
   if (!line.isQuiet) std::cout << summary << "\n";
   return 0;
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
                  "hybrid-slam-live"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
-    return run(line, settingsOf(line, app));
+    return execute(line, settingsOf(line, app));
   };
   return leaveDrivers(
       exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config, e); }));

@@ -8,7 +8,7 @@
 #include "Program.h"
 #include "Settings.h"
 #include "Stop.h"
-#include "io/Replay.h"
+#include "run/Replay.h"
 
 namespace {
 
@@ -52,19 +52,19 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   return settings;
 }
 
-int run(const CommandLine& line, const std::vector<std::string>& settings) {
+int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (line.wantsManual) {
-    std::cout << configurationManual();
+    std::cout << run::configurationManual();
     return 0;
   }
   if (line.config.empty())
     return fail(2, "no INI file: command line; expected hybrid-slam config.ini [dataset.rawlog]");
   stopOnSignals();
-  Configuration configuration(line.config, settings);
+  run::Configuration configuration(line.config, settings);
   if (configuration.run.rawlog.empty())
     return fail(2,
                 "no rawlog: command line; expected hybrid-slam config.ini dataset.rawlog, or [run] rawlog");
-  const auto outcome = replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
+  const auto outcome = run::replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
   for (const std::string& warning : outcome.warnings)
     std::cerr << "hybrid-slam: warning: " << warning << "\n";
   if (!line.isQuiet) std::cout << outcome.summary << "\n";
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     CLI::App app{"Replays a rawlog through the hybrid RBPF: grid maps with line directions"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
-    return run(line, settingsOf(line, app));
+    return execute(line, settingsOf(line, app));
   };
   return exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config, e); });
 }

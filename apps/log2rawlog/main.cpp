@@ -10,12 +10,11 @@
 #include <sstream>
 
 #include "Program.h"
-#include "io/LogConversion.h"
+#include "readings/LogConversion.h"
 
 namespace {
 
-using hybrid_slam::LogFormat;
-using hybrid_slam::LogTime;
+using namespace hybrid_slam;
 
 /// CLI::Range lets `nan` pass.
 CLI::Validator within(double low, double high) {
@@ -29,18 +28,18 @@ CLI::Validator within(double low, double high) {
           range.str()};
 }
 
-const char* formatName(LogFormat format) {
+const char* formatName(readings::LogFormat format) {
   switch (format) {
-    case LogFormat::gfs:
+    case readings::LogFormat::gfs:
       return "GMapping .gfs";
-    case LogFormat::dpslam:
+    case readings::LogFormat::dpslam:
       return "DP-SLAM";
     default:
       return "CARMEN";
   }
 }
 
-void printSummary(const std::string& output, const hybrid_slam::LogSummary& s) {
+void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("%s: %s log, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken lines",
               output.c_str(), formatName(s.format), s.scans, s.odometryReadings, s.latest - s.earliest,
               s.pathLength, s.brokenLines);
@@ -63,7 +62,7 @@ void warnOfShortMode(const std::string& input, float longestRange) {
 
 int convert(int argc, char** argv) {
   std::string input, output;
-  hybrid_slam::LogConversionOptions options;
+  readings::LogConversionOptions options;
   std::optional<double> angularStepDeg;
   std::string format, time = "ipc";
 
@@ -100,15 +99,16 @@ int convert(int argc, char** argv) {
                "write (action, sensory frame) pairs instead of one observation for each row");
   app.add_flag("--strict", options.strict, "stop at the first broken line");
 
-  if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
-  const std::map<std::string, LogFormat> formats{
-      {"carmen", LogFormat::carmen}, {"gfs", LogFormat::gfs}, {"dpslam", LogFormat::dpslam}};
+  if (const auto code = parse(app, argc, argv)) return *code;
+  const std::map<std::string, readings::LogFormat> formats{{"carmen", readings::LogFormat::carmen},
+                                                           {"gfs", readings::LogFormat::gfs},
+                                                           {"dpslam", readings::LogFormat::dpslam}};
   if (!format.empty()) options.format = formats.at(format);
-  options.time = time == "ipc" ? LogTime::ipc : LogTime::logger;
+  options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
   if (angularStepDeg) options.angularStep = *angularStepDeg * M_PI / 180;
 
   const auto summary =
-      hybrid_slam::convertLog(input, output, options, [&input](size_t number, const std::string& why) {
+      readings::convertLog(input, output, options, [&input](size_t number, const std::string& why) {
         std::cerr << "log2rawlog: warning: broken line: " << input << ", line " << number << "; " << why
                   << '\n';
       });
@@ -120,5 +120,5 @@ int convert(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return hybrid_slam::exitCodeOf([&] { return convert(argc, argv); });
+  return exitCodeOf([&] { return convert(argc, argv); });
 }

@@ -11,9 +11,9 @@
 #include "Program.h"
 #include "Settings.h"
 #include "Stop.h"
-#include "io/FilteredMotions.h"
-#include "io/MotionModelText.h"
-#include "io/OutputFolder.h"
+#include "files/OutputFolder.h"
+#include "run/FilteredMotions.h"
+#include "run/MotionModelText.h"
 
 namespace {
 
@@ -49,15 +49,15 @@ void describe(CLI::App& app, CommandLine& line) {
       "2 wrong command line or input.");
 }
 
-Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
+run::Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
   std::vector<std::string> settings = line.settings;
   set(settings, "run.rawlog", line.log);
   line.filter.addTo(settings, app);
-  return Configuration(line.config, settings);
+  return run::Configuration(line.config, settings);
 }
 
 /// What the learnt section says of its origin.
-std::vector<std::string> comments(const CommandLine& line, const Configuration& configuration,
+std::vector<std::string> comments(const CommandLine& line, const run::Configuration& configuration,
                                   const EmIteration& prior, const LearntMotionModel& learnt) {
   const auto text = [](const auto&... parts) {
     std::ostringstream out;
@@ -79,34 +79,34 @@ std::vector<std::string> comments(const CommandLine& line, const Configuration& 
   return all;
 }
 
-int learn(const CommandLine& line, Configuration configuration) {
+int learn(const CommandLine& line, run::Configuration configuration) {
   for (const std::string& input : {line.config, line.log}) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, line.output, ignored))
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
-  const RawlogSummary log = summarise(line.log, configuration.input);
-  GrowingFile output(line.output);  // now, so that the run is not for nothing
+  const readings::RawlogSummary log = summarise(line.log, configuration.input);
+  files::GrowingFile output(line.output);  // now, so that the run is not for nothing
 
   int iteration = 0;
   const auto eStep = [&](const MotionModelOptions& model) {
     configuration.filter.motion = model;
-    return filteredMotions(configuration, log, line.isQuiet, "iteration " + std::to_string(iteration++),
-                           stop);
+    return run::filteredMotions(configuration, log, line.isQuiet, "iteration " + std::to_string(iteration++),
+                                stop);
   };
   EmIteration prior;
   const auto report = [&](const EmIteration& done) {
     if (done.number == 0) prior = done;
     if (line.isQuiet) return;
-    if (done.number == 0) std::cout << motionModelTableHead();
-    std::cout << motionModelTableRow(done.number, done.logLikelihood, done.model) << std::flush;
+    if (done.number == 0) std::cout << run::motionModelTableHead();
+    std::cout << run::motionModelTableRow(done.number, done.logLikelihood, done.model) << std::flush;
   };
   const LearntMotionModel learnt =
       learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.log, report);
   for (const auto& [keys, why] : learnt.determined.lacks)
     std::cerr << "motion-model-learn: warning: prior kept for " << keys
               << " of distance, drift and turn: " << line.log << "; " << why << "\n";
-  output.stream() << motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
+  output.stream() << run::motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
   output.finish();
   if (!line.isQuiet)
     std::cout << (learnt.isConverged ? "the likelihood has stopped rising"

@@ -8,7 +8,7 @@
 #include "SensorProgram.h"
 #include "Settings.h"
 #include "Stop.h"
-#include "io/IniFile.h"
+#include "files/IniFile.h"
 #include "live/TcpSocket.h"
 #include "sensors/PioneerOdometry.h"
 #include "sensors/ServeObservations.h"
@@ -35,11 +35,11 @@ void describe(CLI::App& app, CommandLine& line) {
 }
 
 int run(const CommandLine& line) {
-  ServerOptions options;
-  const Sections sections{{"server", &options}};
+  live::ServerOptions options;
+  const files::Sections sections{{"server", &options}};
   if (line.wantsManual) {
-    PioneerOptions pioneer;
-    writeManual({{"server", &options}, {"PIONEER", &pioneer}}, std::cout);
+    sensors::PioneerOptions pioneer;
+    files::writeManual({{"server", &options}, {"PIONEER", &pioneer}}, std::cout);
     return 0;
   }
   if (line.config.empty())
@@ -47,12 +47,13 @@ int run(const CommandLine& line) {
   ignoreHangUps();
   stopOnSignals();
   mrpt::config::CConfigFileMemory source;
-  loadIni(source, line.config, line.settings, sections, "", "expected a section [server] (doc/live.md)");
-  const auto log = std::make_shared<EventLog>("observation-server");
-  const std::string summary = serveObservations(
+  files::loadIni(source, line.config, line.settings, sections, "",
+                 "expected a section [server] (doc/live.md)");
+  const auto log = std::make_shared<live::EventLog>("observation-server");
+  const std::string summary = sensors::serveObservations(
       options, source, log, [] { return stop.load(); },
       [&](uint16_t port) {
-        std::cout << "listening at " << addressText(options.address, port) << std::endl;
+        std::cout << "listening at " << live::addressText(options.address, port) << std::endl;
       });
   if (!line.isQuiet) std::cout << summary << "\n";
   return 0;

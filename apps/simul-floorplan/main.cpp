@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "Program.h"
-#include "simulation/FloorPlan.h"
-#include "simulation/Route.h"
-#include "simulation/SimulationOutput.h"
+#include "study/simulation/FloorPlan.h"
+#include "study/simulation/Route.h"
+#include "study/simulation/SimulationOutput.h"
 
 namespace {
 
@@ -80,9 +80,9 @@ void writeTogether(
 
 void run(const CommandLine& line) {
   const mrpt::config::CConfigFileMemory config = readConfig(line);
-  SimulationOptions options;
-  LaserOptions laser;
-  OdometryOptions odometry;
+  simulation::SimulationOptions options;
+  simulation::LaserOptions laser;
+  simulation::OdometryOptions odometry;
   checkSections(config, {"simulation", "laser", "odometry"});
   options.loadFromConfigFile(config, "simulation");
   laser.loadFromConfigFile(config, "laser");
@@ -95,16 +95,18 @@ void run(const CommandLine& line) {
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 
-  const FloorPlan plan = FloorPlan::load(besideConfig(line, options.plan, "plan"));
-  const Route route = Route::load(besideConfig(line, options.route, "route"));
-  const SimulatedLog log = simulate(plan, route, options, laser, odometry);
+  const simulation::FloorPlan plan = simulation::FloorPlan::load(besideConfig(line, options.plan, "plan"));
+  const simulation::Route route = simulation::Route::load(besideConfig(line, options.route, "route"));
+  const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
 
   fs::path truth = output, picture = output;
   truth.replace_extension(".tum");
   picture.replace_extension(".png");
-  writeTogether({{output, [&](const std::string& f) { writeRawlog(toRawlog(log, options.form), f); }},
-                 {truth, [&](const std::string& f) { writeGroundTruth(log.groundTruth, f); }},
-                 {picture, [&](const std::string& f) { writePicture(plan, log.groundTruth, f); }}});
+  writeTogether(
+      {{output,
+        [&](const std::string& f) { simulation::writeRawlog(simulation::toRawlog(log, options.form), f); }},
+       {truth, [&](const std::string& f) { simulation::writeGroundTruth(log.groundTruth, f); }},
+       {picture, [&](const std::string& f) { simulation::writePicture(plan, log.groundTruth, f); }}});
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()
                                ? 0

@@ -14,13 +14,13 @@
 
 #include "Program.h"
 #include "Settings.h"
-#include "comparison/Comparison.h"
-#include "comparison/Report.h"
-#include "io/Configuration.h"
-#include "io/EndPointReader.h"
-#include "io/OutputFolder.h"
-#include "io/RawlogSource.h"
-#include "io/TrajectoryRecorder.h"
+#include "files/OutputFolder.h"
+#include "readings/EndPointReader.h"
+#include "readings/RawlogSource.h"
+#include "run/Configuration.h"
+#include "run/TrajectoryRecorder.h"
+#include "study/comparison/Comparison.h"
+#include "study/comparison/Report.h"
 
 namespace {
 
@@ -34,7 +34,7 @@ struct CommandLine {
   std::vector<std::string> methods{"hybrid", "general"}, particles, variants, settings;
   int seeds = 30, firstSeed = 1, jobs = 0;
   std::optional<double> revisits;  // m
-  SuccessCriterion criterion;
+  comparison::SuccessCriterion criterion;
   bool isReportOnly = false, isListOnly = false, isQuiet = false;
 };
 
@@ -112,7 +112,7 @@ void check(const CommandLine& line) {
   expect(line.criterion.relations > 0, "--success-relations", "expected a number of metres above 0");
   expect(line.criterion.revisits > 0, "--success-revisit", "expected a number of metres above 0");
   expect(line.revisits.value_or(1) > 0, "--revisits", "expected a number of metres above 0");
-  for (const std::string& setting : line.settings) checkSetting(setting, "option --set");
+  for (const std::string& setting : line.settings) comparison::checkSetting(setting, "option --set");
   if (!line.odometry.empty() && line.relations.empty())
     throw InputError("odometry without relations", "option --odometry", "expected --relations beside it");
   if (!line.floorplan.empty() && line.reference.empty())
@@ -120,13 +120,13 @@ void check(const CommandLine& line) {
                      "expected --reference beside it, which places the maps in the plan");
 }
 
-GroundTruth loadTruth(const CommandLine& line) {
-  GroundTruth truth;
+comparison::GroundTruth loadTruth(const CommandLine& line) {
+  comparison::GroundTruth truth;
   truth.criterion = line.criterion;
-  if (!line.reference.empty()) truth.reference = loadTum(line.reference);
-  if (!line.relations.empty()) truth.relations = loadRelations(line.relations);
-  if (!line.odometry.empty()) truth.odometry = loadOdometry(line.odometry);
-  if (!line.floorplan.empty()) truth.plan = FloorPlan::load(line.floorplan);
+  if (!line.reference.empty()) truth.reference = files::loadTum(line.reference);
+  if (!line.relations.empty()) truth.relations = evaluation::loadRelations(line.relations);
+  if (!line.odometry.empty()) truth.odometry = files::loadOdometry(line.odometry);
+  if (!line.floorplan.empty()) truth.plan = simulation::FloorPlan::load(line.floorplan);
   if (line.revisits) {
     truth.revisits.emplace();
     truth.revisits->distance = *line.revisits;
@@ -140,7 +140,7 @@ struct Setup {
   std::vector<std::string> settings;
 };
 
-Setup setupOf(const CommandLine& line, const Group& group, int seed) {
+Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed) {
   Setup setup{group.variant.iniFile.empty() ? line.config : group.variant.iniFile, line.settings};
   std::vector<std::string>& settings = setup.settings;
   settings.insert(settings.end(), group.variant.settings.begin(), group.variant.settings.end());
@@ -151,18 +151,19 @@ Setup setupOf(const CommandLine& line, const Group& group, int seed) {
   set(settings, "particle_filter.seed", std::to_string(seed));
   set(settings, "particle_filter.threads", "1");
   // MRPT's own filter reads its own section where there is one, with its own name for the particles.
-  if (group.method == "stock" && Configuration(setup.config, settings).source.sectionExists(kStockSection))
-    set(settings, std::string(kStockSection) + ".sampleSize", particles);
+  if (group.method == "stock" &&
+      run::Configuration(setup.config, settings).source.sectionExists(run::kStockSection))
+    set(settings, std::string(run::kStockSection) + ".sampleSize", particles);
   return setup;
 }
 
 /// MRPT's sections, which are not in config.ini.
-std::string otherSections(Configuration& configuration) {
+std::string otherSections(run::Configuration& configuration) {
   std::vector<std::string> sections, keys;
   configuration.source.getAllSections(sections);
   std::string text;
   for (const std::string& section : sections) {
-    if (section.rfind(kStockSection, 0) != 0) continue;
+    if (section.rfind(run::kStockSection, 0) != 0) continue;
     text += "[" + section + "]\n";
     configuration.source.getAllKeys(section, keys);
     for (const std::string& key : keys)
@@ -177,36 +178,38 @@ std::string besideThisProgram(const std::string& program) {
   return fs::exists(beside, error) ? beside.string() : program;
 }
 
-std::vector<ComparisonRun> makeSweep(const CommandLine& line, const std::vector<Group>& groups) {
+std::vector<comparison::ComparisonRun> makeSweep(const CommandLine& line,
+                                                 const std::vector<comparison::Group>& groups) {
   const std::string program = besideThisProgram("hybrid-slam");
-  RunIdentity log;
-  noteLog(log, line.log);
-  std::vector<ComparisonRun> sweep;
-  for (const Run& run : makeRuns(groups.size(), line.firstSeed, line.seeds)) {
-    const Group& group = groups[run.group];
+  comparison::RunIdentity log;
+  comparison::noteLog(log, line.log);
+  std::vector<comparison::ComparisonRun> sweep;
+  for (const comparison::Run& run : comparison::makeRuns(groups.size(), line.firstSeed, line.seeds)) {
+    const comparison::Group& group = groups[run.group];
     const Setup setup = setupOf(line, group, run.seed);
-    Configuration configuration(setup.config, setup.settings);
-    RunIdentity identity = log;
+    run::Configuration configuration(setup.config, setup.settings);
+    comparison::RunIdentity identity = log;
     identity.configuration = configuration.text();
     if (group.method == "stock") identity.otherSections = otherSections(configuration);
     std::vector<std::string> command{program, "-q", setup.config};
     for (const std::string& setting : setup.settings) command.insert(command.end(), {"--set", setting});
-    sweep.push_back({run, {fs::path(line.output) / "runs", runName(group, run.seed)}, identity, command});
+    sweep.push_back(
+        {run, {fs::path(line.output) / "runs", comparison::runName(group, run.seed)}, identity, command});
   }
   return sweep;
 }
 
 struct LogSpan {
-  Trajectory deadReckoning;
+  files::Trajectory deadReckoning;
   double duration = 0;  ///< s
 };
 
 /// One pass over the log, which finds what is wrong with it before any run starts.
 LogSpan readLog(const CommandLine& line, const Setup& setup) {
-  const InputOptions input = Configuration(setup.config, setup.settings).input;
-  const RawlogSummary summary = summarise(line.log, input);
-  RawlogSource source(line.log, input, summary);
-  TrajectoryRecorder recorder;
+  const readings::InputOptions input = run::Configuration(setup.config, setup.settings).input;
+  const readings::RawlogSummary summary = summarise(line.log, input);
+  readings::RawlogSource source(line.log, input, summary);
+  run::TrajectoryRecorder recorder;
   while (const auto reading = source.next()) recorder.add(reading->timestamp, reading->motion, 0);
   return {recorder.trajectory({}), summary.duration};
 }
@@ -214,7 +217,7 @@ LogSpan readLog(const CommandLine& line, const Setup& setup) {
 /// One comparison at a time works in a folder.
 class FolderLock {
  public:
-  explicit FolderLock(const OutputFolder& folder)
+  explicit FolderLock(const files::OutputFolder& folder)
       : file_(open(folder.path(".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
       throw InputError("another slam-compare is at work", "folder " + folder.path(""),
@@ -244,35 +247,36 @@ std::string quoted(const std::vector<std::string>& arguments) {
   return command;
 }
 
-int run(const CommandLine& line, const std::string& command) {
+int execute(const CommandLine& line, const std::string& command) {
   check(line);
-  std::vector<Variant> variants;
-  for (const std::string& text : line.variants) variants.push_back(parseVariant(text));
-  std::vector<ParticleCount> particles;
-  for (const std::string& text : line.particles) particles.push_back(parseParticleCount(text));
+  std::vector<comparison::Variant> variants;
+  for (const std::string& text : line.variants) variants.push_back(comparison::parseVariant(text));
+  std::vector<comparison::ParticleCount> particles;
+  for (const std::string& text : line.particles) particles.push_back(comparison::parseParticleCount(text));
   if (particles.empty())
-    particles = {{"", Configuration(line.config, line.settings).filter.filter.particles}};
-  const std::vector<Group> groups = makeGroups(line.methods, variants, particles);
-  GroundTruth truth = loadTruth(line);
-  const std::vector<ComparisonRun> sweep = makeSweep(line, groups);
+    particles = {{"", run::Configuration(line.config, line.settings).filter.filter.particles}};
+  const std::vector<comparison::Group> groups = comparison::makeGroups(line.methods, variants, particles);
+  comparison::GroundTruth truth = loadTruth(line);
+  const std::vector<comparison::ComparisonRun> sweep = makeSweep(line, groups);
   const Setup setup = setupOf(line, groups[0], line.firstSeed);
   const LogSpan log = readLog(line, setup);
   truth.expectOverlap(log.deadReckoning);
   if (line.isListOnly) {
-    for (const ComparisonRun& r : sweep)
+    for (const comparison::ComparisonRun& r : sweep)
       std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
     return 0;
   }
   if (truth.revisits || truth.plan)
-    truth.takeScans(loadEndPoints(line.log, Configuration(setup.config, setup.settings).input.sensorLabel));
-  const OutputFolder folder(line.output);
+    truth.takeScans(readings::loadEndPoints(
+        line.log, run::Configuration(setup.config, setup.settings).input.sensorLabel));
+  const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
   size_t ended = 0;
   const auto start = std::chrono::steady_clock::now();
   size_t todo = 0;
-  for (const ComparisonRun& r : sweep) todo += !r.folder.isFinished();
-  const auto tell = [&](const ComparisonRun& r, const std::string& error) {
+  for (const comparison::ComparisonRun& r : sweep) todo += !r.folder.isFinished();
+  const auto tell = [&](const comparison::ComparisonRun& r, const std::string& error) {
     ++ended;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     const auto left =
@@ -283,44 +287,48 @@ int run(const CommandLine& line, const std::string& command) {
       std::cerr << ended << " of " << todo << ": " << r.folder.path().filename().string() << ", about "
                 << left / 60 << ":" << (left % 60 < 10 ? "0" : "") << left % 60 << " left" << std::endl;
   };
-  SweepOutcome outcome;
+  comparison::SweepOutcome outcome;
   if (line.isReportOnly) {
-    for (const ComparisonRun& r : sweep)
+    for (const comparison::ComparisonRun& r : sweep)
       if (r.folder.isFinished()) r.folder.expect(r.identity);
   } else {
     const size_t jobs =
         line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
-    outcome = runSweep(sweep, jobs, stop, tell);
+    outcome = comparison::runSweep(sweep, jobs, stop, tell);
   }
   if (outcome.isInterrupted)
     return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
                        " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
 
-  ReportInput report{command,
-                     HYBRID_SLAM_VERSION,
-                     line.config,
-                     line.log,
-                     log.duration,
-                     line.settings,
-                     groups,
-                     {},
-                     {},
-                     std::move(truth),
-                     fs::path(line.output) / "runs"};
-  for (const ComparisonRun& r : sweep) {
-    report.results.push_back(evaluateRun(r.run, r.folder, report.truth));
+  comparison::ReportInput report{command,
+                                 HYBRID_SLAM_VERSION,
+                                 line.config,
+                                 line.log,
+                                 log.duration,
+                                 line.settings,
+                                 groups,
+                                 {},
+                                 {},
+                                 std::move(truth),
+                                 fs::path(line.output) / "runs"};
+  for (const comparison::ComparisonRun& r : sweep) {
+    report.results.push_back(comparison::evaluateRun(r.run, r.folder, report.truth));
     if (r.folder.isFinished()) r.folder.dropLargeFiles();
   }
   report.summaries = summarise(groups.size(), report.results);
-  folder.write("results.csv", [&](std::ostream& out) { writeResults(groups, report.results, out); });
-  folder.write("summary.csv", [&](std::ostream& out) { writeSummary(groups, report.summaries, out); });
-  folder.write("summary.json",
-               [&](std::ostream& out) { out << summaryJson(groups, report.summaries).dump(2) << '\n'; });
-  folder.write("report.html", [&](std::ostream& out) { writeReport(report, out); });
+  folder.write("results.csv",
+               [&](std::ostream& out) { comparison::writeResults(groups, report.results, out); });
+  folder.write("summary.csv",
+               [&](std::ostream& out) { comparison::writeSummary(groups, report.summaries, out); });
+  folder.write("summary.json", [&](std::ostream& out) {
+    out << comparison::summaryJson(groups, report.summaries).dump(2) << '\n';
+  });
+  folder.write("report.html", [&](std::ostream& out) { comparison::writeReport(report, out); });
   if (!line.isQuiet) std::cout << folder.path("report.html") << std::endl;
 
   size_t failed = 0;
-  for (const RunResult& r : report.results) failed += r.status == RunResult::Status::failed;
+  for (const comparison::RunResult& r : report.results)
+    failed += r.status == comparison::RunResult::Status::failed;
   if (failed > 0)
     return fail(1, std::to_string(failed) + " of " + std::to_string(sweep.size()) + " runs failed: folder " +
                        line.output + "; see report.html");
@@ -343,6 +351,6 @@ int main(int argc, char** argv) {
     std::signal(SIGTERM, onSignal);
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
-    return run(line, quoted(command));
+    return execute(line, quoted(command));
   });
 }

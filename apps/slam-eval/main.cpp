@@ -12,12 +12,12 @@
 #include <string>
 
 #include "Program.h"
-#include "evaluation/AbsoluteTrajectoryError.h"
-#include "evaluation/RelationErrors.h"
-#include "evaluation/RelativePoseError.h"
-#include "evaluation/RevisitError.h"
-#include "evaluation/Trajectory.h"
-#include "io/EndPointReader.h"
+#include "files/Trajectory.h"
+#include "readings/EndPointReader.h"
+#include "study/evaluation/AbsoluteTrajectoryError.h"
+#include "study/evaluation/RelationErrors.h"
+#include "study/evaluation/RelativePoseError.h"
+#include "study/evaluation/RevisitError.h"
 
 namespace {
 
@@ -31,13 +31,13 @@ struct CommandLine {
   std::string delta = "1m";
   double relationTolerance = 0.006;  // s
   double referenceTolerance = 0.02;  // s
-  RevisitOptions revisits;
+  evaluation::RevisitOptions revisits;
   double maxRange = std::numeric_limits<double>::infinity();  // m
 };
 
 /// "1.5s" or "0.5m".
-RpeDelta parseDelta(const std::string& text) {
-  RpeDelta delta;
+evaluation::RpeDelta parseDelta(const std::string& text) {
+  evaluation::RpeDelta delta;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, delta.length);
   const std::string unit(stop, end);
@@ -45,15 +45,16 @@ RpeDelta parseDelta(const std::string& text) {
       (unit != "s" && unit != "m"))
     throw InputError("wrong value `" + text + "`", "option --delta",
                      "expected a positive number with its unit, as in `1s` or `0.5m`");
-  delta.unit = unit == "s" ? RpeDelta::Unit::seconds : RpeDelta::Unit::metres;
+  delta.unit = unit == "s" ? evaluation::RpeDelta::Unit::seconds : evaluation::RpeDelta::Unit::metres;
   return delta;
 }
 
 Json relationsJson(const CommandLine& line) {
-  const Trajectory trajectory = loadTum(line.trajectory);
-  const std::vector<Relation> relations = loadRelations(line.relations);
-  const Trajectory odometry = line.odometry.empty() ? Trajectory() : loadOdometry(line.odometry);
-  const RelationErrors errors = evaluateRelations(
+  const files::Trajectory trajectory = files::loadTum(line.trajectory);
+  const std::vector<evaluation::Relation> relations = evaluation::loadRelations(line.relations);
+  const files::Trajectory odometry =
+      line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
+  const evaluation::RelationErrors errors = evaluation::evaluateRelations(
       trajectory, relations, line.odometry.empty() ? nullptr : &odometry, line.relationTolerance);
   return {{"relations", errors.relations},
           {"used", errors.used},
@@ -67,7 +68,7 @@ Json relationsJson(const CommandLine& line) {
 
 /// Fields PREFIX_rmse_UNIT, PREFIX_mean_UNIT, ...
 void addStatistics(Json& json, const std::string& prefix, const std::string& unit,
-                   const ErrorStatistics& errors, double scale) {
+                   const evaluation::ErrorStatistics& errors, double scale) {
   json[prefix + "_rmse_" + unit] = errors.rmse * scale;
   json[prefix + "_mean_" + unit] = errors.mean * scale;
   json[prefix + "_median_" + unit] = errors.median * scale;
@@ -76,8 +77,10 @@ void addStatistics(Json& json, const std::string& prefix, const std::string& uni
 }
 
 Json ateJson(const CommandLine& line) {
-  const Trajectory trajectory = loadTum(line.trajectory), reference = loadTum(line.reference);
-  const AteErrors errors = absoluteTrajectoryError(trajectory, reference, line.referenceTolerance);
+  const files::Trajectory trajectory = files::loadTum(line.trajectory),
+                          reference = files::loadTum(line.reference);
+  const evaluation::AteErrors errors =
+      evaluation::absoluteTrajectoryError(trajectory, reference, line.referenceTolerance);
   Json json{{"poses", trajectory.size()}, {"pairs", errors.pairs}};
   addStatistics(json, "trans", "m", errors.translation, 1);
   json["alignment"] = {{"x_m", errors.alignment.x},
@@ -87,9 +90,11 @@ Json ateJson(const CommandLine& line) {
 }
 
 Json rpeJson(const CommandLine& line) {
-  const RpeDelta delta = parseDelta(line.delta);
-  const Trajectory trajectory = loadTum(line.trajectory), reference = loadTum(line.reference);
-  const RpeErrors errors = relativePoseError(trajectory, reference, delta, line.referenceTolerance);
+  const evaluation::RpeDelta delta = parseDelta(line.delta);
+  const files::Trajectory trajectory = files::loadTum(line.trajectory),
+                          reference = files::loadTum(line.reference);
+  const evaluation::RpeErrors errors =
+      evaluation::relativePoseError(trajectory, reference, delta, line.referenceTolerance);
   Json json{{"delta", line.delta}, {"pairs", errors.pairs}};
   addStatistics(json, "trans", "m", errors.translation, 1);
   addStatistics(json, "rot", "deg", errors.rotation, kRadToDeg);
@@ -97,9 +102,9 @@ Json rpeJson(const CommandLine& line) {
 }
 
 Json revisitsJson(const CommandLine& line) {
-  const Trajectory trajectory = loadTum(line.trajectory);
-  const RevisitErrors errors =
-      revisitErrors(trajectory, loadEndPoints(line.rawlog, {}, line.maxRange), line.revisits);
+  const files::Trajectory trajectory = files::loadTum(line.trajectory);
+  const evaluation::RevisitErrors errors = evaluation::revisitErrors(
+      trajectory, readings::loadEndPoints(line.rawlog, {}, line.maxRange), line.revisits);
   const auto figure = [&](double value) { return errors.revisits > 0 ? Json(value) : Json(); };
   return {{"scans", errors.scans},
           {"revisits", errors.revisits},

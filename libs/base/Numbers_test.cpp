@@ -7,8 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "base/CommaLocale.h"
 #include "base/RandomStream.h"
+#include "testing/CommaLocale.h"
 
 namespace hybrid_slam {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 
-#include "base/CommaLocale.h"
 #include "base/Errors.h"
+#include "testing/CommaLocale.h"
 
 namespace hybrid_slam {
 namespace {

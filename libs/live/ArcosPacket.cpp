@@ -1,6 +1,6 @@
 #include "live/ArcosPacket.h"
 
-namespace hybrid_slam::arcos {
+namespace hybrid_slam::live::arcos {
 namespace {
 
 constexpr char kFirst = '\xFA', kSecond = '\xFB';
@@ -68,4 +68,4 @@ std::optional<Sip> decodeSip(const Payload& payload) {
              payload[0] == kMoving};
 }
 
-}  // namespace hybrid_slam::arcos
+}  // namespace hybrid_slam::live::arcos

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 namespace arcos {
 /// Numbers of the commands that this project sends. None of them moves the robot.
@@ -46,4 +46,4 @@ class Decoder {
 };
 
 }  // namespace arcos
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

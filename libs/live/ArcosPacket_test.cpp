@@ -7,7 +7,7 @@
 
 #include "live/SipOdometry.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using arcos::Payload;
@@ -142,4 +142,4 @@ TEST(SipOdometry, HeadingIs4096ToTheTurn) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -6,13 +6,13 @@
 #include <mutex>
 
 #include "base/Errors.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
 #include "live/ObservationClient.h"
 #include "live/ObservationServer.h"
-#include "live/TestEvents.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using mrpt::obs::CSensoryFrame;
@@ -29,7 +29,7 @@ mrpt::obs::CSensoryFrame cycle(double time, double x = 0, size_t beams = 181) {
 /// A client in a thread of its own, and what it got.
 class Listener {
  public:
-  Listener(uint16_t port, Events& events, double timeout = 30)
+  Listener(uint16_t port, test::Events& events, double timeout = 30)
       : client_({"127.0.0.1", port, timeout}, events.log()), thread_([this] {
           client_.run([this](const CSensoryFrame::Ptr& frame) { take(*frame); },
                       [this] { return stop_.load(); });
@@ -100,13 +100,13 @@ std::string endOf(uint64_t session, uint64_t number) {
 }
 
 TEST(Connection, EveryClientGetsEveryCycleUntilTheEnd) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   Listener a(server.port(), events), b(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   for (int i = 0; i < 200; ++i) server.publish(cycle(10 + i, i));
   server.finish(30);
-  ASSERT_TRUE(happens([&] { return a.hasReturned() && b.hasReturned(); }));
+  ASSERT_TRUE(test::happens([&] { return a.hasReturned() && b.hasReturned(); }));
   for (const Listener* listener : {&a, &b}) {
     ASSERT_EQ(listener->count(), 200u);
     for (int i = 0; i < 200; ++i) EXPECT_EQ(listener->odometry()[static_cast<size_t>(i)], i);
@@ -119,10 +119,10 @@ TEST(Connection, EveryClientGetsEveryCycleUntilTheEnd) {
 
 /// As a heartbeat is made by another thread than the cycles: what comes is in the order of its numbers.
 TEST(Connection, CyclesOfSeveralThreadsAreInOrder) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(10000), events.log());
   Listener listener(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i)
     threads.emplace_back([&] {
@@ -130,22 +130,22 @@ TEST(Connection, CyclesOfSeveralThreadsAreInOrder) {
     });
   for (std::thread& thread : threads) thread.join();
   server.finish(30);
-  ASSERT_TRUE(happens([&] { return listener.hasReturned(); }));
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
   EXPECT_EQ(listener.count(), 2000u);
   EXPECT_EQ(listener.client().lost(), 0u);
 }
 
 TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(20), events.log());
   TcpSocket lazy = TcpSocket::connectTo(kAnywhere, server.port(), 10);
   Listener busy(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   size_t sent = 0;
   // The system's own buffers take some megabytes first.
   while (server.dropped() < 50 && sent < 20000) {
     server.publish(cycle(10, static_cast<double>(sent++), 10000));
-    ASSERT_TRUE(happens([&] { return busy.count() == sent; })) << "the other client gets all";
+    ASSERT_TRUE(test::happens([&] { return busy.count() == sent; })) << "the other client gets all";
   }
   EXPECT_GE(server.dropped(), 50u);
   EXPECT_EQ(events.count("too slow"), 1u) << events.text();
@@ -155,7 +155,7 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   MessageDecoder decoder;
   uint64_t last = 0;
   size_t lost = 0;
-  ASSERT_TRUE(happens([&] {
+  ASSERT_TRUE(test::happens([&] {
     decoder.feed(lazy.receive(0.01));
     while (const auto message = decoder.next()) {
       if (message->kind != MessageKind::cycle) continue;
@@ -166,93 +166,93 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
     return last == sent;
   }));
   EXPECT_EQ(lost, server.dropped());
-  EXPECT_TRUE(happens([&] { return events.count("keeps up again") == 1; }));
+  EXPECT_TRUE(test::happens([&] { return events.count("keeps up again") == 1; }));
 }
 
 TEST(Connection, AHundredSilentClientsStopNobody) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   std::vector<TcpSocket> silent;
   for (int i = 0; i < 100; ++i) silent.push_back(TcpSocket::connectTo(kAnywhere, server.port(), 30));
   Listener listener(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 101; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 101; }));
   for (int i = 0; i < 20; ++i) server.publish(cycle(10 + i));
-  EXPECT_TRUE(happens([&] { return listener.count() == 20; }));
+  EXPECT_TRUE(test::happens([&] { return listener.count() == 20; }));
   silent.clear();
-  EXPECT_TRUE(happens([&] { return server.clients() == 1; }));
+  EXPECT_TRUE(test::happens([&] { return server.clients() == 1; }));
   server.publish(cycle(50));
-  EXPECT_TRUE(happens([&] { return listener.count() == 21; }));
+  EXPECT_TRUE(test::happens([&] { return listener.count() == 21; }));
 }
 
 TEST(Connection, MoreClientsThanPlacesWaitUntilOneLeaves) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(10, 2), events.log());
   auto first = std::make_unique<Listener>(server.port(), events);
   Listener second(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   Listener third(server.port(), events);
   server.publish(cycle(1));
-  ASSERT_TRUE(happens([&] { return first->count() == 1 && second.count() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return first->count() == 1 && second.count() == 1; }));
   EXPECT_EQ(third.count(), 0u);
   first.reset();
-  EXPECT_TRUE(happens([&] {
+  EXPECT_TRUE(test::happens([&] {
     server.publish(cycle(2));
     return third.count() > 0;
   }));
 }
 
 TEST(Connection, WhatClientsSayIsThrownAway) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   TcpSocket chatty = TcpSocket::connectTo(kAnywhere, server.port(), 10);
   Listener listener(server.port(), events);
-  ASSERT_TRUE(happens([&] { return server.clients() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   for (int i = 0; i < 50; ++i) chatty.send(std::string(65536, 'x'), 30);
   server.publish(cycle(1));
-  EXPECT_TRUE(happens([&] { return listener.count() == 1; }));
+  EXPECT_TRUE(test::happens([&] { return listener.count() == 1; }));
 }
 
 TEST(Connection, AServerThatIsNotThereIsWaitedForAndReportedOnce) {
-  Events events;
+  test::Events events;
   uint16_t port = 0;
   {
     TcpListener reserved(kAnywhere, 0);
     port = reserved.port();
   }
   Listener listener(port, events);
-  ASSERT_TRUE(happens([&] { return events.count("refused") == 1; })) << events.text();
+  ASSERT_TRUE(test::happens([&] { return events.count("refused") == 1; })) << events.text();
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // some more attempts
   EXPECT_EQ(events.count("refused"), 1u) << events.text();
   ObservationServer server(kAnywhere, port, limits(), events.log());
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
   server.publish(cycle(1));
-  EXPECT_TRUE(happens([&] { return listener.count() == 1; }));
+  EXPECT_TRUE(test::happens([&] { return listener.count() == 1; }));
 }
 
 TEST(Connection, AfterAnotherServersStartTheOdometryGoesOn) {
-  Events events;
+  test::Events events;
   auto server = std::make_unique<ObservationServer>(kAnywhere, 0, limits(), events.log());
   const uint16_t port = server->port();
   Listener listener(port, events);
-  ASSERT_TRUE(happens([&] { return server->clients() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return server->clients() == 1; }));
   server->publish(cycle(1, 5));
   server->publish(cycle(2, 6));
-  ASSERT_TRUE(happens([&] { return listener.count() == 2; }));
+  ASSERT_TRUE(test::happens([&] { return listener.count() == 2; }));
   server.reset();
   server = std::make_unique<ObservationServer>(kAnywhere, port, limits(), events.log());
-  ASSERT_TRUE(happens([&] { return server->clients() == 1; }));
+  ASSERT_TRUE(test::happens([&] { return server->clients() == 1; }));
   server->publish(cycle(3, 0));
   server->publish(cycle(4, 1));
-  ASSERT_TRUE(happens([&] { return listener.count() == 4; }));
+  ASSERT_TRUE(test::happens([&] { return listener.count() == 4; }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(5, 6, 6, 7));
   EXPECT_EQ(events.count("goes on from the last pose"), 1u);
 }
 
 TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
-  Events events;
+  test::Events events;
   FakeServer server({bytesOf(7, 1, 1), bytesOf(7, 5, 5) + endOf(7, 6)});
   Listener listener(server.port(), events);
-  ASSERT_TRUE(happens([&] { return listener.hasReturned(); }));
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 5)) << "its odometry did not start anew";
   EXPECT_EQ(listener.client().lost(), 4u) << "2 to 4, and 6";
   EXPECT_EQ(listener.client().connections(), 2u);
@@ -261,10 +261,10 @@ TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
 /// The first connection brings `wrong` after a good cycle; the second one brings the rest.
 void expectSurvived(const std::string& wrong, const std::string& report) {
   SCOPED_TRACE(report);
-  Events events;
+  test::Events events;
   FakeServer server({bytesOf(7, 1, 1) + wrong, bytesOf(7, 2, 2) + endOf(7, 2)});
   Listener listener(server.port(), events);
-  ASSERT_TRUE(happens([&] { return listener.hasReturned(); }));
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 2));
   EXPECT_EQ(events.count(report), 1u) << events.text();
 }
@@ -282,7 +282,7 @@ TEST(Connection, WrongBytesEndTheConnectionAndNothingElse) {
   for (size_t i = 24; i < 28; ++i) length[i] = '\xff';
   expectSurvived(length, "a message of 4294967295 bytes");
 
-  const TemporaryFolder folder;
+  const files::TemporaryFolder folder;
   const std::string pair =
       test::contentOf(test::writePlain(folder.path("object"), {test::action({1, 0, 0})}));
   expectSurvived(encode({MessageKind::cycle, 7, 2, pair}), "CActionCollection");
@@ -290,21 +290,21 @@ TEST(Connection, WrongBytesEndTheConnectionAndNothingElse) {
 }
 
 TEST(Connection, AHalfOpenConnectionIsGivenUp) {
-  Events events;
+  test::Events events;
   FakeServer server({bytesOf(7, 1, 1), bytesOf(7, 2, 2) + endOf(7, 2)}, false);
   Listener listener(server.port(), events, 0.3);
-  ASSERT_TRUE(happens([&] { return listener.hasReturned(); }));
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 2));
   EXPECT_EQ(events.count("silent"), 1u) << events.text();
 }
 
 TEST(Connection, AServerWithNothingToSayBeats) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   TcpSocket socket = TcpSocket::connectTo(kAnywhere, server.port(), 10);
   MessageDecoder decoder;
   std::optional<Message> message;
-  ASSERT_TRUE(happens([&] {
+  ASSERT_TRUE(test::happens([&] {
     decoder.feed(socket.receive(0.1));
     message = decoder.next();
     return message.has_value();
@@ -313,7 +313,7 @@ TEST(Connection, AServerWithNothingToSayBeats) {
 }
 
 TEST(Connection, WhereItCannotListenIsAnError) {
-  Events events;
+  test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   EXPECT_THROW(ObservationServer(kAnywhere, server.port(), limits(), events.log()), InputError);
   EXPECT_THROW(ObservationServer("203.0.113.1", 0, limits(), events.log()), InputError);
@@ -321,4 +321,4 @@ TEST(Connection, WhereItCannotListenIsAnError) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

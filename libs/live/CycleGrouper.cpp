@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
@@ -75,4 +75,4 @@ void CycleGrouper::finish() {
   if (!waiting_.empty()) give(waiting_.size());
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -13,7 +13,7 @@
 
 #include "live/CycleSource.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// Sorts observations by time, thins scans out to the cycles' rate and closes a cycle as soon as odometry at
 /// or after its scan has come, so that whoever gets the cycle can interpolate at once. All times are the
@@ -48,4 +48,4 @@ class CycleGrouper {
 /// this shows that the clock was set back, or that another log begins.
 constexpr double kLongestWait = 1;
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

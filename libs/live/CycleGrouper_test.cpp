@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "io/TestLogs.h"
+#include "testing/TestLogs.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using test::odometry;
@@ -35,7 +35,7 @@ struct Cycles {
     }
     texts.push_back(text);
   }
-  void odo(double time) { grouper.add(odometry(time, {})); }
+  void odo(double time) { grouper.add(test::odometry(time, {})); }
   void laser(double time, const std::string& label = "LASER") { grouper.add(scan(time, {}, 3, label)); }
 };
 
@@ -126,4 +126,4 @@ TEST(CycleGrouper, ObservationsWithoutTimeKeepTheirOrder) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

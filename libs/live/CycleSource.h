@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// Takes the observations of a cycle, in order of time.
 using CycleSink = std::function<void(const mrpt::obs::CSensoryFrame::Ptr&)>;
@@ -20,4 +20,4 @@ class CycleSource {
   virtual void run(const CycleSink& sink, const StopCheck& stop) = 0;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

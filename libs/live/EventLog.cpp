@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 EventLog::EventLog(const std::string& program)
     : EventLog(program, [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }) {}
@@ -15,4 +15,4 @@ void EventLog::report(const std::string& subject, const std::string& event) {
   write_(program_ + ": " + subject + ": " + event);
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// Takes events from any thread. A subject (a sensor, the server) that reports the same state again and
 /// again, such as a refused connection at each attempt, is heard once; its next other state is heard anew.
@@ -29,4 +29,4 @@ class EventLog {
   std::map<std::string, std::string> last_;  ///< event of each subject
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 TEST(EventLog, TellsAStateOnceUntilItChanges) {
@@ -20,4 +20,4 @@ TEST(EventLog, TellsAStateOnceUntilItChanges) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -4,7 +4,7 @@
 
 #include "base/Errors.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 void LiveOptions::describe(OptionTable& t) {
   t.add(
@@ -46,4 +46,4 @@ std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std:
   return {parts[1].matched ? parts[1] : parts[2], static_cast<uint16_t>(port)};
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -8,7 +8,7 @@
 
 #include "base/Options.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// Section [live] of hybrid-slam-live.
 struct LiveOptions : Options {
@@ -38,4 +38,4 @@ struct ServerOptions : Options {
 /// "HOST:PORT" apart. @throws InputError for anything else
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where);
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -9,7 +9,7 @@
 #include "live/ObservationWire.h"
 #include "live/TcpSocket.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -87,4 +87,4 @@ void ObservationClient::take(const Message& message, const CycleSink& sink) {
   sink(cycle);
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -9,7 +9,7 @@
 #include "live/EventLog.h"
 #include "live/OdometryContinuity.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 struct Message;
 
@@ -46,4 +46,4 @@ class ObservationClient : public CycleSource {
   OdometryContinuity odometry_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

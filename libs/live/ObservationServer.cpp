@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -172,4 +172,4 @@ void ObservationServer::write(Client& client) {
   }
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

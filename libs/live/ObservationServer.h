@@ -16,7 +16,7 @@
 #include "live/ObservationWire.h"
 #include "live/TcpSocket.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// One thread serves all clients without ever waiting for one: each has a queue of cycles that it did not
 /// take yet, and when that is full the oldest cycle goes.
@@ -76,4 +76,4 @@ class ObservationServer {
   std::thread thread_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -7,7 +7,7 @@
 
 #include "base/Errors.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 constexpr char kMagic[] = "HSO1";
@@ -110,4 +110,4 @@ mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload) {
   return frame;
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

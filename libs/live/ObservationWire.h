@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 enum class MessageKind : uint8_t {
   cycle = 1,      ///< the observations of one cycle, in order of time
@@ -55,4 +55,4 @@ class MessageDecoder {
   std::string buffer_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using testing::HasSubstr;
@@ -128,7 +128,7 @@ TEST(ObservationWire, OnlyOneWholeFrameOfObservationsIsTaken) {
   EXPECT_THAT(errorOf(""), HasSubstr("cannot be read"));
   EXPECT_THAT(errorOf("\x85hello"), HasSubstr("cannot be read"));
 
-  const TemporaryFolder folder;
+  const files::TemporaryFolder folder;
   const auto bytesOf = [&folder](const mrpt::serialization::CSerializable::Ptr& object) {
     return test::contentOf(test::writePlain(folder.path("object"), {object}));
   };
@@ -140,4 +140,4 @@ TEST(ObservationWire, OnlyOneWholeFrameOfObservationsIsTaken) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

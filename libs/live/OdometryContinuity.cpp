@@ -2,17 +2,17 @@
 
 #include <mrpt/obs/CObservationOdometry.h>
 
-#include "io/ReadingAssembler.h"
+#include "readings/ReadingAssembler.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 void rebase(mrpt::obs::CObservation& observation, OdometryContinuity& continuity) {
   auto* odometry = dynamic_cast<mrpt::obs::CObservationOdometry*>(&observation);
   if (!odometry) return;
   const mrpt::math::TPose2D told = odometry->odometry.asTPose();
-  if (!isFinite(told)) return;
+  if (!readings::isFinite(told)) return;
   const mrpt::math::TPose2D pose = continuity(told);
   if (!(pose == told)) odometry->odometry = mrpt::poses::CPose2D(pose);
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

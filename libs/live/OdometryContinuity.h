@@ -7,9 +7,9 @@
 
 #include <optional>
 
-#include "io/ReadingAssembler.h"
+#include "readings/ReadingAssembler.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// A robot that is switched off and on, and a driver that connects again, count from zero. What happened in
 /// between is not known: the pose goes on from the last one as if the robot had stood still. So it does over
@@ -22,7 +22,7 @@ class OdometryContinuity {
   /// @param pose  as the robot tells it (m, rad)
   /// @return the pose in the frame of the very first one; the same bits until the first restart
   mrpt::math::TPose2D operator()(const mrpt::math::TPose2D& pose) {
-    if (told_ && (isNewFrame_ || (pose - *told_).norm() > kMaxStep)) start_ = Start{*last_, pose};
+    if (told_ && (isNewFrame_ || (pose - *told_).norm() > readings::kMaxStep)) start_ = Start{*last_, pose};
     isNewFrame_ = false;
     told_ = pose;
     last_ = start_ ? start_->here + (pose - start_->there) : pose;
@@ -42,4 +42,4 @@ class OdometryContinuity {
 /// Puts an observation, if it is odometry, into the first frame.
 void rebase(mrpt::obs::CObservation& observation, OdometryContinuity& continuity);
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

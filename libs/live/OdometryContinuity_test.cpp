@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "io/TestLogs.h"
+#include "testing/TestLogs.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -57,4 +57,4 @@ TEST(OdometryContinuity, OnlyOdometryThatIsANumberCounts) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

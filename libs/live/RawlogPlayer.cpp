@@ -6,11 +6,11 @@
 #include <chrono>
 #include <thread>
 
-#include "io/RawlogReader.h"
-#include "io/RawlogSource.h"
+#include "files/RawlogReader.h"
 #include "live/CycleGrouper.h"
+#include "readings/RawlogSource.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -59,7 +59,7 @@ class Pace {
 
 RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate)
     : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
-  InputOptions any;
+  readings::InputOptions any;
   any.requireOdometry = false;
   summarise(file, any);
 }
@@ -70,15 +70,15 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
     pace.wait(*cycle);
     if (!stop()) sink(cycle);
   });
-  RawlogReader reader(file_);
+  files::RawlogReader reader(file_);
   mrpt::math::TPose2D travelled;
   bool hasActions = false;
   while (const auto object = stop() ? nullptr : reader.next()) {
-    if (const auto increment = incrementOf(object)) {
-      if (isFinite(*increment)) travelled = travelled + *increment;
+    if (const auto increment = readings::incrementOf(object)) {
+      if (readings::isFinite(*increment)) travelled = travelled + *increment;
       hasActions = true;
     }
-    forEachObservation(object, [&](const CObservation::Ptr& observation) {
+    readings::forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (hasActions && std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation)) {
         auto odometry = mrpt::obs::CObservationOdometry::Create();
         odometry->sensorLabel = "ODOMETRY";
@@ -92,4 +92,4 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
   grouper.finish();
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -6,7 +6,7 @@
 
 #include "live/CycleSource.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 class RawlogPlayer : public CycleSource {
  public:
@@ -23,4 +23,4 @@ class RawlogPlayer : public CycleSource {
   double cycleRate_, replayRate_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "base/Errors.h"
-#include "io/ReadingAssembler.h"
-#include "io/TemporaryFolder.h"
-#include "io/TestLogs.h"
+#include "files/TemporaryFolder.h"
+#include "readings/ReadingAssembler.h"
+#include "testing/TestLogs.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using mrpt::obs::CSensoryFrame;
@@ -18,15 +18,15 @@ constexpr double kFast = 100000;  // cycles/s
 
 /// The readings that a live run makes of a log, and the cycles that they came in.
 struct Played {
-  std::vector<Reading> readings;
+  std::vector<readings::Reading> readings;
   size_t cycles = 0;
 };
 
-Played played(const Log& log, double cycleRate, size_t stopAfter = 1000000) {
-  const TemporaryFolder folder;
+Played played(const test::Log& log, double cycleRate, size_t stopAfter = 1000000) {
+  const files::TemporaryFolder folder;
   RawlogPlayer player(test::writePlain(folder.path("log"), log), cycleRate, kFast);
   Played out;
-  ReadingAssembler assembler("", true, 1);
+  readings::ReadingAssembler assembler("", true, 1);
   player.run(
       [&](const CSensoryFrame::Ptr& cycle) {
         ++out.cycles;
@@ -47,7 +47,7 @@ TEST(RawlogPlayer, GivesEveryScanOfALogWithItsMotion) {
 }
 
 TEST(RawlogPlayer, ThinsAFastLogOut) {
-  Log log;
+  test::Log log;
   for (int i = 0; i < 100; ++i) {  // 50 scans/s for 2 s
     log.push_back(test::odometry(10 + 0.02 * i, {0.01 * i, 0, 0}));
     log.push_back(test::scan(10 + 0.02 * i));
@@ -57,8 +57,9 @@ TEST(RawlogPlayer, ThinsAFastLogOut) {
 }
 
 TEST(RawlogPlayer, TheActionsOfPairsBecomeOdometry) {
-  const Log log{test::action({1, 0, 0}),       test::frame({test::scan(10)}), test::action({1, 0, M_PI / 2}),
-                test::frame({test::scan(11)}), test::action({2, 0, 0}),       test::frame({test::scan(12)})};
+  const test::Log log{test::action({1, 0, 0}),        test::frame({test::scan(10)}),
+                      test::action({1, 0, M_PI / 2}), test::frame({test::scan(11)}),
+                      test::action({2, 0, 0}),        test::frame({test::scan(12)})};
   const Played p = played(log, 5);
   ASSERT_EQ(p.readings.size(), 3u);
   EXPECT_NEAR(p.readings[1].motion.x, 1, 1e-9);
@@ -75,4 +76,4 @@ TEST(RawlogPlayer, ALogWithoutScansIsAnError) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

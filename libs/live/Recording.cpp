@@ -4,10 +4,10 @@
 
 #include "base/Errors.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 Recording::Recording(const std::string& path, EventLog& log)
-    : path_(path), log_(log), writer_(std::make_unique<RawlogWriter>(path)) {}
+    : path_(path), log_(log), writer_(std::make_unique<files::RawlogWriter>(path)) {}
 
 void Recording::write(const mrpt::obs::CObservation& observation) {
   if (!writer_) return;
@@ -43,4 +43,4 @@ void Recording::endAt(const std::exception& fault) {
   writer_.reset();
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

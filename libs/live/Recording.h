@@ -8,10 +8,10 @@
 #include <memory>
 #include <string>
 
-#include "io/RawlogWriter.h"
+#include "files/RawlogWriter.h"
 #include "live/EventLog.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// While it grows the file is `.partial.NAME`; every 5 s all of it is on disk. It gets its name at the end of
 /// the run, also of one that failed; after a power cut the partial file can be read up to where it ends.
@@ -36,8 +36,8 @@ class Recording {
 
   std::string path_;
   EventLog& log_;
-  std::unique_ptr<RawlogWriter> writer_;  ///< null once it has ended
+  std::unique_ptr<files::RawlogWriter> writer_;  ///< null once it has ended
   Clock::time_point lastFlush_ = Clock::now();
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 /// The shorter way round of a 15-bit counter.
@@ -21,4 +21,4 @@ mrpt::math::TPose2D SipOdometry::operator()(const arcos::Sip& sip) {
           std::remainder(turn, 2 * M_PI)};
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

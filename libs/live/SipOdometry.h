@@ -9,7 +9,7 @@
 
 #include "live/ArcosPacket.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// Adds up the counters of SIPs over their wrap-around.
 class SipOdometry {
@@ -24,4 +24,4 @@ class SipOdometry {
   int64_t x_ = 0, y_ = 0;  ///< units
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -20,7 +20,7 @@
 
 #include "base/Errors.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -195,4 +195,4 @@ TcpSocket TcpListener::accept(double timeout) {
   return out;
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 
 /// HOST:PORT, an IPv6 address in brackets.
 std::string addressText(const std::string& host, uint16_t port);
@@ -69,4 +69,4 @@ class TcpListener {
   uint16_t port_ = 0;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

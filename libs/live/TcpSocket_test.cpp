@@ -20,7 +20,7 @@
 #include "live/LiveOptions.h"
 #include "live/ObservationClient.h"
 #include "live/ObservationServer.h"
-#include "live/TestEvents.h"
+#include "testing/TestEvents.h"
 
 /// In this program `slow.test` is a name whose server does not answer for 20 s, and `two.test` has the
 /// addresses 127.0.0.2 and 127.0.0.1, in this order.
@@ -35,7 +35,7 @@ extern "C" int getaddrinfo(const char* host, const char* port, const addrinfo* h
   return real("127.0.0.1", port, hints, &(*found)->ai_next);
 }
 
-namespace hybrid_slam {
+namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -71,7 +71,7 @@ class FullListener {
 
 /// How long a client that has nobody to talk to takes to stop, s.
 double timeToStop(const std::string& host, uint16_t port) {
-  Events events;
+  test::Events events;
   ObservationClient client({host, port, 15}, events.log());
   std::atomic<bool> stop{false};
   std::thread thread([&] { client.run([](const auto&) {}, [&] { return stop.load(); }); });
@@ -109,7 +109,7 @@ TEST(TcpSocket, ServesIPv6) {
   addresses << std::ifstream("/proc/net/if_inet6").rdbuf();
   if (addresses.str().find(std::string(31, '0') + "1 ") == std::string::npos)
     GTEST_SKIP() << "this machine has no IPv6";
-  Events events;
+  test::Events events;
   ObservationServer server("::1", 0, {}, events.log());
   const TcpSocket socket = TcpSocket::connectTo("::1", server.port(), 10);
   ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
@@ -125,4 +125,4 @@ TEST(HostAndPort, AnIPv6AddressHasBrackets) {
 }
 
 }  // namespace
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::live

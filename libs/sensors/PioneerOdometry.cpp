@@ -6,9 +6,9 @@
 
 #include "base/Errors.h"
 
-IMPLEMENTS_GENERIC_SENSOR(PioneerOdometry, hybrid_slam)
+IMPLEMENTS_GENERIC_SENSOR(PioneerOdometry, hybrid_slam::sensors)
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 namespace {
 
 constexpr double kConnectTimeout = 3, kAnswerTimeout = 0.5, kSilence = 3, kPulseInterval = 1;  // s
@@ -41,7 +41,7 @@ void PioneerOptions::describe(OptionTable& t) {
 PioneerOdometry::~PioneerOdometry() {
   if (!isOpen_) return;
   try {
-    command(arcos::close);
+    command(live::arcos::close);
   } catch (const std::exception&) {  // it is gone anyway
   }
 }
@@ -62,15 +62,16 @@ void PioneerOdometry::initialize() {
   decoder_ = {};
   connect();
   shakeHands();
-  command(arcos::open);
+  command(live::arcos::open);
   isOpen_ = true;
-  command(arcos::pulse);
+  command(live::arcos::pulse);
   lastPulse_ = lastSip_ = Clock::now();
 }
 
 void PioneerOdometry::connect() {
   if (options_.serialPort.empty()) {
-    socket_ = TcpSocket::connectTo(options_.host, static_cast<uint16_t>(options_.tcpPort), kConnectTimeout);
+    socket_ =
+        live::TcpSocket::connectTo(options_.host, static_cast<uint16_t>(options_.tcpPort), kConnectTimeout);
     return;
   }
   serial_ = std::make_unique<mrpt::comms::CSerialPort>(options_.serialPort);
@@ -81,13 +82,13 @@ void PioneerOdometry::connect() {
 /// The robot answers each SYNC by the same; the last answer holds its name, type and subtype as well.
 void PioneerOdometry::shakeHands() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    uint8_t step = arcos::sync0;
-    for (; step <= arcos::sync2; ++step) {
+    uint8_t step = live::arcos::sync0;
+    for (; step <= live::arcos::sync2; ++step) {
       command(step);
       if (!isAnswered(step)) break;
     }
-    if (step > arcos::sync2) return;
-    command(arcos::close);  // it may still be open from a program that was killed
+    if (step > live::arcos::sync2) return;
+    command(live::arcos::close);  // it may still be open from a program that was killed
   }
   throw std::runtime_error("no answer to SYNC: no Pioneer, or another baud rate");
 }
@@ -96,20 +97,20 @@ bool PioneerOdometry::isAnswered(uint8_t step) {
   for (const auto start = Clock::now(); secondsSince(start) < kAnswerTimeout;) {
     decoder_.feed(receive(0.05));
     while (const auto payload = decoder_.next())
-      if (payload->front() == step && !arcos::decodeSip(*payload)) return true;
+      if (payload->front() == step && !live::arcos::decodeSip(*payload)) return true;
   }
   return false;
 }
 
 void PioneerOdometry::doProcess() {
   if (secondsSince(lastPulse_) >= kPulseInterval) {
-    command(arcos::pulse);
+    command(live::arcos::pulse);
     lastPulse_ = Clock::now();
   }
   const size_t damagedBefore = decoder_.damaged();
   decoder_.feed(receive(0.01));
   while (const auto payload = decoder_.next()) {
-    const auto sip = arcos::decodeSip(*payload);
+    const auto sip = live::arcos::decodeSip(*payload);
     if (!sip) continue;
     auto observation = mrpt::obs::CObservationOdometry::Create();
     observation->timestamp = mrpt::Clock::now();
@@ -129,7 +130,7 @@ void PioneerOdometry::tellOfDamage(size_t before) {
     if ((n & (n - 1)) == 0) MRPT_LOG_WARN_STREAM("damaged packets left out: " << n << " so far");
 }
 
-void PioneerOdometry::command(uint8_t number) { send(arcos::encode({number})); }
+void PioneerOdometry::command(uint8_t number) { send(live::arcos::encode({number})); }
 
 std::string PioneerOdometry::receive(double timeout) {
   if (socket_.isOpen()) return socket_.receive(timeout);
@@ -144,4 +145,4 @@ void PioneerOdometry::send(const std::string& bytes) {
     throw std::runtime_error("the serial line is gone");
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

@@ -15,7 +15,7 @@
 #include "live/SipOdometry.h"
 #include "live/TcpSocket.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 
 /// The keys of the sensor's INI section, those of every sensor among them.
 struct PioneerOptions : Options {
@@ -64,11 +64,11 @@ class PioneerOdometry : public mrpt::hwdrivers::CGenericSensor, public mrpt::sys
 
   PioneerOptions options_;
   std::unique_ptr<mrpt::comms::CSerialPort> serial_;
-  TcpSocket socket_;
-  arcos::Decoder decoder_;
-  std::optional<SipOdometry> odometry_;
+  live::TcpSocket socket_;
+  live::arcos::Decoder decoder_;
+  std::optional<live::SipOdometry> odometry_;
   Clock::time_point lastPulse_{}, lastSip_{};
   bool isOpen_ = false;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

@@ -3,10 +3,10 @@
 #include "base/Errors.h"
 #include "live/CycleGrouper.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 
 SensorSource::SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
-                           std::shared_ptr<EventLog> log)
+                           std::shared_ptr<live::EventLog> log)
     : cycleRate_(cycleRate) {
   std::vector<std::string> sections;
   config.getAllSections(sections);
@@ -17,12 +17,12 @@ SensorSource::SensorSource(const mrpt::config::CConfigFileMemory& config, double
     throw InputError("no sensors", "the INI file", "expected a section with `driver = ...` for each sensor");
 }
 
-void SensorSource::run(const CycleSink& sink, const StopCheck& stop) {
-  CycleGrouper grouper(cycleRate_, sink);
+void SensorSource::run(const live::CycleSink& sink, const live::StopCheck& stop) {
+  live::CycleGrouper grouper(cycleRate_, sink);
   for (const auto& sensor : sensors_) sensor->start();
   while (!stop())
     for (const auto& observation : inbox_->take(0.1)) grouper.add(observation);
   grouper.finish();
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

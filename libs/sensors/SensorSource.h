@@ -11,17 +11,17 @@
 #include "live/CycleSource.h"
 #include "sensors/SensorThread.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 
-class SensorSource : public CycleSource {
+class SensorSource : public live::CycleSource {
  public:
   /// Every section with a `driver` is a sensor, unless it says `rawlog-grabber-ignore = true`.
   /// @param cycleRate  1/s; @param timeout  s, of a sensor that gives nothing
   /// @throws InputError if there is none, or one is wrong
   SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
-               std::shared_ptr<EventLog> log);
+               std::shared_ptr<live::EventLog> log);
 
-  void run(const CycleSink& sink, const StopCheck& stop) override;
+  void run(const live::CycleSink& sink, const live::StopCheck& stop) override;
 
  private:
   double cycleRate_;
@@ -29,4 +29,4 @@ class SensorSource : public CycleSource {
   std::vector<std::unique_ptr<SensorThread>> sensors_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

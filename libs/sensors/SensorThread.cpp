@@ -13,7 +13,7 @@
 #include "live/OdometryContinuity.h"
 #include "sensors/PioneerOdometry.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -63,8 +63,8 @@ struct SensorThread::Work {
   double timeOffset = 0;  ///< s
   std::optional<bool> rightToLeft;
   std::shared_ptr<ObservationInbox> inbox;
-  std::shared_ptr<EventLog> log;
-  OdometryContinuity odometry{};
+  std::shared_ptr<live::EventLog> log;
+  live::OdometryContinuity odometry{};
 
   std::mutex mutex{};
   std::condition_variable changed{};
@@ -108,7 +108,7 @@ void SensorThread::Work::correct(CObservation& observation) {
         std::chrono::duration_cast<mrpt::Clock::duration>(std::chrono::duration<double>(timeOffset));
   if (auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(&observation); scan && rightToLeft)
     scan->rightToLeft = *rightToLeft;
-  rebase(observation, odometry);
+  live::rebase(observation, odometry);
 }
 
 /// Until something is wrong: then it throws.
@@ -159,7 +159,7 @@ void SensorThread::Work::run() {
 
 SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const std::string& section,
                            double timeout, std::shared_ptr<ObservationInbox> inbox,
-                           std::shared_ptr<EventLog> log)
+                           std::shared_ptr<live::EventLog> log)
     : work_(std::make_shared<Work>()) {
   PioneerOdometry::doRegister();
   const std::string where = "section [" + section + "]";
@@ -209,4 +209,4 @@ SensorThread::~SensorThread() {
 
 size_t SensorThread::leftBehind() { return countLeftBehind; }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

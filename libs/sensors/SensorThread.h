@@ -16,7 +16,7 @@
 
 #include "live/EventLog.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 
 /// Observations on their way from the sensors' threads to the one that groups them.
 class ObservationInbox {
@@ -42,7 +42,7 @@ class SensorThread {
   /// @param timeout  s without an observation after which the driver is made anew
   /// @throws InputError for a driver that there is not, or that does not take the section's settings
   SensorThread(const mrpt::config::CConfigFileMemory& config, const std::string& section, double timeout,
-               std::shared_ptr<ObservationInbox> inbox, std::shared_ptr<EventLog> log);
+               std::shared_ptr<ObservationInbox> inbox, std::shared_ptr<live::EventLog> log);
   void start();
   /// Waits at most 3 s for the driver; one that does not come back is left behind.
   ~SensorThread();
@@ -59,4 +59,4 @@ class SensorThread {
   std::thread thread_;
 };
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

@@ -7,21 +7,22 @@
 #include "live/RawlogPlayer.h"
 #include "sensors/SensorSource.h"
 
-namespace hybrid_slam {
+namespace hybrid_slam::sensors {
 
-std::string serveObservations(const ServerOptions& options, const mrpt::config::CConfigFileMemory& config,
-                              const std::shared_ptr<EventLog>& log, const StopCheck& stop,
+std::string serveObservations(const live::ServerOptions& options,
+                              const mrpt::config::CConfigFileMemory& config,
+                              const std::shared_ptr<live::EventLog>& log, const live::StopCheck& stop,
                               const std::function<void(uint16_t)>& isReady) {
   const bool isReplay = !options.rawlog.empty();
-  std::unique_ptr<CycleSource> source;
+  std::unique_ptr<live::CycleSource> source;
   if (isReplay)
-    source = std::make_unique<RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
+    source = std::make_unique<live::RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
   else
     source = std::make_unique<SensorSource>(config, options.cycleRate, options.sensorTimeout, log);
 
-  const ObservationServer::Limits limits{static_cast<size_t>(options.queue),
-                                         static_cast<size_t>(options.maxClients)};
-  ObservationServer server(options.address, static_cast<uint16_t>(options.port), limits, *log);
+  const live::ObservationServer::Limits limits{static_cast<size_t>(options.queue),
+                                               static_cast<size_t>(options.maxClients)};
+  live::ObservationServer server(options.address, static_cast<uint16_t>(options.port), limits, *log);
   isReady(server.port());
   while (isReplay && !stop() && server.clients() < static_cast<size_t>(options.waitForClients))
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -31,4 +32,4 @@ std::string serveObservations(const ServerOptions& options, const mrpt::config::
          " dropped for slow clients";
 }
 
-}  // namespace hybrid_slam
+}  // namespace hybrid_slam::sensors

@@ -20,7 +20,7 @@ bool startsWith(const std::string& text, const std::string& head) {
 
 }  // namespace
 
-void LmsStandIn::step(TcpSocket& socket, const std::string& bytes) {
+void LmsStandIn::step(live::TcpSocket& socket, const std::string& bytes) {
   buffer_ += bytes;
   for (auto end = buffer_.find(kEnd); end != std::string::npos; end = buffer_.find(kEnd)) {
     const auto start = buffer_.find(kStart);

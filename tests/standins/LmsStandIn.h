@@ -19,7 +19,7 @@ class LmsStandIn : public StandIn {
 
  private:
   void connected() override { buffer_.clear(), late_.clear(); }
-  void step(TcpSocket& socket, const std::string& bytes) override;
+  void step(live::TcpSocket& socket, const std::string& bytes) override;
   std::string answerTo(const std::string& telegram);
   std::string scanTelegram();
 

@@ -34,13 +34,13 @@ class PioneerStandIn : public StandIn {
   using Clock = std::chrono::steady_clock;
 
   void connected() override;
-  void step(TcpSocket& socket, const std::string& bytes) override;
-  void obey(TcpSocket& socket, const arcos::Payload& command);
-  arcos::Payload sip() const;
+  void step(live::TcpSocket& socket, const std::string& bytes) override;
+  void obey(live::TcpSocket& socket, const live::arcos::Payload& command);
+  live::arcos::Payload sip() const;
 
   const SimulatedRobot& robot_;
   std::chrono::duration<double> period_;
-  arcos::Decoder decoder_;
+  live::arcos::Decoder decoder_;
   int synced_ = 0;  ///< steps of the handshake done
   bool isOpen_ = false;
   mrpt::math::TPose2D start_;  ///< where the counters were last zero

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/RandomStream.h"
-#include "simulation/FloorPlan.h"
-#include "simulation/Laser.h"
-#include "simulation/Route.h"
+#include "study/simulation/FloorPlan.h"
+#include "study/simulation/Laser.h"
+#include "study/simulation/Route.h"
 
 namespace hybrid_slam::test {
 
@@ -20,7 +20,10 @@ class SimulatedRobot {
  public:
   /// @param step  s of the route from one scan to the next
   SimulatedRobot(const std::string& plan, const std::string& route, double step)
-      : plan_(FloorPlan::load(plan)), route_(Route::load(route)), step_(step), laser_(options()) {}
+      : plan_(simulation::FloorPlan::load(plan)),
+        route_(simulation::Route::load(route)),
+        step_(step),
+        laser_(options()) {}
 
   /// Moves on and looks: 541 beams of an LMS-100, right to left.
   mrpt::obs::CObservation2DRangeScan scan() {
@@ -41,16 +44,16 @@ class SimulatedRobot {
   }
 
  private:
-  static LaserOptions options() {
-    LaserOptions laser;
+  static simulation::LaserOptions options() {
+    simulation::LaserOptions laser;
     laser.x = 0.15;
     return laser;
   }
 
-  FloorPlan plan_;
-  Route route_;
+  simulation::FloorPlan plan_;
+  simulation::Route route_;
   double step_;
-  Laser laser_;
+  simulation::Laser laser_;
   mutable std::mutex mutex_;
   std::vector<mrpt::math::TPose2D> poses_;
   std::vector<mrpt::obs::CObservation2DRangeScan> scans_;

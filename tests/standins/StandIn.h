@@ -40,13 +40,13 @@ class StandIn {
 
   virtual void connected() = 0;
   /// Bytes that came, may be none; called again and again. Throws where the connection is gone.
-  virtual void step(TcpSocket& socket, const std::string& bytes) = 0;
+  virtual void step(live::TcpSocket& socket, const std::string& bytes) = 0;
   Fault fault() const { return fault_; }
 
  private:
   void serve() {
     while (!stop_) {
-      TcpSocket socket = listener_.accept(0.01);
+      live::TcpSocket socket = listener_.accept(0.01);
       if (!socket.isOpen() || fault_ == Fault::refusing) continue;
       ++connections_;
       connected();
@@ -57,7 +57,7 @@ class StandIn {
     }
   }
 
-  TcpListener listener_;
+  live::TcpListener listener_;
   std::atomic<Fault> fault_{Fault::none};
   std::atomic<size_t> connections_{0};
   std::atomic<bool> stop_{false};

@@ -1,0 +1,125 @@
+#include "files/IniFile.h"
+
+#include <mrpt/config/config_parser.h>
+#include <mrpt/system/string_utils.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string readText(const std::string& file) {
+  const std::string expected = "expected a readable INI file";
+  if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
+  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  if (!in) throw InputError("cannot read", file, expected);
+  if (text.str().find('\0') != std::string::npos) throw InputError("not a text file", file, expected);
+  return text.str();
+}
+
+/// What MRPT's parser makes of the text, its @define and ${...} done.
+std::string parsed(const std::string& text, const std::string& file) {
+  try {
+    return mrpt::config::config_parser(text);
+  } catch (const std::exception& e) {
+    throw InputError("cannot parse", file, messageOf(e));
+  }
+}
+
+/// The parser passes over a line that it does not understand, and nobody reads a key before the first
+/// section.
+void checkLines(const std::string& text, const std::string& file, const std::vector<std::string>& sections) {
+  std::istringstream in(text);
+  std::optional<std::string> section;
+  for (std::string line; std::getline(in, line);) {
+    line = mrpt::system::trim(line.substr(0, line.find('\r')));
+    if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // the mark that some editors put at the start
+    if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
+    const auto end = line.find(']'), equals = line.find('=');
+    if (line.front() == '[' && end != std::string::npos)
+      section = line.substr(1, end - 1);
+    else if (!section || (equals == std::string::npos && contains(sections, *section)))
+      throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
+  }
+}
+
+/// An InputError about a section that says where the section is from.
+[[noreturn]] void rethrowIn(const std::string& where, const InputError& error) {
+  const std::string text = error.what();
+  const auto section = text.find(": section ["), end = text.rfind("; ");
+  if (section == std::string::npos) throw error;
+  throw InputError(text.substr(0, section), where + ", " + text.substr(section + 2, end - section - 2),
+                   text.substr(end + 2));
+}
+
+void load(const Sections& sections, const mrpt::config::CConfigFileBase& source, const std::string& where) {
+  try {
+    for (const auto& [name, options] : sections) options->loadFromConfigFile(source, name);
+  } catch (const InputError& error) {
+    rethrowIn(where, error);
+  }
+}
+
+}  // namespace
+
+void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
+             const std::vector<std::string>& settings, const Sections& sections, const std::string& otherwise,
+             const std::string& expected) {
+  std::vector<std::string> present, ours;
+  for (const auto& [name, options] : sections) ours.push_back(name);
+  const std::string text = parsed(readText(file), file);
+  checkLines(text, file, ours);
+  source.setContent(text);
+  source.getAllSections(present);
+
+  const auto isOurs = [&ours](const std::string& section) { return contains(ours, section); };
+  if (std::none_of(present.begin(), present.end(), isOurs) &&
+      (otherwise.empty() || !source.sectionExists(otherwise)))
+    throw InputError("missing section", file, expected);
+  for (const std::string& section : present) {
+    const std::string nearest = nearestName(section, ours);
+    if (!isOurs(section) && 3 * editDistance(section, nearest) <= nearest.size())
+      throw InputError("unknown section [" + section + "]", file,
+                       "the nearest known section is [" + nearest + "]");
+  }
+  load(sections, source, file);
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('='), dot = setting.find('.');
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
+      throw InputError("wrong setting `" + setting + "`", "command line", "expected SECTION.KEY=VALUE");
+    const std::string section = setting.substr(0, dot);
+    if (!isOurs(section) && !contains(present, section))
+      throw InputError("unknown section [" + section + "]", "command line, setting `" + setting + "`",
+                       "the nearest known section is [" + nearestName(section, ours) + "]");
+    source.write(section, setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
+    load(sections, source, "command line");
+  }
+}
+
+void writeManual(const Sections& sections, std::ostream& out) {
+  for (const auto& [name, options] : sections) {
+    out << "\n## [" << name << "]\n\n| key | default | unit | range | what for |\n|---|---|---|---|---|\n";
+    for (const Option& option : options->table()) {
+      std::string range = option.range;
+      for (size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 4)
+        range.replace(at, 1, "&#124;"), at += 2;
+      out << "| `" << option.key << "` | " << option.get() << " | " << option.unit << " | " << range << " | "
+          << option.why << " |\n";
+    }
+  }
+}
+
+}  // namespace hybrid_slam::files

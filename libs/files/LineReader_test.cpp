@@ -1,0 +1,111 @@
+#include "files/LineReader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+void writeGzip(const std::string& path, const std::string& content) {
+  gzFile file = gzopen(path.c_str(), "wb");
+  gzwrite(file, content.data(), static_cast<unsigned>(content.size()));
+  gzclose(file);
+}
+
+std::vector<std::string> readAll(LineReader& lines) {
+  std::vector<std::string> all;
+  for (std::string line; lines.next(line);) all.push_back(line);
+  return all;
+}
+
+std::string errorOf(const std::string& path) {
+  try {
+    LineReader lines(path);
+    readAll(lines);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+/// Does not compress, so that a file cut in half holds about half of the content.
+std::string noise(size_t lines) {
+  std::string text;
+  uint64_t state = 1;
+  for (size_t i = 0; i < lines; ++i) {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    text += std::to_string(state) + "\n";
+  }
+  return text;
+}
+
+TEST(LineReader, GivesPlainAndGzippedLinesWithTheirNumbers) {
+  const TemporaryFolder folder;
+  const std::string text = "one\n\nthree \r\nlast without an end";
+  folder.write("plain.gz", text);  // the name does not decide
+  writeGzip(folder.path("zipped.txt"), text);
+  for (const char* name : {"plain.gz", "zipped.txt"}) {
+    LineReader lines(folder.path(name));
+    EXPECT_THAT(readAll(lines), ElementsAre("one", "", "three \r", "last without an end")) << name;
+    EXPECT_EQ(lines.number(), 4u);
+    lines.rewind();
+    std::string line;
+    ASSERT_TRUE(lines.next(line));
+    EXPECT_EQ(line, "one");
+    EXPECT_EQ(lines.number(), 1u);
+  }
+}
+
+TEST(LineReader, EmptyFileHasNoLine) {
+  const TemporaryFolder folder;
+  LineReader lines(folder.write("empty", ""));
+  std::string line;
+  EXPECT_FALSE(lines.next(line));
+  EXPECT_EQ(lines.number(), 0u);
+}
+
+TEST(LineReader, LinesLongerThanTheBufferAndZeroBytesPass) {
+  const TemporaryFolder folder;
+  const std::string longLine(200000, 'x'), zeros("a\0b", 3);
+  LineReader lines(folder.write("long", longLine + "\n" + zeros + "\n"));
+  EXPECT_THAT(readAll(lines), ElementsAre(longLine, zeros));
+}
+
+TEST(LineReader, WhatCannotBeReadSaysWhy) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(errorOf(folder.path("none")),
+            "no such file: " + folder.path("none") + "; expected a log, plain or gzipped");
+  EXPECT_THAT(errorOf(folder.path("")), HasSubstr("a folder, not a file"));
+  EXPECT_THAT(errorOf(folder.write("binary", std::string(3 << 20, 'x'))),
+              HasSubstr("line 1; expected lines of at most 1 MiB"));
+}
+
+TEST(LineReader, CutGzipIsAnErrorWhereverItIsCut) {
+  const TemporaryFolder folder;
+  writeGzip(folder.path("whole"), noise(20000));
+  std::ifstream in(folder.path("whole"), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_EQ(errorOf(folder.path("whole")), "no error");
+  for (const size_t kept :
+       {size_t{12}, bytes.size() / 3, bytes.size() / 2, bytes.size() - 9, bytes.size() - 1})
+    EXPECT_THAT(errorOf(folder.write("cut", bytes.substr(0, kept))), HasSubstr("gzip file cut off")) << kept;
+}
+
+TEST(LineReader, DamagedGzipIsAnError) {
+  const TemporaryFolder folder;
+  writeGzip(folder.path("whole"), noise(20000));
+  std::ifstream in(folder.path("whole"), std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  bytes[bytes.size() - 6] = static_cast<char>(bytes[bytes.size() - 6] ^ 1);  // the checksum
+  EXPECT_THAT(errorOf(folder.write("damaged", bytes)), HasSubstr("damaged gzip file"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files

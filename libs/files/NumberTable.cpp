@@ -1,0 +1,62 @@
+#include "files/NumberTable.h"
+
+#include <zlib.h>
+
+#include <memory>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+/// zlib reads plain files as they are, so that one way serves both.
+std::string readWhole(const std::string& file, const std::string& expected) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> input(gzopen(file.c_str(), "rb"), gzclose);
+  if (!input) throw InputError("cannot open the file", "file `" + file + "`", expected);
+  std::string text;
+  std::vector<char> buffer(1 << 16);
+  int count = 0;
+  while ((count = gzread(input.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0)
+    text.append(buffer.data(), static_cast<size_t>(count));
+  int state = Z_OK;
+  gzerror(input.get(), &state);  // a gzip file that was cut off ends without an error from gzread
+  if (count < 0 || state != Z_OK) throw InputError("cannot read the file", "file `" + file + "`", expected);
+  return text;
+}
+
+}  // namespace
+
+std::vector<NumberRow> readNumberTable(const std::string& file, const std::string& columns) {
+  const size_t width = words(columns).size();
+  const std::string expected = "expected lines of " + std::to_string(width) + " numbers, `" + columns + "`";
+  std::istringstream text(readWhole(file, expected));
+
+  std::vector<NumberRow> rows;
+  std::string line;
+  for (size_t number = 1; std::getline(text, line); ++number) {
+    const std::vector<std::string> entries = words(line);
+    if (entries.empty() || entries.front().front() == '#') continue;
+    NumberRow row{number, {}};
+    for (const std::string& entry : entries) {
+      const auto value = parseFinite(entry);
+      if (!value) break;
+      row.values.push_back(*value);
+    }
+    if (entries.size() != width || row.values.size() != width)
+      throw InputError("broken line", "file `" + file + "`, line " + std::to_string(number), expected);
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw InputError("the file is empty", "file `" + file + "`", expected);
+  return rows;
+}
+
+}  // namespace hybrid_slam::files

@@ -1,0 +1,88 @@
+#include "files/NumberTable.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct NumberTable : testing::Test {
+  const std::string file = testing::TempDir() + "number_table_" + std::to_string(getpid()) + ".txt";
+  ~NumberTable() override { std::remove(file.c_str()); }
+
+  void write(const std::string& text) const { std::ofstream(file, std::ios::binary) << text; }
+  void writeGzipped(const std::string& text) const {
+    const gzFile out = gzopen(file.c_str(), "wb");
+    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(out);
+  }
+  std::string error() const {
+    try {
+      readNumberTable(file, "a b c");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(NumberTable, KeepsFileOrderAndLineNumbers) {
+  write("# a b c\n3 -2 1e-3\n\n  1\t2 3 \r\n# end\n1 2 4");
+  const auto rows = readNumberTable(file, "a b c");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_THAT(rows[0].values, ElementsAre(3, -2, 1e-3));
+  EXPECT_THAT(rows[1].values, ElementsAre(1, 2, 3));
+  EXPECT_THAT(rows[2].values, ElementsAre(1, 2, 4));
+  EXPECT_EQ(rows[0].line, 2u);
+  EXPECT_EQ(rows[1].line, 4u);
+  EXPECT_EQ(rows[2].line, 6u);
+}
+
+TEST_F(NumberTable, ReadsGzippedFilesLikePlainOnes) {
+  std::string text;  // more than one read buffer
+  for (int i = 0; i < 20000; ++i) text += std::to_string(i) + " 0.5 -1\n";
+  writeGzipped(text);
+  const auto rows = readNumberTable(file, "a b c");
+  ASSERT_EQ(rows.size(), 20000u);
+  EXPECT_THAT(rows.back().values, ElementsAre(19999, 0.5, -1));
+  EXPECT_EQ(rows.back().line, 20000u);
+}
+
+TEST_F(NumberTable, BrokenLinesAreNamed) {
+  for (const char* line : {"1 2", "1 2 3 4", "1 2 x", "1 2 3x", "1 2 nan", "1 2 inf", "1,2,3", "1 2 0x10"}) {
+    write(std::string("1 2 3\n") + line + "\n");
+    EXPECT_EQ(error(), "broken line: file `" + file + "`, line 2; expected lines of 3 numbers, `a b c`")
+        << line;
+  }
+}
+
+TEST_F(NumberTable, EmptyMissingAndUnreadableFiles) {
+  EXPECT_THAT(error(), HasSubstr("cannot open the file: file `" + file + "`"));
+  write("# nothing\n\n");
+  EXPECT_THAT(error(), HasSubstr("the file is empty: file `" + file + "`"));
+  EXPECT_THROW(readNumberTable(testing::TempDir(), "a b c"), InputError);  // a folder
+}
+
+TEST_F(NumberTable, GzipFileThatWasCutOffIsNotTakenForAShortOne) {
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += std::to_string(i * 7919 % 10007) + " 0.5 -1\n";
+  writeGzipped(text);
+  std::ifstream whole(file, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(whole), {});
+  write(bytes.substr(0, bytes.size() / 2));
+  EXPECT_THAT(error(), HasSubstr("cannot read the file"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files

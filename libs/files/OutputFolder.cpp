@@ -1,0 +1,41 @@
+#include "files/OutputFolder.h"
+
+#include <cerrno>
+#include <locale>
+#include <system_error>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam::files {
+
+OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
+  const std::string expected = "expected a folder that can be made and written to";
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (!std::filesystem::is_directory(folder_, error))
+    throw InputError("no such folder, and it cannot be made", folder, expected);
+  const PartialFile probe(path("probe"));
+  if (!std::ofstream(probe.path())) throw InputError("output folder not writable", folder, expected);
+}
+
+void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& fill) const {
+  GrowingFile file(path(name));
+  fill(file.stream());
+  file.finish();
+}
+
+GrowingFile::GrowingFile(const std::string& path) : file_(path) {
+  out_.imbue(std::locale::classic());
+  errno = 0;
+  out_.open(file_.path(), std::ios::binary);
+  if (!out_) file_.fail(errno);
+}
+
+void GrowingFile::finish() {
+  errno = 0;
+  out_.close();
+  if (!out_) file_.fail(errno);
+  file_.commit();
+}
+
+}  // namespace hybrid_slam::files

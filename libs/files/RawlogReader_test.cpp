@@ -1,0 +1,149 @@
+#include "files/RawlogReader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/Errors.h"
+#include "base/RandomStream.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+using test::contentOf;
+using test::Log;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Read {
+  size_t entries = 0;
+  std::string defect, error;
+  bool operator==(const Read& o) const {
+    return entries == o.entries && defect.empty() == o.defect.empty() && error.empty() == o.error.empty();
+  }
+};
+
+Read readAll(const std::string& path) {
+  Read result;
+  try {
+    RawlogReader reader(path);
+    while (reader.next())
+      ;
+    EXPECT_EQ(reader.next(), nullptr) << "an end stays an end";
+    result.entries = reader.entry();
+    result.defect = reader.defect();
+  } catch (const InputError& e) {
+    result.error = e.what();
+  }
+  return result;
+}
+
+/// One of each kind of object that logs hold.
+test::Log smallLog() {
+  return {test::odometry(1, {1, 2, 3}), test::scan(2, {}, 7), test::action({0.1, 0, 0}),
+          test::frame({test::scan(3, {}, 5), test::scan(4, {}, 3)}), test::scan(5, {}, 0)};
+}
+
+TEST(RawlogReader, ReadsPlainAndGzipped) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(readAll(test::writePlain(folder.path("plain"), smallLog())), (Read{5, "", ""}));
+  EXPECT_EQ(readAll(test::writeGzipped(folder.path("gzip"), smallLog())), (Read{5, "", ""}));
+}
+
+TEST(RawlogReader, EveryCutOfAPlainLogIsToldFromItsEnd) {
+  const TemporaryFolder folder;
+  std::vector<size_t> ends;
+  const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), smallLog(), &ends));
+  ASSERT_EQ(ends.back(), bytes.size());
+  for (size_t cut = 0; cut < bytes.size(); ++cut) {
+    SCOPED_TRACE(cut);
+    const Read read = readAll(folder.write("cut", bytes.substr(0, cut)));
+    const auto next = std::upper_bound(ends.begin(), ends.end(), cut);
+    EXPECT_EQ(read.entries, static_cast<size_t>(next - ends.begin()));
+    const bool isBetween = next != ends.begin() && *(next - 1) == cut;
+    if (next == ends.begin()) {
+      EXPECT_THAT(read.error, HasSubstr(cut == 0 ? "empty" : "not a rawlog"));
+    } else {
+      EXPECT_EQ(read.defect.empty(), isBetween) << read.defect;
+      EXPECT_THAT(read.error, IsEmpty());
+    }
+  }
+}
+
+/// A log of noise-like readings, so that gzip has several blocks.
+test::Log longLog() {
+  test::Log log;
+  for (size_t i = 0; i < 40; ++i)
+    log.push_back(test::scan(static_cast<double>(i), test::poseOnLap(i, 40), 91));
+  return log;
+}
+
+TEST(RawlogReader, EveryCutOfAGzippedLogIsADefectAlsoBetweenTwoObjects) {
+  const TemporaryFolder folder;
+  const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), longLog()));
+  ASSERT_EQ(readAll(folder.path("whole")), (Read{40, "", ""}));
+  for (size_t cut = 20; cut < bytes.size(); cut += cut + 40 < bytes.size() ? 37 : 1) {
+    SCOPED_TRACE(cut);
+    const Read read = readAll(folder.write("cut", bytes.substr(0, cut)));
+    EXPECT_TRUE(!read.defect.empty() || !read.error.empty());
+  }
+}
+
+TEST(RawlogReader, ACutAfterTheLastObjectOfAGzippedLogIsADefect) {
+  const TemporaryFolder folder;
+  const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), longLog()));
+  const Read read = readAll(folder.write("cut", bytes.substr(0, bytes.size() - 1)));  // in the check sum
+  EXPECT_EQ(read.entries, 40u);
+  EXPECT_THAT(read.defect, HasSubstr("gzip"));
+}
+
+TEST(RawlogReader, AWrongCheckSumIsADefect) {
+  const TemporaryFolder folder;
+  const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), longLog()));
+  for (size_t fromEnd = 1; fromEnd <= 8; ++fromEnd) {
+    std::string damaged = bytes;
+    damaged[bytes.size() - fromEnd] = static_cast<char>(damaged[bytes.size() - fromEnd] ^ 1);
+    EXPECT_THAT(readAll(folder.write("damaged", damaged)).defect, HasSubstr("gzip"));
+  }
+}
+
+TEST(RawlogReader, AnEmptyObjectIsPassedOver) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
+  const std::string null = std::string("\x87") + "nullptr" + "\x88";
+  EXPECT_EQ(readAll(folder.write("log", scan + null + scan)), (Read{3, "", ""}));
+}
+
+TEST(RawlogReader, AnUnknownClassIsADefectInOneLine) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
+  std::string other = scan;
+  other.replace(other.find("RangeScan"), 9, "RangeScam");
+  const Read read = readAll(folder.write("log", scan + other + scan));
+  EXPECT_EQ(read.entries, 1u);
+  EXPECT_THAT(read.defect, HasSubstr("RangeScam"));
+  EXPECT_THAT(read.defect, testing::Not(HasSubstr("\n")));
+  EXPECT_THAT(read.defect, testing::Not(HasSubstr("====")));
+}
+
+TEST(RawlogReader, WhatIsNoLog) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(readAll(folder.path("none")).error, HasSubstr("no such file: " + folder.path("none")));
+  EXPECT_THAT(readAll(folder.path("")).error, HasSubstr("not a file"));
+  EXPECT_THAT(readAll("/dev/null").error, HasSubstr("not a file"));
+  EXPECT_THAT(readAll(folder.write("empty", "")).error, HasSubstr("empty"));
+  EXPECT_THAT(readAll(folder.write("text", "Once upon a time there was a robot.\n")).error,
+              HasSubstr("not a rawlog"));
+  RandomStream random(1, 2, 3);
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes(static_cast<size_t>(1 + i), '\0');
+    for (char& c : bytes) c = static_cast<char>(random.bits());
+    EXPECT_THAT(readAll(folder.write("random", bytes)).error, HasSubstr("not a rawlog"));
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files

@@ -1,0 +1,48 @@
+#include "files/Trajectory.h"
+
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <ostream>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "files/NumberTable.h"
+
+namespace hybrid_slam::files {
+
+Trajectory loadTum(const std::string& file) {
+  constexpr double kNormTolerance = 0.01;  // quaternions are often written with 3 or 4 digits
+  Trajectory trajectory;
+  for (const NumberRow& row : readNumberTable(file, "timestamp x y z qx qy qz qw")) {
+    const auto& v = row.values;
+    const double qx = v[4], qy = v[5], qz = v[6], qw = v[7];
+    const double squaredNorm = qx * qx + qy * qy + qz * qz + qw * qw;
+    if (!(std::abs(std::sqrt(squaredNorm) - 1) <= kNormTolerance))
+      throw InputError("broken line", "file `" + file + "`, line " + std::to_string(row.line),
+                       "expected a quaternion `qx qy qz qw` of length 1");
+    const double yaw = std::atan2(2 * (qw * qz + qx * qy), squaredNorm - 2 * (qy * qy + qz * qz));
+    trajectory.push_back({v[0], {v[1], v[2], yaw}});
+  }
+  return trajectory;
+}
+
+void saveTum(const Trajectory& trajectory, std::ostream& out) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed;
+  for (const StampedPose& row : trajectory)
+    text << std::setprecision(6) << row.timestamp << std::setprecision(9) << ' ' << row.pose.x << ' '
+         << row.pose.y << " 0 0 0 " << std::sin(row.pose.phi / 2) << ' ' << std::cos(row.pose.phi / 2)
+         << '\n';
+  out << text.str();
+}
+
+Trajectory loadOdometry(const std::string& file) {
+  Trajectory odometry;
+  for (const NumberRow& row : readNumberTable(file, "t x y theta"))
+    odometry.push_back({row.values[0], {row.values[1], row.values[2], row.values[3]}});
+  return odometry;
+}
+
+}  // namespace hybrid_slam::files

@@ -1,0 +1,131 @@
+#include "live_run/LiveRun.h"
+
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+
+namespace hybrid_slam::live {
+namespace {
+
+/// Observations: about a second's. Sensors do not start in the same moment.
+constexpr size_t kEarly = 5;
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The smallest value that at least `share` of all values do not exceed.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::string recordingPath(const run::Configuration& configuration, const LiveOptions& options) {
+  if (options.recording.empty() || options.recording.find('/') != std::string::npos)
+    throw InputError("wrong name `" + options.recording + "`", "section [live], key `recording`",
+                     "expected the name of a file in the folder for the results");
+  return files::OutputFolder(configuration.run.output).path(options.recording);
+}
+
+}  // namespace
+
+LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet)
+    : configuration_(configuration),
+      log_(log),
+      isQuiet_(isQuiet),
+      run_(configuration),
+      recording_(recordingPath(configuration, options), log),
+      assembler_(configuration.input.sensorLabel, configuration.input.requireOdometry,
+                 configuration.input.maxOdometryGap),
+      queue_(static_cast<size_t>(options.maxWaiting)),
+      thread_([this] { filter(); }) {}
+
+LiveRun::~LiveRun() { stopFilter(); }
+
+void LiveRun::take(const mrpt::obs::CSensoryFrame::Ptr& cycle) {
+  const auto arrival = Clock::now();
+  for (const auto& observation : *cycle) takeObservation(observation, arrival);
+}
+
+void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival) {
+  const bool requiresOdometry = configuration_.input.requireOdometry;
+  if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
+    if (!requiresOdometry || !readings::isFinite(odometry->odometry.asTPose())) return;
+    hasOdometry_ = true;
+    for (const Arrived& arrived : std::exchange(early_, {})) pass(arrived);
+  } else if (requiresOdometry && !hasOdometry_) {
+    early_.emplace_back(observation, arrival);
+    if (early_.size() <= kEarly) return;
+    early_.pop_front();
+    return log_.report("odometry", "none yet; what comes long before it is left out");
+  }
+  pass({observation, arrival});
+}
+
+void LiveRun::pass(const Arrived& arrived) {
+  recording_.write(*arrived.first);
+  assembler_.take(arrived.first);
+  while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
+}
+
+void LiveRun::filter() {
+  try {
+    while (const auto next = queue_.pop()) {
+      if (next->skipped > 0) {
+        skipped_ += next->skipped;
+        log_.report("filter", "late: " + std::to_string(skipped_) + " scans skipped so far");
+      }
+      run_.skip(next->skipped);
+      const bool isUpdate = run_.process(next->reading);
+      if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
+      latencies_.push_back(millisecondsSince(next->arrival));
+      if (!isQuiet_ && millisecondsSince(lastState_) >= 10000) tellState();
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+    hasFailed_ = true;
+  }
+}
+
+void LiveRun::tellState() {
+  lastState_ = Clock::now();
+  const FilterStep& step = run_.view().lastStep();
+  log_.report("filter", std::to_string(run_.scans()) + " scans, " + std::to_string(run_.view().updates()) +
+                            " updates, " + std::to_string(skipped_) + " skipped, spread " +
+                            fixedText(std::hypot(step.stdX, step.stdY), 2) + " m, latency " +
+                            fixedText(latencies_.back(), 0) + " ms");
+}
+
+void LiveRun::stopFilter() {
+  if (!thread_.joinable()) return;
+  queue_.close();
+  thread_.join();
+}
+
+std::string LiveRun::finish(const std::string& version, size_t lost) {
+  assembler_.finish();
+  while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
+  stopFilter();
+  recording_.finish();
+  if (failure_) std::rethrow_exception(failure_);
+  if (run_.scans() == 0) throw std::runtime_error("no scan came with its odometry");
+
+  const readings::RawlogSummary recorded = summarise(recording_.path(), configuration_.input);
+  const nlohmann::ordered_json more{{"skipped", skipped_.load()},
+                                    {"lost_cycles", lost},
+                                    {"latency_ms",
+                                     {{"median", quantile(latencies_, 0.5)},
+                                      {"p99", quantile(latencies_, 0.99)},
+                                      {"max", quantile(latencies_, 1)}}}};
+  return run_.finish(recording_.path(), recorded, version, more) + ", " + recording_.path();
+}
+
+}  // namespace hybrid_slam::live

@@ -1,0 +1,212 @@
+/// A live run, and the replay of its recording.
+#include "live_run/LiveRun.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+#include "live/CycleGrouper.h"
+#include "run/Replay.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::live {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CSensoryFrame;
+using test::contentOf;
+using testing::HasSubstr;
+
+class LiveRunTest : public testing::Test {
+ protected:
+  run::Configuration configuration(const std::string& output, const std::string& more = "") {
+    const std::string ini = folder.write("run.ini",
+                                         "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\n"
+                                         "resolution = 0.1\n" +
+                                             more);
+    run::Configuration c(ini, {"run.output=" + folder.path(output)});
+    return c;
+  }
+  /// The log's observations through a grouper into a live run. @return the summary
+  std::string runLive(const test::Log& log, const std::string& more = "") {
+    run::Configuration c = configuration("live", more);
+    LiveRun run(c, options, events.log(), true);
+    CycleGrouper grouper(0, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
+    for (const auto& object : log) grouper.add(std::dynamic_pointer_cast<CObservation>(object));
+    grouper.finish();
+    return run.finish("test", 3);
+  }
+  void replayRecording(const std::string& more = "") {
+    run::Configuration c = configuration("offline", more);
+    c.run.rawlog = folder.path("live/recording.rawlog");
+    const std::atomic<bool> stop{false};
+    run::replay(c, true, stop, "test");
+  }
+  std::string result(const std::string& name) const { return test::contentOf(folder.path(name)); }
+  void expectSameResults() {
+    for (const char* name : {"trajectory.tum", "map.pgm", "map.yaml", "lines.csv"}) {
+      EXPECT_EQ(result(std::string("live/") + name), result(std::string("offline/") + name)) << name;
+      EXPECT_FALSE(result(std::string("live/") + name).empty()) << name;
+    }
+    EXPECT_EQ(result("live/map.simplemap.gz"), result("offline/map.simplemap.gz"));
+  }
+
+  files::TemporaryFolder folder;
+  test::Events events;
+  LiveOptions options;
+};
+
+TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
+  options.maxWaiting = 1000;
+  EXPECT_THAT(runLive(test::laps(100)), HasSubstr("100 scans"));
+  replayRecording();
+  expectSameResults();
+  const auto metrics = nlohmann::json::parse(result("live/metrics.json"));
+  EXPECT_EQ(metrics["skipped"], 0);
+  EXPECT_EQ(metrics["lost_cycles"], 3);
+  EXPECT_GT(metrics["latency_ms"]["median"], 0);
+  EXPECT_GE(metrics["latency_ms"]["p99"], metrics["latency_ms"]["median"]);
+  EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
+}
+
+/// MRPT's filter, too, draws what the seed says, whichever thread it runs in.
+TEST_F(LiveRunTest, SoItDoesForMrptsFilter) {
+  options.maxWaiting = 1000;
+  const std::string more = "[run]\nmethod = stock\n";
+  runLive(test::laps(100), more);
+  replayRecording(more);
+  expectSameResults();
+}
+
+TEST_F(LiveRunTest, SoItDoesForSensorsThatAreOutOfStep) {
+  options.maxWaiting = 1000;
+  test::Log log;
+  log.push_back(test::scan(999.9, test::poseOnLap(0, 80)));
+  for (size_t i = 0; i < 60; ++i) {
+    const double time = 1000 + 0.2 * static_cast<double>(i);
+    log.push_back(test::odometry(time, test::poseOnLap(i, 80)));
+    if (i != 30) log.push_back(test::scan(time + (i % 4 == 1 ? 0.03 : 0.17), test::poseOnLap(i, 80)));
+    if (i == 20) log.push_back(test::odometry(time + 0.01, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+    if (i == 40) log.push_back(test::scan(time + 0.18, {}, 0));
+    if (i == 50) log.push_back(test::scan(time + 0.18, {}, 91, "REAR"));
+  }
+  runLive(log);
+  replayRecording();
+  expectSameResults();
+}
+
+TEST_F(LiveRunTest, WithoutOdometryWhereTheInputSaysSo) {
+  options.maxWaiting = 1000;
+  test::Log log;
+  for (size_t i = 0; i < 30; ++i) {
+    log.push_back(test::scan(1000 + 0.2 * static_cast<double>(i)));
+    if (i == 10) log.push_back(test::odometry(1002.1, {1, 0, 0}));
+  }
+  const std::string more = "[input]\nrequire_odometry = false\n";
+  EXPECT_THAT(runLive(log, more), HasSubstr("30 scans"));
+  replayRecording(more);
+  expectSameResults();
+}
+
+TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
+  options.maxWaiting = 1;
+  constexpr size_t kScans = 3000;  // far faster than it can filter
+  test::Log log;
+  for (size_t i = 0; i < kScans; ++i) {
+    const double time = 1000 + 0.2 * static_cast<double>(i);
+    log.push_back(test::odometry(time, {0.001 * static_cast<double>(i), 0, 0}));
+    log.push_back(test::scan(time, {0.001 * static_cast<double>(i), 0, 0}));
+  }
+  runLive(log);
+  const auto metrics = nlohmann::json::parse(result("live/metrics.json"));
+  EXPECT_EQ(metrics["scans"].get<size_t>() + metrics["skipped"].get<size_t>(), kScans);
+  EXPECT_GT(metrics["skipped"], 0);
+  EXPECT_NEAR(metrics["distance_m"].get<double>(), 0.001 * (kScans - 1), 1e-6);
+  EXPECT_GE(events.count("late: "), 1u);
+  replayRecording();
+  EXPECT_EQ(nlohmann::json::parse(result("offline/metrics.json"))["scans"], kScans)
+      << "the recording has all";
+}
+
+TEST_F(LiveRunTest, WithoutAScanThereAreNoResults) {
+  EXPECT_THROW(runLive({test::odometry(1, {}), test::odometry(2, {})}), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("live/trajectory.tum")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("live/recording.rawlog")));
+  EXPECT_THROW(runLive({test::scan(1), test::scan(2)}), std::runtime_error) << "and no odometry";
+}
+
+TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecording) {
+  auto tilted = test::scan(1001);
+  tilted->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  run::Configuration c = configuration("live");
+  LiveRun run(c, options, events.log(), true);
+  const auto cycle = CSensoryFrame::Create();
+  cycle->insert(test::odometry(1001, {}));
+  cycle->insert(tilted);
+  run.take(cycle);
+  EXPECT_TRUE(test::happens([&] { return run.hasFailed(); }));
+  EXPECT_THROW(run.finish("test", 0), InputError);
+  files::RawlogReader reader(folder.path("live/recording.rawlog"));
+  EXPECT_TRUE(reader.next());
+  EXPECT_TRUE(reader.next());
+  EXPECT_FALSE(reader.next());
+  EXPECT_EQ(reader.defect(), "");
+}
+
+TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
+  Recording recording(folder.path("killed.rawlog"), events.log());
+  for (int i = 0; i < 100; ++i) recording.write(*test::scan(1000 + i));
+  recording.flush();
+  std::filesystem::copy_file(folder.path(".partial.killed.rawlog"), folder.path("copy.rawlog"));
+  files::RawlogReader reader(folder.path("copy.rawlog"));
+  size_t scans = 0;
+  while (reader.next()) ++scans;
+  EXPECT_EQ(scans, 100u);
+  EXPECT_THAT(reader.defect(), HasSubstr("cut off"));
+}
+
+TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  run::Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  const rlimit small{40000, before.rlim_max};  // bytes of a file
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  for (const auto& object : test::laps(300)) {
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
+    run.take(cycle);
+  }
+  EXPECT_EQ(events.count("ends here; the run goes on"), 1u) << events.text();
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(run.finish("test", 0), HasSubstr("300 scans"));
+  files::RawlogReader reader(folder.path("live/recording.rawlog"));
+  size_t objects = 0;
+  while (reader.next()) ++objects;
+  EXPECT_GT(objects, 10u);
+  EXPECT_LT(objects, 600u);
+  mrpt::maps::CSimpleMap map;
+  EXPECT_TRUE(map.loadFromFile(folder.path("live/map.simplemap.gz"))) << "as far as the recording goes";
+  EXPECT_GT(map.size(), 1u);
+}
+
+TEST_F(LiveRunTest, WrongRecordingNames) {
+  run::Configuration c = configuration("live");
+  for (const char* name : {"", "a/b.rawlog"}) {
+    options.recording = name;
+    EXPECT_THROW(LiveRun(c, options, events.log(), true), InputError) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam::live

@@ -1,0 +1,35 @@
+#include "readings/EndPointReader.h"
+
+#include <cmath>
+
+#include "base/Errors.h"
+#include "base/LaserScan.h"
+#include "readings/RawlogSource.h"
+
+namespace hybrid_slam::readings {
+
+std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel,
+                                     double maxRange) {
+  InputOptions options;
+  options.sensorLabel = sensorLabel;
+  options.requireOdometry = false;
+  const RawlogSummary summary = summarise(rawlog, options);
+  if (!summary.defect.empty())
+    throw InputError("log " + summary.defect,
+                     "entry " + std::to_string(summary.entries + 1) + " of " + rawlog,
+                     "expected a whole rawlog");
+  RawlogSource source(rawlog, options, summary);
+  std::vector<EndPoints> scans;
+  while (const auto reading = source.next()) {
+    const LaserScan scan = toLaserScan(*reading->scan, maxRange);
+    EndPoints ends{reading->timestamp, {}};
+    for (const Beam& beam : scan.beams)
+      if (beam.valid)
+        ends.points.push_back(scan.sensorPose.composePoint(
+            {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
+    scans.push_back(std::move(ends));
+  }
+  return scans;
+}
+
+}  // namespace hybrid_slam::readings

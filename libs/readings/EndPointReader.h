@@ -1,0 +1,22 @@
+/// @file EndPointReader.h
+/// @brief The end points of a log's scans, against which trajectories are judged.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "readings/EndPoints.h"
+
+namespace hybrid_slam::readings {
+
+/// The scans of one laser, in the order of the log.
+/// @param sensorLabel  of the laser; empty: that of the first scan
+/// @param maxRange     m; the smaller of this and the log's own limit holds
+/// @throws InputError for a log without scans of that laser, and for one that is cut off: its figures would
+/// be
+///         those of another drive
+std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel = {},
+                                     double maxRange = std::numeric_limits<double>::infinity());
+
+}  // namespace hybrid_slam::readings

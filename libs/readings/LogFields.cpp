@@ -1,0 +1,76 @@
+#include "readings/LogFields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Numbers.h"
+
+namespace hybrid_slam::readings {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\f\v";
+/// s; the timestamps of MRPT count 100 ns ticks from the year 1601 in 64 bits and end at 9e11 s.
+constexpr double kLatestTime = 1e11;
+
+}  // namespace
+
+LogFields::LogFields(std::string_view line) {
+  for (size_t begin = line.find_first_not_of(kBlank); begin != std::string_view::npos;) {
+    const size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
+    fields_.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kBlank, end);
+  }
+}
+
+void LogFields::expectLeft(size_t count, const std::string& what) const {
+  if (left() == count) return;
+  throw BrokenLine(std::to_string(left()) + " fields where " + std::to_string(count) +
+                   " were expected: " + what);
+}
+
+std::string_view LogFields::word() {
+  if (empty()) throw BrokenLine("the line is cut short");
+  return fields_[next_++];
+}
+
+double LogFields::anyNumber() {
+  const std::string_view field = word();
+  const auto value = parseNumber(field);
+  if (!value) throw BrokenLine(inBackquotes(field) + " is not a number");
+  return *value;
+}
+
+double LogFields::number() {
+  const double value = anyNumber();
+  if (!std::isfinite(value)) throw BrokenLine(inBackquotes(fields_[next_ - 1]) + " is not a finite number");
+  return value;
+}
+
+float LogFields::range() { return static_cast<float>(anyNumber()); }
+
+size_t LogFields::count(size_t least) {
+  const double value = number();
+  if (value < static_cast<double>(least) || value > 1e6 || value != std::floor(value))
+    throw BrokenLine(inBackquotes(fields_[next_ - 1]) + " is not a number of readings");
+  return static_cast<size_t>(value);
+}
+
+double LogFields::time() {
+  const double value = number();
+  if (value < 0 || value > kLatestTime) throw BrokenLine(inBackquotes(fields_[next_ - 1]) + " is not a time");
+  return value;
+}
+
+mrpt::math::TPose2D LogFields::pose() {
+  const double x = number(), y = number(), theta = number();
+  return {x, y, theta};
+}
+
+std::string inBackquotes(std::string_view field) {
+  constexpr size_t kLongest = 24;
+  std::string text = "`";
+  for (const char c : field.substr(0, kLongest)) text += c > ' ' && c < '\x7f' ? c : '?';
+  return text + (field.size() > kLongest ? "...`" : "`");
+}
+
+}  // namespace hybrid_slam::readings

@@ -1,0 +1,64 @@
+/// @file RawlogSource.h
+/// @brief Scans with their odometry from a rawlog of either form.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/Options.h"
+#include "files/RawlogReader.h"
+#include "readings/ReadingAssembler.h"
+
+namespace hybrid_slam::readings {
+
+/// Section [input].
+struct InputOptions : Options {
+  std::string sensorLabel;
+  bool requireOdometry = true;
+  double maxOdometryGap = 1;
+  void describe(OptionTable& table) override;
+};
+
+/// How often something odd is in a log, and the entry (from 1) where it is first.
+struct Oddity {
+  size_t count = 0, first = 0;
+};
+
+/// What a log holds, found in one pass before the filter runs.
+struct RawlogSummary {
+  std::string sensorLabel;                             ///< of the laser to be used
+  size_t scans = 0;                                    ///< of that laser, with beams
+  Oddity empty, unstamped, repeatedStamps, stepsBack;  ///< scans of that laser
+  Oddity wrongOdometry;                                ///< NaN or infinite
+  bool hasActions = false, hasOdometryReadings = false;
+  double duration = 0;  ///< s, from the earliest scan to the latest
+  size_t entries = 0;
+  std::string defect;  ///< how the log is cut off; empty if it is whole
+};
+
+/// @throws InputError if there is no laser (or none of the wanted label), no scan with beams, or no odometry
+///         where the options require it
+/// @throws std::runtime_error if `isStopped`, asked at each entry, says so
+RawlogSummary summarise(
+    const std::string& file, const InputOptions& options,
+    const std::function<bool()>& isStopped = [] { return false; });
+
+/// The readings of a log, as ReadingAssembler makes them.
+class RawlogSource {
+ public:
+  RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
+
+  /// Nothing at the end of the log.
+  /// @throws InputError where the odometry jumps by more than 100 m between two scans
+  std::optional<Reading> next();
+  size_t entry() const { return reader_.entry(); }
+
+ private:
+  std::string file_;
+  files::RawlogReader reader_;
+  ReadingAssembler assembler_;
+  bool isAtEnd_ = false;
+};
+
+}  // namespace hybrid_slam::readings

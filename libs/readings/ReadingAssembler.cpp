@@ -1,0 +1,122 @@
+#include "readings/ReadingAssembler.h"
+
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CActionCollection.h>
+
+#include <cmath>
+
+#include "slam/motion/OdometryIncrement.h"
+
+namespace hybrid_slam::readings {
+
+using mrpt::math::TPose2D;
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+
+namespace {
+
+/// MRPT's own code takes the readings of valid beams as they are.
+void markInvalidBeams(CObservation2DRangeScan& scan) {
+  for (size_t i = 0; i < scan.getScanSize(); ++i) {
+    const float range = scan.getScanRange(i);
+    if (!std::isfinite(range) || range <= 0 || (scan.maxRange > 0 && range >= scan.maxRange))
+      scan.setScanRangeValidity(i, false);
+  }
+}
+
+bool isStamped(const CObservation2DRangeScan& scan) { return scan.timestamp != INVALID_TIMESTAMP; }
+double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
+
+TPose2D interpolate(const TPose2D& a, const TPose2D& b, double share) {
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          mrpt::math::wrapToPi(a.phi + share * mrpt::math::wrapToPi(b.phi - a.phi))};
+}
+
+}  // namespace
+
+std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object) {
+  const auto action = std::dynamic_pointer_cast<CActionCollection>(object);
+  if (!action || action->size() == 0) return std::nullopt;
+  return odometryIncrement(*action);
+}
+
+bool isFinite(const TPose2D& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.phi); }
+
+bool hasBeams(const CObservation2DRangeScan& scan) {
+  return scan.getScanSize() > 0 && std::isfinite(scan.aperture) &&
+         isFinite(TPose2D(scan.sensorPose.asTPose()));
+}
+
+ReadingAssembler::ReadingAssembler(const std::string& sensorLabel, bool hasOdometryReadings,
+                                   double maxOdometryGap)
+    : hasOdometryReadings_(hasOdometryReadings), maxOdometryGap_(maxOdometryGap) {
+  if (!sensorLabel.empty()) sensorLabel_ = sensorLabel;
+}
+
+std::optional<Reading> ReadingAssembler::next() {
+  if (ready_.empty()) return std::nullopt;
+  Reading reading = ready_.front();
+  ready_.pop_front();
+  return reading;
+}
+
+void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& object) {
+  const auto increment = incrementOf(object);
+  if (increment && isFinite(*increment)) travelled_ = travelled_ + *increment;
+  forEachObservation(object, [this](const CObservation::Ptr& observation) {
+    if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+      if (isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
+    } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
+      if (!sensorLabel_) sensorLabel_ = scan->sensorLabel;
+      if (scan->sensorLabel == *sensorLabel_ && hasBeams(*scan)) takeScan(scan);
+    }
+  });
+}
+
+void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
+  waiting_.push_back(scan);
+  if (hasOdometryReadings_ && !lastOdometry_) return;
+  const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
+  const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
+  // Nobody waits longer than the gap, so that memory does not grow where odometry ends before the scans do.
+  if (!mayLieBetween && (waiting_.size() == 1 || age > maxOdometryGap_)) finishWaiting(travelled_);
+}
+
+void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
+  const TPose2D pose = odometry.odometry.asTPose();
+  const bool isStampedOdometry = odometry.timestamp != INVALID_TIMESTAMP;
+  const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
+  for (const auto& scan : waiting_) {
+    const double t = isStamped(*scan) ? seconds(scan->timestamp) : lastOdometryTime_;
+    if (!lastOdometry_)
+      complete(scan, pose);
+    else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= maxOdometryGap_)
+      complete(scan, interpolate(*lastOdometry_, pose, (t - lastOdometryTime_) / (time - lastOdometryTime_)));
+    else
+      complete(scan, *lastOdometry_);
+  }
+  waiting_.clear();
+  lastOdometry_ = travelled_ = pose;
+  lastOdometryTime_ = time;
+}
+
+void ReadingAssembler::finishWaiting(const TPose2D& odometry) {
+  for (const auto& scan : waiting_) complete(scan, odometry);
+  waiting_.clear();
+}
+
+void ReadingAssembler::complete(const CObservation2DRangeScan::Ptr& scan, const TPose2D& odometry) {
+  markInvalidBeams(*scan);
+  Reading reading;
+  reading.scan = scan;
+  if (isStamped(*scan)) lastTimestamp_ = seconds(scan->timestamp);
+  reading.timestamp = lastTimestamp_;
+  if (!first_) reading.motion = odometry - atLastScan_;
+  first_ = false;
+  atLastScan_ = odometry;
+  ready_.push_back(reading);
+}
+
+}  // namespace hybrid_slam::readings

@@ -1,0 +1,180 @@
+#include "run/Configuration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class ConfigurationTest : public testing::Test {
+ protected:
+  Configuration load(const std::string& text, const std::vector<std::string>& settings = {}) {
+    return {folder.write("run.ini", text), settings};
+  }
+  std::string errorOf(const std::string& text, const std::vector<std::string>& settings = {}) {
+    try {
+      load(text, settings);
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), Not(HasSubstr("\n")));
+      return e.what();
+    }
+    return "no error";
+  }
+  files::TemporaryFolder folder;
+  std::string ini = folder.path("run.ini");
+};
+
+TEST_F(ConfigurationTest, LoadsEverySection) {
+  const Configuration c = load(
+      "[run]\nmethod = general\nrawlog = a b.rawlog // a comment\n[input]\nmax_odometry_gap=2.5\n"
+      "# another\n; and another\n// and one more\n\n[particle_filter]\r\nparticles = 7\r\n[grid]\n "
+      "resolution\t=0.1\n");
+  EXPECT_EQ(c.run.method, RunOptions::Method::general);
+  EXPECT_EQ(c.run.rawlog, "a b.rawlog");
+  EXPECT_EQ(c.run.output, "out");
+  EXPECT_EQ(c.input.maxOdometryGap, 2.5);
+  EXPECT_EQ(c.filter.filter.particles, 7);
+  EXPECT_EQ(c.filter.grid.resolution, 0.1);
+  EXPECT_FALSE(c.filter.useLines);
+  EXPECT_TRUE(load("[run]\nmethod = hybrid\n").filter.useLines);
+}
+
+TEST_F(ConfigurationTest, AFileThatCannotBeRead) {
+  const auto errorOfFile = [](const std::string& path) -> std::string {
+    try {
+      Configuration(path, {});
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(errorOfFile(folder.path("none.ini")),
+            "no such file: " + folder.path("none.ini") + "; expected a readable INI file");
+  EXPECT_THAT(errorOfFile(folder.path("")), StartsWith("not a file: "));
+  EXPECT_THAT(errorOfFile(folder.write("binary", std::string("[run]\0", 6))),
+              StartsWith("not a text file: "));
+}
+
+TEST_F(ConfigurationTest, NoSectionOfOurs) {
+  for (const char* text : {"", "[other]\nx = 1\n", "# nothing but a comment\n"})
+    EXPECT_THAT(errorOf(text), StartsWith("missing section: " + ini + "; expected at least one of")) << text;
+  EXPECT_EQ(errorOf("[MappingApplication]\nsampleSize = 3\n"), "no error") << "MRPT's own INI";
+}
+
+TEST_F(ConfigurationTest, MisspeltSection) {
+  EXPECT_EQ(errorOf("[run]\n[particlefilter]\nparticles = 3\n"),
+            "unknown section [particlefilter]: " + ini + "; the nearest known section is [particle_filter]");
+  EXPECT_THAT(errorOf("[Run]\n[grid]\n"), HasSubstr("[run]"));
+  EXPECT_EQ(errorOf("[run]\n[gui]\nx=1\n[grab]\n[laser]\n[MappingApplication_pointsMap_00_insertOpts]\n"),
+            "no error")
+      << "sections of other programs are left alone";
+}
+
+TEST_F(ConfigurationTest, UnknownKey) {
+  EXPECT_EQ(errorOf("[particle_filter]\nparticels = 3\n"),
+            "unknown key: " + ini +
+                ", section [particle_filter], key `particels`; the nearest known key is `particles`");
+}
+
+TEST_F(ConfigurationTest, WrongTypeAndRange) {
+  const std::string where =
+      ": " + ini + ", section [particle_filter], key `particles`; expected a whole number in 1..100000";
+  for (const char* value : {"many", "", "3.5", "0", "-1", "1e9", "nan", "inf", "3 4"})
+    EXPECT_EQ(errorOf(std::string("[particle_filter]\nparticles = ") + value + "\n"),
+              "wrong value `" + std::string(value) + "`" + where);
+  EXPECT_THAT(errorOf("[run]\nmethod = best\n"), HasSubstr("expected one of hybrid | general | stock"));
+  EXPECT_THAT(errorOf("[input]\nrequire_odometry = maybe\n"), HasSubstr("expected true or false"));
+  EXPECT_THAT(errorOf("[grid]\nresolution = 0\n"), HasSubstr("expected a number in 0.01..1 m"));
+}
+
+TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
+  EXPECT_EQ(errorOf("[particle_filter]\nparticles 7\n"),
+            "wrong line `particles 7`: " + ini + "; expected [section], key = value, or # comment");
+  EXPECT_THAT(errorOf("particles\n[run]\n"), StartsWith("wrong line `particles`"));
+  EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));
+  EXPECT_THAT(errorOf("[run\nmethod = general\n[grid]\n"), StartsWith("wrong line `[run`"));
+  EXPECT_EQ(errorOf("[run]\n[other]\nfree text\n"), "no error") << "other sections are left alone";
+  EXPECT_EQ(errorOf("[run]\r\n\r\nmethod = general\r\n\r\n"), "no error");
+  EXPECT_EQ(errorOf("\xEF\xBB\xBF[run]\nmethod = general\n"), "no error") << "a byte order mark";
+}
+
+TEST_F(ConfigurationTest, MrptsSubstitutions) {
+  EXPECT_EQ(load("@define N 7\n[particle_filter]\nparticles = ${N}\n").filter.filter.particles, 7);
+  EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"),
+              StartsWith("cannot parse: " + ini + "; "));
+}
+
+TEST_F(ConfigurationTest, SettingsAreStrongerThanTheFile) {
+  const Configuration c = load("[particle_filter]\nparticles = 7\nseed = 2\n",
+                               {"particle_filter.particles=8", "particle_filter.particles=9",
+                                "run.method=stock", "run.rawlog=a=b.c d", "grid.max_range= 12 "});
+  EXPECT_EQ(c.filter.filter.particles, 9);
+  EXPECT_EQ(c.filter.filter.seed, 2);
+  EXPECT_EQ(c.run.method, RunOptions::Method::stock);
+  EXPECT_EQ(c.run.rawlog, "a=b.c d");
+  EXPECT_EQ(c.filter.grid.maxRange, 12);
+}
+
+TEST_F(ConfigurationTest, WrongSettingsNameTheCommandLine) {
+  for (const char* setting : {"", "=", "a", "a.b", ".b=1", "run.=x", "a=b.c", "particles=3"})
+    EXPECT_EQ(errorOf("[run]\n", {setting}),
+              "wrong setting `" + std::string(setting) + "`: command line; expected SECTION.KEY=VALUE");
+  EXPECT_EQ(
+      errorOf("[run]\n", {"particle_filter.particles=x"}),
+      "wrong value `x`: command line, section [particle_filter], key `particles`; expected a whole number in "
+      "1..100000");
+  EXPECT_THAT(errorOf("[run]\n", {"run.outptu=x"}), AllOf(HasSubstr("command line"), HasSubstr("`output`")));
+  EXPECT_EQ(
+      errorOf("[run]\n", {"particles.number=3"}),
+      "unknown section [particles]: command line, setting `particles.number=3`; the nearest known section is "
+      "[particle_filter]");
+  EXPECT_EQ(errorOf("[run]\n[MappingApplication]\n", {"MappingApplication.sampleSize=3"}), "no error");
+}
+
+TEST_F(ConfigurationTest, TextReadBackGivesTheSame) {
+  Configuration c = load(
+      "# my file\n[run]\nmethod = stock // comment\nrawlog = /a "
+      "b/c.rawlog\n[particle_filter]\nupdate_angle_deg = 12.345\n"
+      "[motion_model]\nturn_var_t = 1e-05\n[MappingApplication]\nsampleSize = 3\n",
+      {"grid.resolution=0.075", "MappingApplication.BETA=0.25"});
+  const std::string text = c.text();
+  Configuration again = load(text);
+  EXPECT_EQ(again.text(), text);
+  EXPECT_EQ(again.run.rawlog, "/a b/c.rawlog");
+  EXPECT_EQ(again.run.method, RunOptions::Method::stock);
+  EXPECT_EQ(again.filter.filter.updateAngle, c.filter.filter.updateAngle);
+  EXPECT_EQ(again.filter.motion.turn.varianceT, 1e-5);
+  EXPECT_EQ(again.filter.grid.resolution, 0.075);
+  EXPECT_EQ(again.source.read_int("MappingApplication", "sampleSize", 0), 3);
+  EXPECT_EQ(again.source.read_double("MappingApplication", "BETA", 0), 0.25);
+}
+
+TEST_F(ConfigurationTest, TextHasEveryKeyOfOurs) {
+  Configuration c;
+  const std::string text = c.text();
+  for (const auto& [name, options] : c.sections()) {
+    EXPECT_THAT(text, HasSubstr("[" + name + "]"));
+    for (const Option& option : options->table()) EXPECT_THAT(text, HasSubstr("\n" + option.key + " ="));
+  }
+  EXPECT_EQ(load(text).text(), text);
+}
+
+TEST_F(ConfigurationTest, ManualHasEveryKeyOfOurs) {
+  const std::string manual = configurationManual();
+  Configuration c;
+  for (const auto& [name, options] : c.sections()) {
+    EXPECT_THAT(manual, HasSubstr("## [" + name + "]"));
+    for (const Option& option : options->table()) EXPECT_THAT(manual, HasSubstr("| `" + option.key + "` | "));
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run

@@ -1,0 +1,186 @@
+#include "run/FilterRun.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/system/os.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+#include "run/MapFiles.h"
+#include "run/SimpleMapFile.h"
+#include "run/StepsTable.h"
+#include "slam/filter/HybridMapBuilder.h"
+#include "slam/filter/Refinement.h"
+#include "slam/filter/StockMapBuilder.h"
+#include "slam/grid/GridConversion.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+using Method = RunOptions::Method;
+
+double secondsSince(FilterRun::Clock::time_point start) {
+  return std::chrono::duration<double>(FilterRun::Clock::now() - start).count();
+}
+
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
+  if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
+  try {
+    return stockOptions(configuration.source);
+  } catch (const std::exception& e) {
+    throw InputError("wrong settings for MRPT's filter", std::string("section [") + kStockSection + "]",
+                     messageOf(e));
+  }
+}
+
+double cpuSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// The most memory that this program has had resident; getrusage would count that of whoever started it, too.
+double peakMegabytes() {
+  std::ifstream status("/proc/self/status");
+  double kilobytes = 0;
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") status >> kilobytes;
+  return kilobytes / 1024;
+}
+
+}  // namespace
+
+FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
+    : configuration_(configuration),
+      start_(start),
+      folder_(configuration.run.output),
+      steps_(folder_.path("steps.csv")) {
+  if (configuration.run.method == Method::stock) {
+    if (configuration.run.refine > 0)
+      throw InputError("no refinement of MRPT's filter", "section [run], keys `method`, `refine`",
+                       "expected hybrid or general, or refine = 0");
+    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration),
+                                                   static_cast<uint32_t>(configuration.filter.filter.seed));
+    view_ = stock.get();
+    builder_ = std::move(stock);
+  } else {
+    auto hybrid = std::make_unique<HybridMapBuilder>(configuration.filter);
+    hybrid->rememberScans(false);  // the log has them
+    view_ = hybrid.get();
+    builder_ = std::move(hybrid);
+  }
+  writeStepsHeader(steps_.stream());
+  if (configuration.run.particlesEvery > 0)
+    writeParticlesHeader(particles_.emplace(folder_.path("particles.csv")).stream());
+}
+
+FilterRun::~FilterRun() = default;
+
+bool FilterRun::process(const readings::Reading& reading) {
+  const auto stepStart = Clock::now();
+  const size_t before = view_->updates();
+  mrpt::obs::CActionCollection action;
+  action.insert(toAction(reading.motion, configuration_.filter.motion));
+  mrpt::obs::CSensoryFrame observations;
+  observations.insert(reading.scan);
+  builder_->processActionObservation(action, observations);
+
+  ++scans_;
+  recorder_.add(reading.timestamp, reading.motion, view_->updates());
+  uses_.push_back(view_->updates() > before ? Use::update : Use::carried);
+  if (uses_.back() != Use::update) return false;
+  const FilterStep& step = view_->lastStep();
+  resamplings_ += step.resampled.value_or(false) ? 1 : 0;
+  if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
+  writeStep(steps_.stream(), reading.timestamp, step, 1000 * secondsSince(stepStart));
+  if (particles_ && view_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
+    writeParticles(particles_->stream(), reading.timestamp, step);
+  return true;
+}
+
+std::string FilterRun::slipNote() const {
+  if (slips_ == 0) return {};
+  return std::to_string(slips_) + " updates in which the odometry was far off: first at " +
+         fixedText(firstSlip_, 3) + " s" + "; the motion is that of a scan match";
+}
+
+void FilterRun::refineResult(Result& result, readings::RawlogSource& source) const {
+  std::vector<PosedScan> scans;
+  for (const Use use : uses_) {
+    const auto reading = source.next();
+    if (!reading) break;
+    if (use != Use::skipped)
+      scans.push_back({reading->scan, result.trajectory[scans.size()].pose, use == Use::update});
+  }
+  refine(scans, configuration_.filter, configuration_.run.refine);
+  for (size_t i = 0, update = 0; i < scans.size(); ++i) {
+    result.trajectory[i].pose = scans[i].pose;
+    if (scans[i].isMapped) result.path[update++] = scans[i].pose;
+  }
+  const ScanMap map = mapOf(scans, configuration_.filter);
+  result.grid = toMrpt(map.grid);
+  result.lines = map.lines.lines();
+}
+
+std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
+                              const std::string& version, const nlohmann::ordered_json& more) {
+  const mrpt::system::CTimeLoggerEntry writing(profiler(), "6 write results");
+  uses_.resize(std::min(uses_.size(), log.scans));
+  Result result{{}, view_->bestPath(), view_->bestGrid(), view_->bestLines()};
+  result.trajectory = recorder_.trajectory(result.path);
+  if (configuration_.run.refine > 0) {
+    readings::RawlogSource scans(file, configuration_.input, log);
+    refineResult(result, scans);
+  }
+  const auto& [trajectory, path, grid, lines] = result;
+  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(trajectory, out); });
+  savePicture(folder_, grid, trajectory, lines);
+  saveRosMap(folder_, grid);
+  saveGridMap(folder_, grid);
+  std::vector<bool> isUpdate;
+  for (const Use use : uses_) isUpdate.push_back(use == Use::update);
+  readings::RawlogSource again(file, configuration_.input, log);
+  saveSimpleMap(folder_, again, isUpdate, path);
+  saveLines(folder_, lines);
+  steps_.finish();
+  if (particles_) particles_->finish();
+  folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
+
+  const double wall = secondsSince(start_);
+  const char* const names[] = {"hybrid", "general", "stock"};
+  nlohmann::ordered_json metrics{
+      {"method", names[static_cast<int>(configuration_.run.method)]},
+      {"particles", view_->particlePoses().size()},
+      {"seed", configuration_.filter.filter.seed},
+      {"threads", configuration_.filter.filter.threads},
+      {"scans", scans_},
+      {"updates", path.size()},
+      {"duration_s", log.duration},
+      {"wall_s", wall},
+      {"cpu_s", cpuSeconds()},
+      {"realtime_factor", wall > 0 ? log.duration / wall : 0},
+      {"peak_rss_mb", peakMegabytes()},
+      {"resamplings", resamplings_},
+      {"slips", slips_},
+      {"lines", lines.size()},
+      {"distance_m", recorder_.distance()},
+      {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
+  metrics.update(more);
+  folder_.write("metrics.json", [&](std::ostream& out) { out << metrics.dump(2) << '\n'; });
+
+  return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
+         fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
+         fixedText(wall > 0 ? log.duration / wall : 0, 0) +
+         " times the log's pace): " + folder_.path("map.png");
+}
+
+}  // namespace hybrid_slam::run

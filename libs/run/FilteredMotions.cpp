@@ -1,0 +1,73 @@
+#include "run/FilteredMotions.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/Errors.h"
+#include "run/Progress.h"
+#include "slam/filter/HybridMapBuilder.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+void addSamples(std::vector<MotionSample>& samples, const FilterStep& step) {
+  const auto weight = [&step](size_t i) { return std::exp(step.poses[i].logWeight); };  // the highest is 1
+  double sum = 0;
+  for (size_t i = 0; i < step.poses.size(); ++i) sum += weight(i);
+  for (size_t i = 0; i < step.poses.size(); ++i)
+    samples.push_back({step.odometry, step.motions[i], weight(i) / sum});
+}
+
+/// MRPT's auxiliary filters resample before they move the particles, and weigh them by other than p(scan).
+void checkFilter(const Configuration& configuration) {
+  using Proposal = ParticleFilterOptions::Proposal;
+  const Proposal proposal = configuration.filter.filter.proposal;
+  if (proposal != Proposal::standard && proposal != Proposal::improved)
+    throw InputError("not a filter to learn with", "section [particle_filter], key `proposal`",
+                     "expected standard or improved");
+  if (configuration.run.method == RunOptions::Method::stock)
+    throw InputError("not a filter to learn with", "section [run], key `method`",
+                     "expected hybrid or general");
+}
+
+}  // namespace
+
+Expectation filteredMotions(const Configuration& configuration, const readings::RawlogSummary& log,
+                            bool isQuiet, const std::string& progressNote, const std::atomic<bool>& stop) {
+  checkFilter(configuration);
+  const std::string& file = configuration.run.rawlog;
+  readings::RawlogSource source(file, configuration.input, log);
+  FilterConfiguration filter = configuration.filter;
+  filter.improved.exponent = 1;  // EM is about the likelihood itself
+  HybridMapBuilder builder(filter);
+  builder.rememberScans(false);  // the log has them
+
+  Expectation expectation;
+  size_t scans = 0, updates = 0;
+  double logLikelihoods = 0;
+  Progress progress(log.scans, isQuiet);
+  while (const auto reading = source.next()) {
+    if (stop)
+      throw std::runtime_error("interrupted: entry " + std::to_string(source.entry()) + " of " + file);
+    mrpt::obs::CActionCollection action;
+    action.insert(toAction(reading->motion, configuration.filter.motion));
+    mrpt::obs::CSensoryFrame observations;
+    observations.insert(reading->scan);
+    const size_t before = builder.updates();
+    builder.processActionObservation(action, observations);
+    progress.update(++scans, progressNote);
+    const FilterStep& step = builder.lastStep();
+    if (builder.updates() == before || step.motions.empty()) continue;  // the first update moves nothing
+    addSamples(expectation.samples, step);
+    logLikelihoods += step.logLikelihood;
+    ++updates;
+  }
+  expectation.logLikelihood = logLikelihoods / static_cast<double>(std::max<size_t>(updates, 1));
+  return expectation;
+}
+
+}  // namespace hybrid_slam::run

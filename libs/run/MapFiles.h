@@ -1,0 +1,29 @@
+/// @file MapFiles.h
+/// @brief The map in the forms that people and other programs take.
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <string>
+#include <vector>
+
+#include "files/OutputFolder.h"
+#include "files/Trajectory.h"
+#include "slam/lines/LineDatabase.h"
+
+namespace hybrid_slam::run {
+
+/// `map.png`: the grid, the path (red), the lines (green) and the robot at the end (light blue).
+void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
+                 const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines);
+
+/// `map.pgm` and `map.yaml` as ROS's map_server takes them: 0 occupied, 254 free, 205 unknown.
+void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);
+
+/// `map.gridmap.gz`: the serialised COccupancyGridMap2D.
+void saveGridMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);
+
+/// `lines.csv`: rho,theta,length,x_start,y_start,x_end,y_end,count (m, rad; map frame).
+void saveLines(const files::OutputFolder& folder, const std::vector<DatabaseLine>& lines);
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,31 @@
+/// @file Progress.h
+/// @brief How far a run is: a bar with the time left on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+namespace hybrid_slam::run {
+
+/// Writes to standard error, at most five times a second on a terminal and once in ten seconds elsewhere.
+class Progress {
+ public:
+  Progress(size_t total, bool isQuiet);
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// @param done  of `total`; @param note  what to say beside it, such as the particles' spread
+  void update(size_t done, const std::string& note);
+  /// Ends the bar's line.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  size_t total_;
+  bool isQuiet_, isTerminal_, hasBar_ = false;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace hybrid_slam::run

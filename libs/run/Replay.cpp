@@ -1,0 +1,66 @@
+#include "run/Replay.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/Numbers.h"
+#include "run/FilterRun.h"
+#include "run/Progress.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+std::vector<std::string> warningsOf(const readings::RawlogSummary& log) {
+  std::vector<std::string> all;
+  const auto add = [&all](const readings::Oddity& odd, const std::string& what, const std::string& done) {
+    if (odd.count > 0)
+      all.push_back(std::to_string(odd.count) + " " + what + ": first at entry " + std::to_string(odd.first) +
+                    "; " + done);
+  };
+  add(log.empty, "scans without beams (or aperture or sensor pose)", "left out");
+  add(log.unstamped, "scans without timestamp", "they take that of the scan before");
+  add(log.repeatedStamps, "timestamps repeat that of the scan before", "kept as they are");
+  add(log.stepsBack, "timestamps step back", "the order of the log holds");
+  add(log.wrongOdometry, "odometry readings that are not numbers", "left out");
+  return all;
+}
+
+std::string spreadNote(const FilterStep& step) {
+  return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
+}
+
+}  // namespace
+
+ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
+                     const std::string& version, bool wantsProfile) {
+  const auto start = FilterRun::Clock::now();
+  const std::string& file = configuration.run.rawlog;
+  const readings::RawlogSummary log = summarise(file, configuration.input);
+  FilterRun run(configuration, start);
+  run.profiler().enable(wantsProfile);
+  readings::RawlogSource source(file, configuration.input, log);
+  const auto nextReading = [&] {
+    const mrpt::system::CTimeLoggerEntry reading(run.profiler(), "1 read log");
+    return source.next();
+  };
+  Progress progress(log.scans, isQuiet);
+  while (const auto reading = stop ? std::nullopt : nextReading())
+    if (run.process(*reading)) progress.update(run.scans(), spreadNote(run.view().lastStep()));
+  progress.finish();
+
+  ReplayOutcome outcome;
+  outcome.warnings = warningsOf(log);
+  if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
+  if (stop)
+    outcome.incomplete = "interrupted: entry " + std::to_string(source.entry()) + " of " + file +
+                         "; the results cover the log up to there";
+  else if (!log.defect.empty())
+    outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + file +
+                         "; the results cover the log up to there";
+  outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
+  run.profiler().clear(true);  // else MRPT prints it, too
+  return outcome;
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,50 @@
+#include "run/SimpleMapFile.h"
+
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+
+#include "files/RawlogWriter.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+/// A CSimpleMap to whoever reads it, that makes its pairs one by one while it is written.
+class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
+ public:
+  StreamedSimpleMap(readings::RawlogSource& source, const std::vector<bool>& isUpdate,
+                    const std::vector<mrpt::math::TPose2D>& path)
+      : source_(&source), isUpdate_(&isUpdate), path_(&path) {}
+
+  void serializeTo(mrpt::serialization::CArchive& out) const override {
+    out.WriteAs<uint32_t>(std::count(isUpdate_->begin(), isUpdate_->end(), true));
+    size_t written = 0;
+    for (const bool isUpdate : *isUpdate_) {
+      const auto reading = source_->next();
+      if (!isUpdate || !reading) continue;
+      mrpt::obs::CSensoryFrame frame;
+      frame.insert(reading->scan);
+      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D((*path_)[written++])};
+      out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
+    }
+  }
+
+ private:
+  readings::RawlogSource* source_;
+  const std::vector<bool>* isUpdate_;
+  const std::vector<mrpt::math::TPose2D>* path_;
+};
+
+}  // namespace
+
+void saveSimpleMap(const files::OutputFolder& folder, readings::RawlogSource& source,
+                   const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path) {
+  files::RawlogWriter file(folder.path("map.simplemap.gz"));
+  file.write(StreamedSimpleMap(source, isUpdate, path));
+  file.finish();
+}
+
+}  // namespace hybrid_slam::run

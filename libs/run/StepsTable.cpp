@@ -1,0 +1,44 @@
+#include "run/StepsTable.h"
+
+#include "base/Numbers.h"
+
+namespace hybrid_slam::run {
+
+void writeStepsHeader(std::ostream& out) {
+  out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
+         "lines_seen,lines_matched,step_ms,matched,slipped\n";
+}
+
+void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
+  const auto number = [&out](double value, int decimals) { out << fixedText(value, decimals) << ','; };
+  number(timestamp, 6);
+  out << s.particles << ',';
+  number(s.ess, 6);
+  if (s.resampled) out << (*s.resampled ? 1 : 0);
+  out << ',';
+  for (const double spread : {s.stdX, s.stdY, s.stdPhi, s.stdAlong, s.stdAcross}) number(spread, 6);
+  for (const auto& weight : {s.gridWeight, s.lineWeight})
+    if (weight)
+      number(*weight, 6);
+    else
+      out << ',';
+  out << s.linesSeen << ',' << s.linesMatched << ',';
+  number(milliseconds, 3);
+  if (s.matched)
+    number(*s.matched, 3);
+  else
+    out << ',';
+  if (s.slipped) out << (*s.slipped ? 1 : 0);
+  out << '\n';
+}
+
+void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_weight\n"; }
+
+void writeParticles(std::ostream& out, double timestamp, const FilterStep& step) {
+  for (const auto& [pose, logWeight] : step.poses) {
+    for (const double value : {timestamp, pose.x, pose.y, pose.phi}) out << fixedText(value, 6) << ',';
+    out << numberText(logWeight, std::chars_format::general, 6) << '\n';
+  }
+}
+
+}  // namespace hybrid_slam::run

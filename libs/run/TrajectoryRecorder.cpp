@@ -1,0 +1,48 @@
+#include "run/TrajectoryRecorder.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <cmath>
+
+namespace hybrid_slam::run {
+
+using mrpt::math::TPose2D;
+
+void TrajectoryRecorder::add(double timestamp, const TPose2D& motion, size_t updates) {
+  const TPose2D before = scans_.empty() ? TPose2D() : scans_.back().odometry;
+  scans_.push_back({timestamp, before + motion, updates});
+  distance_ += motion.norm();
+}
+
+files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& path) const {
+  files::Trajectory out;
+  out.reserve(scans_.size());
+  for (const Scan& scan : scans_) out.push_back({scan.timestamp, scan.odometry});
+  if (path.empty()) return out;
+
+  std::vector<size_t> anchors;  // the scans that made the filter run
+  for (size_t i = 0; i < scans_.size(); ++i)
+    if (scans_[i].updates > (i == 0 ? 0 : scans_[i - 1].updates)) anchors.push_back(i);
+
+  for (size_t i = 0; i < anchors.front(); ++i)
+    out[i].pose = path.front() + (scans_[i].odometry - scans_[anchors.front()].odometry);
+  for (size_t k = 0; k < anchors.size(); ++k) {
+    const size_t from = anchors[k], to = k + 1 < anchors.size() ? anchors[k + 1] : scans_.size();
+    const auto carried = [&](size_t i) { return path[k] + (scans_[i].odometry - scans_[from].odometry); };
+    TPose2D error;
+    if (to < scans_.size()) {
+      const TPose2D end = carried(to);
+      error = {path[k + 1].x - end.x, path[k + 1].y - end.y, mrpt::math::wrapToPi(path[k + 1].phi - end.phi)};
+    }
+    for (size_t i = from; i < to; ++i) {
+      const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
+      TPose2D pose = carried(i);
+      pose.x += share * error.x, pose.y += share * error.y;
+      pose.phi = mrpt::math::wrapToPi(pose.phi + share * error.phi);
+      out[i].pose = pose;
+    }
+  }
+  return out;
+}
+
+}  // namespace hybrid_slam::run

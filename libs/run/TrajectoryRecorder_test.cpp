@@ -1,0 +1,81 @@
+#include "run/TrajectoryRecorder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hybrid_slam::run {
+namespace {
+
+using mrpt::math::TPose2D;
+
+void expectPoses(const files::Trajectory& trajectory, const std::vector<TPose2D>& expected) {
+  ASSERT_EQ(trajectory.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(trajectory[i].timestamp, 10 + static_cast<double>(i));
+    EXPECT_NEAR(trajectory[i].pose.x, expected[i].x, 1e-12);
+    EXPECT_NEAR(trajectory[i].pose.y, expected[i].y, 1e-12);
+    EXPECT_NEAR(std::remainder(trajectory[i].pose.phi - expected[i].phi, 2 * M_PI), 0, 1e-12);
+  }
+}
+
+/// Scans at 10 s, 11 s, ... each 1 m ahead of the one before; `updates` after each.
+TrajectoryRecorder straight(const std::vector<size_t>& updates) {
+  TrajectoryRecorder recorder;
+  for (size_t i = 0; i < updates.size(); ++i)
+    recorder.add(10 + static_cast<double>(i), {i == 0 ? 0. : 1., 0, 0}, updates[i]);
+  return recorder;
+}
+
+TEST(TrajectoryRecorder, UpdatesHaveTheFiltersOwnPoses) {
+  expectPoses(straight({1, 2, 3}).trajectory({{5, 1, 0.1}, {6, 2, 0.2}, {8, 3, -3}}),
+              {{5, 1, 0.1}, {6, 2, 0.2}, {8, 3, -3}});
+}
+
+TEST(TrajectoryRecorder, BetweenTwoUpdatesTheClosingErrorIsSpreadEvenly) {
+  // Odometry says 4 m ahead; the filter 4.4 m ahead, 0.8 m to the left and turned by 0.4 rad.
+  expectPoses(straight({1, 1, 1, 1, 2}).trajectory({{0, 0, 0}, {4.4, 0.8, 0.4}}),
+              {{0, 0, 0}, {1.1, 0.2, 0.1}, {2.2, 0.4, 0.2}, {3.3, 0.6, 0.3}, {4.4, 0.8, 0.4}});
+}
+
+TEST(TrajectoryRecorder, TheOdometryBetweenIsSeenFromTheUpdateBefore) {
+  expectPoses(straight({1, 1, 2}).trajectory({{3, 3, M_PI / 2}, {3, 5, M_PI / 2}}),
+              {{3, 3, M_PI / 2}, {3, 4, M_PI / 2}, {3, 5, M_PI / 2}});
+}
+
+TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShortWayRound) {
+  TrajectoryRecorder recorder;
+  recorder.add(10, {}, 1);
+  recorder.add(11, {}, 1);
+  recorder.add(12, {}, 2);
+  expectPoses(recorder.trajectory({{0, 0, M_PI - 0.1}, {0, 0, -M_PI + 0.1}}),
+              {{0, 0, M_PI - 0.1}, {0, 0, M_PI}, {0, 0, -M_PI + 0.1}});
+}
+
+TEST(TrajectoryRecorder, BeforeTheFirstAndAfterTheLastUpdateOdometryAloneCarries) {
+  expectPoses(straight({0, 0, 1, 1, 2, 2, 2}).trajectory({{0, 0, 0}, {2, 1, M_PI / 2}}), {{-2, 0, 0},
+                                                                                          {-1, 0, 0},
+                                                                                          {0, 0, 0},
+                                                                                          {1, 0.5, M_PI / 4},
+                                                                                          {2, 1, M_PI / 2},
+                                                                                          {2, 2, M_PI / 2},
+                                                                                          {2, 3, M_PI / 2}});
+}
+
+TEST(TrajectoryRecorder, WithoutAnyUpdateItIsTheOdometry) {
+  expectPoses(straight({0, 0, 0}).trajectory({}), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  EXPECT_TRUE(TrajectoryRecorder().trajectory({}).empty());
+}
+
+TEST(TrajectoryRecorder, OdometryIsChainedInTheRobotsFrame) {
+  TrajectoryRecorder recorder;
+  recorder.add(10, {}, 1);
+  for (size_t i = 1; i < 4; ++i) recorder.add(10 + static_cast<double>(i), {1, 0, M_PI / 2}, 1);
+  expectPoses(recorder.trajectory({{0, 0, 0}}),
+              {{0, 0, 0}, {1, 0, M_PI / 2}, {1, 1, M_PI}, {0, 1, -M_PI / 2}});
+  EXPECT_DOUBLE_EQ(recorder.distance(), 3);
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run

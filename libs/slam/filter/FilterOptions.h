@@ -1,0 +1,89 @@
+/// @file FilterOptions.h
+/// @brief Settings of the particle filter, and those of all its parts together.
+#pragma once
+
+#include <mrpt/bayes/CParticleFilter.h>
+
+#include <cmath>
+
+#include "base/Options.h"
+#include "slam/grid/GridWeight.h"
+#include "slam/grid/ScanMatcher.h"
+#include "slam/lines/LineAssociation.h"
+#include "slam/lines/LineDatabase.h"
+#include "slam/lines/LineExtractor.h"
+#include "slam/lines/LineWeight.h"
+#include "slam/motion/MotionModel.h"
+
+namespace hybrid_slam {
+
+/// Section [particle_filter].
+struct ParticleFilterOptions : Options {
+  enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
+
+  int particles = 50;
+  Proposal proposal = Proposal::standard;
+  mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
+      mrpt::bayes::CParticleFilter::prSystematic;
+  double essThreshold = 0.5;
+  double updateDistance = 0.3;
+  double updateAngle = 15 * M_PI / 180;
+  int seed = 1;
+  int threads = 1;
+  void describe(OptionTable& table) override;
+};
+
+/// Section [improved_proposal].
+struct ImprovedProposalOptions : Options {
+  double updateDistance = 0.1;
+  double updateAngle = 5 * M_PI / 180;
+  int samples = 12;
+  double exponent = 0.02;
+  double minFit = 0.02;
+  double lineSigma = 0.1 * M_PI / 180;
+  double lineSigmaRho = 0.05;
+  double slipDistance = 0.5;
+  double slipAngle = 30 * M_PI / 180;
+  double slipProbability = 0.001;
+  void describe(OptionTable& table) override;
+};
+
+/// The filter and its parts, a section each.
+struct FilterConfiguration {
+  bool useLines = true;  ///< false: the same filter without lines, `--method general`
+  ParticleFilterOptions filter;
+  MotionModelOptions motion;
+  GridOptions grid;
+  GridWeightOptions gridWeight;
+  SegmentationOptions segmentation;
+  LineFitOptions lineFit;
+  HoughOptions hough;
+  AssociationOptions association;
+  LineDatabaseOptions database;
+  LineWeightOptions lineWeight;
+  ImprovedProposalOptions improved;
+  ScanMatcherOptions matcher;
+
+  /// How far the robot moves (m) or turns (rad) from one update to the next.
+  double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
+  double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
+  bool usesMatches() const { return filter.proposal == ParticleFilterOptions::Proposal::improved; }
+
+  /// (section, options) of every part.
+  std::vector<std::pair<std::string, Options*>> sections() {
+    return {{"particle_filter", &filter},
+            {"motion_model", &motion},
+            {"grid", &grid},
+            {"grid_weight", &gridWeight},
+            {"segmentation", &segmentation},
+            {"line_fit", &lineFit},
+            {"hough", &hough},
+            {"line_association", &association},
+            {"line_database", &database},
+            {"line_weight", &lineWeight},
+            {"improved_proposal", &improved},
+            {"scan_matcher", &matcher}};
+  }
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,108 @@
+#include "slam/filter/ImprovedProposal.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "slam/filter/LineLikelihood.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+TPose2D displaced(const TPose2D& pose, const Eigen::Vector3d& by) {
+  return {pose.x + by.x(), pose.y + by.y(), mrpt::math::wrapToPi(pose.phi + by.z())};
+}
+
+Eigen::Vector3d standardNormal(RandomStream& random) {
+  const double x = random.gaussian(), y = random.gaussian();
+  return {x, y, random.gaussian()};
+}
+
+}  // namespace
+
+ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
+    : configuration_(configuration), matcher_(configuration.matcher) {}
+
+Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
+                                   const PreparedScan& scan, RandomStream& random) const {
+  const MotionDistribution motion = motionAfter(particle, stepMotion, configuration_);
+  const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
+  const TPose2D start = particle.path.back() + stepMotion.start;
+  std::optional<LineLikelihood> lines;
+  if (configuration_.useLines)
+    lines.emplace(scan.lines, stepMotion.hasSlipped ? start : motion.mean, *particle.lines, configuration_);
+  const Prior prior = [&](const TPose2D& pose) {
+    LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
+    if (lines) density += (*lines)(pose);
+    return density;
+  };
+  ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
+  const ScanMatch match = matcher_.match(likelihood, start, prior);
+
+  const auto lineWeightAt = [&](const TPose2D& pose) {
+    return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
+  };
+  Proposed proposed;
+  proposed.fit = match.fit;
+  proposed.isMatched = match.fit >= configuration_.improved.minFit;
+  if (!proposed.isMatched) {
+    const TPose2D drawn =
+        stepMotion.hasSlipped
+            ? sampleMotion(stepMotion.start, configuration_.motion, random)
+            : sampleMotion(stepMotion.odometry, particle.motion.model(configuration_.motion), random);
+    proposed.pose = particle.path.back() + drawn;
+    proposed.logWeight = likelihood.value(proposed.pose);
+    if (lines) {
+      proposed.lineWeight = lineWeightAt(proposed.pose);
+      proposed.logWeight += (*lines)(proposed.pose).value;
+    }
+    return proposed;
+  }
+
+  // The normal distribution around the top, and its factor for drawing: covariance = root root^T.
+  const Eigen::LLT<Eigen::Matrix3d> factor(match.information);
+  const Eigen::Matrix3d root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
+  const double logVolume = root.diagonal().array().abs().log().sum();
+
+  const auto samples = static_cast<size_t>(configuration_.improved.samples);
+  std::vector<Eigen::Vector3d> offsets(samples);
+  std::vector<double> logRatios(samples);  // ln of p over the density it was drawn from
+  for (size_t k = 0; k < samples; ++k) {
+    const Eigen::Vector3d normal = standardNormal(random);
+    offsets[k] = root * normal;
+    const TPose2D pose = displaced(match.pose, offsets[k]);
+    logRatios[k] = likelihood.value(pose) + prior(pose).value + 0.5 * normal.squaredNorm() + logVolume;
+  }
+  const double highest = *std::max_element(logRatios.begin(), logRatios.end());
+  double sum = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (size_t k = 0; k < samples; ++k) {
+    logRatios[k] = std::exp(logRatios[k] - highest);
+    sum += logRatios[k];
+    mean += logRatios[k] * offsets[k];
+  }
+  mean /= sum;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (size_t k = 0; k < samples; ++k)
+    covariance += logRatios[k] / sum * (offsets[k] - mean) * (offsets[k] - mean).transpose();
+
+  proposed.logWeight = highest + std::log(sum / static_cast<double>(samples)) -
+                       0.5 * std::log(motion.covariance.determinant());
+  // The covariance of few samples may be flat in one direction; the root of a semi-definite matrix is not
+  // unique, LDLT gives one.
+  const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
+  const Eigen::Vector3d deviations = spread.vectorD().cwiseMax(0).cwiseSqrt();
+  const Eigen::Vector3d drawn =
+      spread.transpositionsP().transpose() *
+      Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
+  proposed.pose = displaced(match.pose, mean + drawn);
+  if (lines) proposed.lineWeight = lineWeightAt(proposed.pose);
+  return proposed;
+}
+
+}  // namespace hybrid_slam

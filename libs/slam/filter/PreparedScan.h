@@ -1,0 +1,34 @@
+/// @file PreparedScan.h
+/// @brief One scan, prepared once for all particles.
+#pragma once
+
+#include <vector>
+
+#include "base/LaserScan.h"
+#include "slam/filter/FilterOptions.h"
+#include "slam/grid/ScanBeams.h"
+#include "slam/lines/LineSegment.h"
+
+namespace hybrid_slam {
+
+/// What all particles need of one scan, prepared once.
+struct PreparedScan {
+  LaserScan scan;
+  ScanBeams beams;                 ///< every beam, for insertion
+  ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
+  ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
+  std::vector<LineSegment> lines;  ///< robot frame; none without lines
+};
+
+/// Line detection (Sec. III-B) and all else that is the same for every particle.
+class ScanPreparation {
+ public:
+  explicit ScanPreparation(const FilterConfiguration& configuration);
+  PreparedScan operator()(const mrpt::obs::CObservation2DRangeScan& observation) const;
+
+ private:
+  FilterConfiguration configuration_;
+  LineExtractor lineExtractor_;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,61 @@
+#include "slam/filter/Refinement.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <tbb/parallel_for.h>
+
+#include "slam/filter/PreparedScan.h"
+#include "slam/filter/Threads.h"
+#include "slam/grid/BeamSelection.h"
+#include "slam/grid/ScanMatcher.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+OccupancyGrid gridOf(const std::vector<PosedScan>& scans, const GridOptions& options) {
+  OccupancyGrid grid(options.resolution);
+  for (const PosedScan& posed : scans)
+    if (posed.isMapped)
+      grid.insert(ScanBeams(toLaserScan(*posed.scan, options.maxRange)), posed.pose, options);
+  return grid;
+}
+
+}  // namespace
+
+ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration) {
+  const ScanPreparation prepare(configuration);
+  ScanMap map{gridOf(scans, configuration.grid), {}};
+  for (const PosedScan& posed : scans) {
+    if (!posed.isMapped) continue;
+    std::vector<LineSegment> lines;
+    for (const LineSegment& line : prepare(*posed.scan).lines) lines.push_back(transformed(line, posed.pose));
+    map.lines.update(lines, configuration.database, configuration.association);
+  }
+  return map;
+}
+
+void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configuration, int passes) {
+  const Eigen::Vector3d deviations(0.05, 0.05, M_PI / 180);
+  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+  const ScanMatcher matcher(configuration.matcher);
+  tbb::task_arena arena(arenaThreads(configuration.filter.threads));
+  for (int pass = 0; pass < passes; ++pass) {
+    const OccupancyGrid grid = gridOf(scans, configuration.grid);
+    arena.execute([&] {
+      tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
+        TPose2D& pose = scans[i].pose;
+        const LaserScan scan = toLaserScan(*scans[i].scan, configuration.grid.maxRange);
+        const ScanBeams beams(scan, BeamSelection(scan).take(configuration.matcher.beams));
+        const Prior prior = [&, before = pose](const TPose2D& at) {
+          return gaussianLogDensity(at, before, information);
+        };
+        const ScanMatch match = matcher.match(beams, pose, grid, prior);
+        if (match.fit >= configuration.improved.minFit) pose = match.pose;
+      });
+    });
+  }
+}
+
+}  // namespace hybrid_slam

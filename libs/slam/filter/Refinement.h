@@ -1,0 +1,36 @@
+/// @file Refinement.h
+/// @brief After the run: the best trajectory matched against its own final map, and the map rebuilt from it.
+#pragma once
+
+#include <vector>
+
+#include "slam/filter/FilterOptions.h"
+#include "slam/grid/OccupancyGrid.h"
+#include "slam/lines/LineDatabase.h"
+
+namespace mrpt::obs {
+class CObservation2DRangeScan;
+}
+
+namespace hybrid_slam {
+
+/// A scan of the log and where the robot was.
+struct PosedScan {
+  std::shared_ptr<const mrpt::obs::CObservation2DRangeScan> scan;
+  mrpt::math::TPose2D pose;  ///< map frame
+  bool isMapped = false;     ///< it made the filter run: its beams and lines are in the map
+};
+
+/// The map that scans make at their poses.
+struct ScanMap {
+  OccupancyGrid grid;
+  LineDatabase lines;
+};
+ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration);
+
+/// Matches every scan, also those between two updates, against the map that all of them make, `passes` times.
+/// A pose is held to where it was by a normal distribution of 5 cm and 1 deg; a match that fits less than
+/// min_fit leaves it there. The first pose stays: it is the map's frame.
+void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configuration, int passes);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,108 @@
+#include "slam/filter/SlipRecovery.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/MappedRoom.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
+
+/// The fit of a few scans without a slip, as before every slip.
+/// @param off  m: how far from the odometry, which is right, a match may end
+SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::Walls& walls,
+                  double off = 0.02) {
+  SlipRecovery recovery(c);
+  const TPose2D end = particle.path.back();
+  RandomStream random(3, 0, 0);
+  for (int i = 0; i < 5; ++i) {
+    const StepMotion motion =
+        recovery.motionOf(particle, kOdometry, test::prepared(walls, end + kOdometry, random));
+    EXPECT_FALSE(motion.hasSlipped);
+    EXPECT_LT(test::offset(motion.start, kOdometry).head<2>().norm(), off);
+    EXPECT_LT(std::abs(test::offset(motion.start, kOdometry).z()), 0.3 * test::kDegree);
+  }
+  return recovery;
+}
+
+TEST(SlipRecovery, FindsTheMotionAfterASlip) {
+  const FilterConfiguration c;
+  for (const TPose2D& slip : {TPose2D(0, 0, 30 * test::kDegree), TPose2D(0, 0, -30 * test::kDegree),
+                              TPose2D(0.5, 0, 0), TPose2D(-0.4, 0.3, 20 * test::kDegree)}) {
+    Particle particle = test::particleAt(test::room(), kStart);
+    SlipRecovery recovery = used(c, particle, test::room());
+    RandomStream random(4, 0, 0);
+    const TPose2D truth = kStart + (kOdometry + slip);
+    const StepMotion motion =
+        recovery.motionOf(particle, kOdometry, test::prepared(test::room(), truth, random));
+    EXPECT_TRUE(motion.hasSlipped) << slip.asString();
+    EXPECT_EQ(motion.odometry, kOdometry);
+    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.03) << slip.asString();
+    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 0.5 * test::kDegree)
+        << slip.asString();
+  }
+}
+
+TEST(SlipRecovery, CanBeSwitchedOff) {
+  FilterConfiguration c;
+  c.improved.slipDistance = 0;
+  Particle particle = test::particleAt(test::room(), kStart);
+  SlipRecovery recovery(c);
+  RandomStream random(5, 0, 0);
+  const auto motion = recovery.motionOf(particle, kOdometry,
+                                        test::prepared(test::room(), kStart + TPose2D(0, 0, 0.5), random));
+  EXPECT_FALSE(motion.hasSlipped);
+  EXPECT_EQ(motion.start, kOdometry);
+}
+
+TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNoSlip) {
+  const FilterConfiguration c;
+  Particle particle = test::particleAt(test::room(), kStart);
+  SlipRecovery recovery = used(c, particle, test::room());
+  RandomStream random(6, 0, 0);
+  // Through a door, say: nothing here has been mapped.
+  const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
+  const StepMotion motion =
+      recovery.motionOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random));
+  EXPECT_FALSE(motion.hasSlipped);
+}
+
+/// A corridor whose map ends: its new part must not pull the robot back to where it has seen walls.
+TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNoSlip) {
+  const FilterConfiguration c;
+  const TPose2D start(0, 0.1, 0);
+  Particle particle;
+  particle.path.push(start);
+  RandomStream random(7, 0, 0);
+  for (int i = 0; i < 20; ++i) {
+    const TPose2D robot(-0.2 * i, 0.1, 0);
+    particle.grid.insert(test::prepared(kCorridor, robot, random).beams, robot, GridOptions());
+  }
+  // Along it, the roughness of the walls is weighed against the odometry: three of its deviations, 1.1 cm
+  // each.
+  SlipRecovery recovery = used(c, particle, kCorridor, 0.033);
+  const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
+  EXPECT_FALSE(
+      recovery.motionOf(particle, kOdometry, test::prepared(open, start + kOdometry, random)).hasSlipped);
+}
+
+TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
+  FilterConfiguration c;
+  for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn}) term->meanStd = 0;
+  Particle particle;
+  particle.path.push(kStart);
+  const MotionDistribution model = motionDistribution(kStart, kOdometry, c.motion);
+  const MotionDistribution usual = motionAfter(particle, {kOdometry, kOdometry, false}, c);
+  EXPECT_EQ(usual.mean, model.mean);
+  EXPECT_LT((usual.covariance - model.covariance).norm(), 1e-7);
+  const MotionDistribution slipped = motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c);
+  EXPECT_EQ(slipped.mean, model.mean);
+  EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
+  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * test::kDegree, 2), 1e-6);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,93 @@
+#include "slam/filter/StockMapBuilder.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hybrid_slam {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+
+StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, uint32_t seed)
+    : CMetricMapBuilderRBPF(construction), random_(seed) {}
+
+void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
+                                               mrpt::obs::CSensoryFrame& observations) {
+  const size_t before = mapPDF.m_particles.front().d->robotPath.size();
+  // MRPT draws from the generator of the thread it runs in.
+  std::swap(mrpt::random::getRandomGenerator(), random_);
+  CMetricMapBuilderRBPF::processActionObservation(action, observations);
+  std::swap(mrpt::random::getRandomGenerator(), random_);
+  if (mapPDF.m_particles.front().d->robotPath.size() == before) return;
+  ++updates_;
+  step_ = FilterStep();
+  step_.particles = mapPDF.m_particles.size();
+  step_.ess = mapPDF.ESS();
+  setSpread(step_, particlePoses(), bestPath().back().phi);
+}
+
+size_t StockMapBuilder::bestParticle() const {
+  size_t best = 0;
+  for (size_t i = 1; i < mapPDF.particlesCount(); ++i)
+    if (mapPDF.getW(i) > mapPDF.getW(best)) best = i;
+  return best;
+}
+
+std::vector<TPose2D> StockMapBuilder::bestPath() const {
+  std::vector<TPose2D> path;
+  for (const auto& pose : mapPDF.m_particles[bestParticle()].d->robotPath) path.emplace_back(pose);
+  // The path starts with the pose before the first scan.
+  path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(std::min(updates_, path.size())));
+  return path;
+}
+
+COccupancyGridMap2D StockMapBuilder::bestGrid() const {
+  const auto& map = mapPDF.m_particles[bestParticle()].d->mapTillNow;
+  if (const auto grid = map.mapByClass<COccupancyGridMap2D>()) return *grid;
+  // A map of points only (MRPT's ICP set-ups): its scans, drawn into a grid along the best path.
+  COccupancyGridMap2D grid(-1, 1, -1, 1, 0.05f);
+  mrpt::maps::CSimpleMap scans;
+  getCurrentlyBuiltMap(scans);
+  grid.loadFromSimpleMap(scans);
+  return grid;
+}
+
+std::vector<WeightedPose> StockMapBuilder::particlePoses() const {
+  std::vector<WeightedPose> all;
+  for (const auto& particle : mapPDF.m_particles)
+    all.push_back({TPose2D(particle.d->robotPath.back()), particle.log_w});
+  return all;
+}
+
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
+    const mrpt::config::CConfigFileBase& source) {
+  mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions options;
+  options.loadFromConfigFile(source, "MappingApplication");
+  options.verbosity_level = mrpt::system::LVL_ERROR;
+  return options;
+}
+
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const FilterConfiguration& ours) {
+  mrpt::config::CConfigFileMemory ini;
+  const std::string s = "MappingApplication", grid = s + "_occupancyGrid_00";
+  ini.write(s, "PF_algorithm", 0);
+  ini.write(s, "resamplingMethod", static_cast<int>(ours.filter.resampling));
+  ini.write(s, "adaptiveSampleSize", false);
+  ini.write(s, "sampleSize", ours.filter.particles);
+  ini.write(s, "pfOptimalProposal_mapSelection", 0);  // not used by the standard proposal, but asked for
+  ini.write(s, "BETA", ours.filter.essThreshold);
+  ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
+  ini.write(s, "insertionAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);
+  ini.write(s, "localizeLinDistance", ours.filter.updateDistance);
+  ini.write(s, "localizeAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);
+  ini.write(s, "occupancyGrid_count", 1);
+  ini.write(grid + "_creationOpts", "resolution", ours.grid.resolution);
+  ini.write(grid + "_insertOpts", "maxDistanceInsertion", ours.grid.maxRange);
+  ini.write(grid + "_likelihoodOpts", "likelihoodMethod", 4);  // likelihood field, as in its own INI files
+  ini.write(grid + "_likelihoodOpts", "LF_maxRange", ours.grid.maxRange);
+  return stockOptions(ini);
+}
+
+}  // namespace hybrid_slam

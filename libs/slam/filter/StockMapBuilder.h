@@ -1,0 +1,43 @@
+/// @file StockMapBuilder.h
+/// @brief MRPT's own RBPF, seen as our programs see a filter: `--method stock`.
+#pragma once
+
+#include <mrpt/random/RandomGenerators.h>
+#include <mrpt/slam/CMetricMapBuilderRBPF.h>
+
+#include "slam/filter/FilterOptions.h"
+#include "slam/filter/FilterView.h"
+
+namespace hybrid_slam {
+
+class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public FilterView {
+ public:
+  /// @param seed  same seed, same result, whichever thread the filter runs in and whatever runs beside it
+  StockMapBuilder(const TConstructionOptions& construction, uint32_t seed);
+
+  /// Counts the updates, and has MRPT draw from this filter's own generator; all else is MRPT's.
+  void processActionObservation(mrpt::obs::CActionCollection& action,
+                                mrpt::obs::CSensoryFrame& observations) override;
+
+  size_t updates() const override { return updates_; }
+  const FilterStep& lastStep() const override { return step_; }
+  std::vector<mrpt::math::TPose2D> bestPath() const override;
+  mrpt::maps::COccupancyGridMap2D bestGrid() const override;
+  std::vector<DatabaseLine> bestLines() const override { return {}; }
+  std::vector<WeightedPose> particlePoses() const override;
+
+ private:
+  size_t bestParticle() const;
+
+  mrpt::random::CRandomGenerator random_;
+  size_t updates_ = 0;
+  FilterStep step_;
+};
+
+/// MRPT's settings as in its rbpf-slam: section [MappingApplication] and those it names.
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
+    const mrpt::config::CConfigFileBase& source);
+/// MRPT's standard proposal with our number of particles, resampling, update distances and cell size.
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const FilterConfiguration& ours);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,99 @@
+#include "slam/filter/StockMapBuilder.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/random/RandomGenerators.h>
+
+#include <thread>
+
+#include "testing/TestRoom.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+FilterConfiguration configuration() {
+  FilterConfiguration c = test::roomConfiguration();
+  c.filter.particles = 5;
+  c.filter.updateDistance = 0.4;
+  c.filter.updateAngle = 25 * test::kDegree;
+  c.grid.resolution = 0.1;
+  return c;
+}
+
+TEST(MrptRandomGenerator, EachThreadHasItsOwn) {
+  using mrpt::random::getRandomGenerator;
+  getRandomGenerator().randomize(1);
+  const auto expected = mrpt::random::CRandomGenerator(1).drawUniform32bit();
+  auto* other = &getRandomGenerator();
+  std::thread([&] {
+    other = &getRandomGenerator();
+    other->randomize(2);
+  }).join();
+  EXPECT_NE(other, &getRandomGenerator());
+  EXPECT_EQ(getRandomGenerator().drawUniform32bit(), expected) << "seeding in another thread changed nothing";
+}
+
+TEST(StockMapBuilder, TakesOurSettings) {
+  FilterConfiguration c = configuration();
+  c.filter.essThreshold = 0.75;
+  c.filter.resampling = mrpt::bayes::CParticleFilter::prStratified;
+  const auto options = stockOptions(c);
+  EXPECT_EQ(options.PF_options.PF_algorithm, mrpt::bayes::CParticleFilter::pfStandardProposal);
+  EXPECT_EQ(options.PF_options.resamplingMethod, mrpt::bayes::CParticleFilter::prStratified);
+  EXPECT_EQ(options.PF_options.sampleSize, 5u);
+  EXPECT_NEAR(options.PF_options.BETA, 0.75, 1e-6);
+  EXPECT_NEAR(options.insertionLinDistance, 0.4, 1e-6);
+  EXPECT_NEAR(options.localizeLinDistance, 0.4, 1e-6);
+  EXPECT_NEAR(options.insertionAngDistance, 25 * test::kDegree, 1e-6);
+  EXPECT_NEAR(options.localizeAngDistance, 25 * test::kDegree, 1e-6);
+}
+
+TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
+  const StockMapBuilder builder(stockOptions(configuration()), 1);
+  EXPECT_EQ(builder.updates(), 0u);
+  EXPECT_TRUE(builder.bestPath().empty());
+  EXPECT_EQ(builder.particlePoses().size(), 5u);
+  EXPECT_TRUE(builder.bestLines().empty());
+}
+
+TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
+  StockMapBuilder builder(stockOptions(configuration()), 1);
+  const test::Replayed replayed = feed(builder, builder, test::drive(2));
+  const auto path = builder.bestPath();
+  ASSERT_GT(builder.updates(), 10u);
+  ASSERT_EQ(replayed.truth.size(), builder.updates());
+  ASSERT_EQ(path.size(), builder.updates());
+  EXPECT_EQ(builder.lastStep().particles, 5u);
+  EXPECT_FALSE(builder.lastStep().resampled);
+  EXPECT_GT(builder.lastStep().ess, 0);
+  EXPECT_LE(builder.lastStep().ess, 1);
+  // Half a square with odometry this bad: no farther off than its odometry, not somewhere else.
+  EXPECT_LT(test::rms(path, replayed.truth), 0.5);
+  for (size_t i = 1; i < path.size(); ++i)
+    EXPECT_LT(std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y), 1) << i;
+
+  const auto grid = builder.bestGrid();
+  EXPECT_NEAR(grid.getResolution(), 0.1, 1e-6);
+  EXPECT_GT(grid.getPos(3, 1), 0.5);  // free where the robot drove about
+  EXPECT_LT(grid.getXMin(), -2);      // behind the robot's start
+  size_t occupied = 0;
+  for (const auto cell : grid.getRawMap()) occupied += cell < 0;
+  EXPECT_GT(occupied, 300u);  // 39 m of walls in cells of 0.1 m
+}
+
+TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
+  const auto steps = test::drive(1);
+  StockMapBuilder alone(stockOptions(configuration()), 1);
+  feed(alone, alone, steps);
+  StockMapBuilder builder(stockOptions(configuration()), 1), beside(stockOptions(configuration()), 2);
+  for (const test::DriveStep& step : steps) {
+    std::thread([&] { feed(builder, step); }).join();
+    feed(beside, step);
+  }
+  EXPECT_EQ(builder.bestPath(), alone.bestPath());
+  EXPECT_NE(beside.bestPath(), alone.bestPath());
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,80 @@
+#include "slam/grid/GridWeight.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/grid/GridConversion.h"
+
+namespace hybrid_slam {
+namespace {
+
+using MrptGrid = mrpt::maps::COccupancyGridMap2D;
+using Method = GridWeightOptions::Method;
+
+MrptGrid::TLikelihoodMethod mrptMethod(Method method) {
+  switch (method) {
+    case Method::likelihoodField:
+      return MrptGrid::lmLikelihoodField_Thrun;
+    case Method::rayTracing:
+      return MrptGrid::lmRayTracing;
+    default:
+      return MrptGrid::lmConsensus;
+  }
+}
+
+/// The scan as seen from above, with nothing but its valid beams: MRPT's methods take a reading marked as
+/// valid for one, read cells outside of the grid for its end, and give tilted scans no weight.
+mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
+  mrpt::obs::CObservation2DRangeScan out;
+  out.aperture = static_cast<float>(scan.beams.back().angle - scan.beams.front().angle);
+  out.rightToLeft = true;
+  out.maxRange = static_cast<float>(scan.maxRange);
+  out.sensorPose = mrpt::poses::CPose3D(scan.sensorPose);
+  out.resizeScan(scan.beams.size());
+  for (size_t i = 0; i < scan.beams.size(); ++i) {
+    const Beam& beam = scan.beams[i];
+    out.setScanRange(i, beam.valid ? static_cast<float>(beam.range) : 0);
+    out.setScanRangeValidity(i, beam.valid);
+  }
+  return out;
+}
+
+/// Every so many-th of `count` beams leaves about `beams`, evenly spread; 0 leaves all.
+size_t decimation(size_t count, int beams) {
+  if (beams == 0) return 1;
+  return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
+}
+
+/// The cells within reach of the scan's longest beam.
+CellBox reach(const ScanBeams& beams, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) {
+  double longest = 0;
+  for (const auto& ray : beams.rays) longest = std::max(longest, ray.range);
+  const double reach = longest + std::hypot(beams.originX, beams.originY) + 1;
+  return {grid.cellOf(robot.x - reach, robot.y - reach), grid.cellOf(robot.x + reach, robot.y + reach)};
+}
+
+}  // namespace
+
+double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, const mrpt::math::TPose2D& robot,
+                             const OccupancyGrid& grid) const {
+  if (options_.method == Method::penetration) return penetration_.meanLogLikelihood(beams, robot, grid);
+  if (beams.rays.empty()) return 0;
+
+  MrptGrid local = toMrpt(grid, reach(beams, robot, grid));
+  auto& options = local.likelihoodOptions;
+  options.likelihoodMethod = mrptMethod(options_.method);
+  options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
+  const size_t step = decimation(scan.beams.size(), options_.beams);
+  options.LF_decimation = static_cast<uint32_t>(step);
+  options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
+  // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
+  const double logLikelihood =
+      local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));
+  const bool isMean = options_.method == Method::consensus;
+  return std::min(0.0, isMean ? logLikelihood : logLikelihood / static_cast<double>(beams.rays.size()));
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,53 @@
+/// @file ScanLikelihood.h
+/// @brief How likely a scan is on a particle's grid, as a function of the pose.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <array>
+#include <vector>
+
+#include "slam/grid/CubicSpline.h"
+#include "slam/grid/LogDensity.h"
+#include "slam/grid/OccupancyGrid.h"
+
+namespace hybrid_slam {
+
+/// ln p(scan | pose, grid), up to a constant, at poses near each other: what was read of the grid around the
+/// end of each beam is kept until the beam ends in another cell.
+///
+/// The map is m(x, y) = max(0, 2 p - 1), p the occupancy, smoothed by a cubic B-spline over the cells:
+/// nothing at unknown and free cells, twice continuously differentiable, blurred by 0.58 cells. A beam that
+/// ends at (x, y) has the residual 1 - m, and a scan the log-likelihood - sum (1 - m)^2 / (2 sigma^2), as of
+/// so many measurements with the deviation sigma.
+class ScanLikelihood {
+ public:
+  /// Scan and grid outlive it.
+  ScanLikelihood(const ScanBeams& scan, const OccupancyGrid& grid, double sigma);
+
+  LogDensity operator()(const mrpt::math::TPose2D& pose);
+  /// The same, the value alone.
+  double value(const mrpt::math::TPose2D& pose);
+  /// Mean over the beams of m at their ends, in [0, 1]; 0 without a beam.
+  double fit(const mrpt::math::TPose2D& pose);
+  double resolution() const { return resolution_; }  ///< of the grid, m
+
+ private:
+  /// m of the 4 x 4 cells from (x, y) on, row by row.
+  struct Patch {
+    std::array<Float4, 4> m;
+    int x, y;
+    bool isRead = false, isEmpty = true;
+  };
+  const Patch& patchAt(size_t beam, int x, int y);
+  void read(Patch& patch);
+  template <bool kWithSlope, class Visit>
+  void forEachEnd(const mrpt::math::TPose2D& pose, const Visit& visit);
+
+  const ScanBeams& scan_;
+  double resolution_, perCell_, weight_;
+  TileReader cells_;
+  std::vector<Patch> patches_;  ///< of each beam
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,101 @@
+#include "slam/grid/ScanMatcher.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
+  return {pose.x + step.x(), pose.y + step.y(), mrpt::math::wrapToPi(pose.phi + step.z())};
+}
+
+}  // namespace
+
+void ScanMatcherOptions::describe(OptionTable& t) {
+  t.add("sigma", sigma, 0.01, 100, "", "deviation of one beam's residual 1 - m; larger trusts a match less");
+  t.add("beams", beams, 0, 10000,
+        "matches so many beams of a scan, evenly from all directions of walls; 0: all");
+  t.add("iterations", iterations, 1, 1000, "at most so many steps of a climb");
+}
+
+LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Eigen::Matrix3d& information) {
+  const Eigen::Vector3d off(pose.x - mean.x, pose.y - mean.y, mrpt::math::wrapToPi(pose.phi - mean.phi));
+  LogDensity density;
+  density.gradient = -information * off;
+  density.value = 0.5 * off.dot(density.gradient);
+  density.information = information;
+  return density;
+}
+
+ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {}
+
+ScanLikelihood ScanMatcher::likelihood(const ScanBeams& scan, const OccupancyGrid& grid) const {
+  return ScanLikelihood(scan, grid, options_.sigma);
+}
+
+namespace {
+
+/// Minus the second derivative of the likelihood, without its negative part: differences of the gradient 1.5
+/// cells (3/4 deg) to either side. The sum of squared slopes that Gauss-Newton climbs by takes the roughness
+/// of a sparsely hit wall for information along it, and has none on the ridge of a wall.
+Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
+  const double cells = 1.5 * likelihood.resolution();
+  const Eigen::Vector3d reach(cells, cells, 0.75 * M_PI / 180);
+  Eigen::Matrix3d bend;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);
+    bend.col(k) =
+        (likelihood(moved(pose, -step)).gradient - likelihood(moved(pose, step)).gradient) / (2 * reach[k]);
+  }
+  // What bends upwards holds no information.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
+}
+
+}  // namespace
+
+ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
+                             const Prior& prior) const {
+  ScanLikelihood on = likelihood(scan, grid);
+  return match(on, start, prior);
+}
+
+ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, const Prior& prior) const {
+  constexpr double kNegligibleGain = 0.01;  // of ln p: the pose is within 0.14 deviations of the top
+  const auto posterior = [&](const TPose2D& at) {
+    LogDensity density = likelihood(at);
+    return density += prior(at);
+  };
+  TPose2D pose = start;
+  LogDensity here = posterior(pose);
+  double damping = 1e-3;
+  for (int i = 0; i < options_.iterations; ++i) {
+    Eigen::Matrix3d damped = here.information;
+    damped.diagonal() *= 1 + damping;
+    damped.diagonal().array() += 1e-9;
+    const Eigen::Vector3d step = damped.ldlt().solve(here.gradient);
+    if (0.5 * step.dot(here.gradient) < kNegligibleGain) break;
+    const TPose2D next = moved(pose, step);
+    const LogDensity there = posterior(next);
+    if (there.value > here.value) {
+      pose = next, here = there;
+      damping = std::max(damping * 0.3, 1e-6);
+    } else {
+      damping = std::max(damping * 10, 1e-2);
+    }
+  }
+  ScanMatch match;
+  match.pose = pose;
+  match.logPosterior = here.value;
+  match.information = curvature(likelihood, match.pose) + prior(match.pose).information;
+  match.fit = likelihood.fit(match.pose);
+  return match;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,100 @@
+/// @file TileGrid.h
+/// @brief An unbounded grid of small tiles, shared between copies and copied on write.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "slam/grid/CowPtr.h"
+#include "slam/grid/Tile.h"
+
+namespace hybrid_slam {
+
+/// Column and row of a cell; cell (i, j) covers [i s, (i+1) s) x [j s, (j+1) s) for a cell size s.
+struct CellIndex {
+  int x = 0, y = 0;
+  bool operator==(const CellIndex& o) const { return x == o.x && y == o.y; }
+};
+
+/// A rectangle of cells, both corners included; empty while max < min.
+struct CellBox {
+  CellIndex min{0, 0}, max{-1, -1};
+  bool empty() const { return max.x < min.x || max.y < min.y; }
+};
+
+/// The cells of a map (see Tile) without bounds.
+///
+/// The idea is DP-SLAM's: particles of one ancestry share what they agree on. A grid is a window of blocks of
+/// 16 x 16 tiles of 32 x 32 cells; blocks and tiles are copied on write, so that copying a grid costs a few
+/// pointers whatever the size of the map, and it grows in any direction without moving a cell.
+class TileGrid {
+ public:
+  static constexpr int kBlockBits = 4, kBlockSize = 1 << kBlockBits;
+
+  /// The log-odds of a cell; 0 where nothing was ever written.
+  int8_t at(CellIndex cell) const {
+    const Tile* tile = tileAt(cell.x >> Tile::kBits, cell.y >> Tile::kBits);
+    return tile ? tile->cells()[Tile::index(cell.x, cell.y)] : int8_t{0};
+  }
+  void set(CellIndex cell, int8_t value) {
+    writableTile(cell.x >> Tile::kBits, cell.y >> Tile::kBits).set(cell.x, cell.y, value);
+  }
+
+  /// The tile that holds cells [32 tx, 32 tx + 31] x [32 ty, 32 ty + 31], or null.
+  const Tile* tileAt(int tx, int ty) const {
+    const CowPtr<Block>* block = findBlock(tx >> kBlockBits, ty >> kBlockBits);
+    return block && *block ? (*block)->tiles[inBlock(tx, ty)].get() : nullptr;
+  }
+  /// The same tile for writing: made if it is missing, unshared if another grid shares it.
+  Tile& writableTile(int tx, int ty);
+
+  /// The cells of all tiles that exist.
+  CellBox bounds() const;
+  /// Calls visit(tx, ty, tile) for each tile that exists, in a fixed order.
+  void forEachTile(const std::function<void(int, int, const Tile&)>& visit) const;
+
+ private:
+  struct Block {
+    std::array<CowPtr<Tile>, kBlockSize * kBlockSize> tiles;
+  };
+  static size_t inBlock(int tx, int ty) {
+    return static_cast<size_t>(((ty & (kBlockSize - 1)) << kBlockBits) | (tx & (kBlockSize - 1)));
+  }
+  const CowPtr<Block>* findBlock(int bx, int by) const {
+    const int column = bx - firstX_, row = by - firstY_;
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
+    return &blocks_[static_cast<size_t>(row * columns_ + column)];
+  }
+  void growTo(int bx, int by);
+
+  int firstX_ = 0, firstY_ = 0, columns_ = 0, rows_ = 0;  ///< the window of blocks, in block indices
+  std::vector<CowPtr<Block>> blocks_;
+};
+
+/// Reads cells along a path: remembers the tile of the last cell.
+class TileReader {
+ public:
+  explicit TileReader(const TileGrid& grid) : grid_(&grid) {}
+  int8_t at(int x, int y) {
+    const Tile* const found = tile(x >> Tile::kBits, y >> Tile::kBits);
+    return found ? found->cells()[Tile::index(x, y)] : int8_t{0};
+  }
+  /// As TileGrid::tileAt.
+  const Tile* tile(int tx, int ty) {
+    if (tx != tx_ || ty != ty_ || first_) {
+      tile_ = grid_->tileAt(tx, ty);
+      tx_ = tx, ty_ = ty, first_ = false;
+    }
+    return tile_;
+  }
+
+ private:
+  const TileGrid* grid_;
+  const Tile* tile_ = nullptr;
+  int tx_ = 0, ty_ = 0;
+  bool first_ = true;
+};
+
+}  // namespace hybrid_slam

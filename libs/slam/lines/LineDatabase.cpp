@@ -1,0 +1,139 @@
+#include "slam/lines/LineDatabase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+}  // namespace
+
+double evidence(const DatabaseLine& line) {
+  constexpr int kEnough = 20;
+  return line.length * std::min(line.count, kEnough);
+}
+
+std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
+  double sine = 0, cosine = 0, total = 0;
+  for (const DatabaseLine& line : lines) {
+    const double weight = evidence(line);
+    sine += weight * std::sin(4 * line.theta);
+    cosine += weight * std::cos(4 * line.theta);
+    total += weight;
+  }
+  // Lines at 45 deg to each other cancel: what is left is rounding error and points nowhere.
+  if (std::hypot(sine, cosine) <= 1e-9 * total) return std::nullopt;
+  return std::atan2(sine, cosine) / 4;
+}
+
+double wrapToRightAngle(double angle) { return std::remainder(angle, M_PI / 2); }
+
+void setDirections(std::vector<DatabaseLine>& lines, double window) {
+  struct Known {
+    double theta, evidence;
+  };
+  std::vector<Known> known;
+  known.reserve(lines.size());
+  for (const DatabaseLine& line : lines) known.push_back({wrapToRightAngle(line.theta), evidence(line)});
+  for (size_t i = 0; i < lines.size(); ++i) {
+    double sum = 0, total = 0;
+    for (const Known& other : known) {
+      const double d = rightAngleDifference(other.theta, known[i].theta);
+      if (std::abs(d) >= window) continue;
+      const double weight = other.evidence * (1 - d * d / (window * window));
+      sum += weight * d;
+      total += weight;
+    }
+    lines[i].direction = wrapToRightAngle(known[i].theta + (total > 0 ? sum / total : 0));
+  }
+}
+
+void LineDatabaseOptions::describe(OptionTable& table) {
+  table.add("min_length", minLength, 0, 100, "m", "a line that matches none is inserted if it is this long");
+  table.add("min_count", minCount, 1, 1000,
+            "lines seen less often are pruned: sensor and localisation errors");
+  table.add("prune_interval", pruneInterval, 1, 10000,
+            "updates from one pruning to the next, and chances that a new line has to be seen again");
+  table.addAngle("direction_window_deg", directionWindow, 0, 22.5,
+                 "lines whose directions, modulo a right angle, differ by less share a dominating direction");
+}
+
+DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
+  const double n = line.count;
+  const auto mean = [n](double old, double now) { return (n * old + now) / (n + 1); };
+  const TPoint2D oldMiddle = middle(line), newMiddle = middle(seen);
+  const TPoint2D pivot(mean(oldMiddle.x, newMiddle.x), mean(oldMiddle.y, newMiddle.y));
+
+  // The seen line in the representation, (rho, theta) or (-rho, theta + pi), whose normal is the old line's.
+  const double turn = std::remainder(seen.theta - line.theta, M_PI);
+  const bool flipped = std::cos(seen.theta - line.theta) < 0;
+  const double seenRho = flipped ? -seen.rho : seen.rho, seenTheta = line.theta + turn;
+
+  // signedDistance is minus rho about the pivot.
+  const double rho =
+      -mean(signedDistance(pivot, line.rho, line.theta), signedDistance(pivot, seenRho, seenTheta));
+  const double theta = mean(line.theta, seenTheta);
+
+  const std::array<TPoint2D, 4> ends{line.start, line.end, seen.start, seen.end};
+  TPoint2D start, end;
+  double longest = -1;
+  for (size_t i = 0; i < ends.size(); ++i)
+    for (size_t j = i + 1; j < ends.size(); ++j) {
+      const double length = std::hypot(ends[j].x - ends[i].x, ends[j].y - ends[i].y);
+      if (length > longest) {
+        longest = length;
+        start = ends[i];
+        end = ends[j];
+      }
+    }
+
+  DatabaseLine result = line;
+  static_cast<LineSegment&>(result) = makeSegment(rho + signedDistance(pivot, 0, theta), theta, start, end);
+  ++result.count;
+  return result;
+}
+
+LineDatabase::LineDatabase(std::vector<DatabaseLine> lines)
+    : lines_(std::move(lines)), dominatingDirection_(directionModuloRightAngle(lines_)) {}
+
+void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDatabaseOptions& options,
+                          const AssociationOptions& association) {
+  ++updates_;
+  for (const LineSegment& line : seen) {
+    if (const DatabaseLine* match = closestMatch(line, association))
+      lines_[static_cast<size_t>(match - lines_.data())] = merged(*match, line);
+    else if (line.length >= options.minLength)
+      lines_.push_back({line, 1, updates_, 0});
+  }
+  if (updates_ % options.pruneInterval == 0) prune(options);
+  dominatingDirection_ = directionModuloRightAngle(lines_);
+  setDirections(lines_, options.directionWindow);
+}
+
+const DatabaseLine* LineDatabase::closestMatch(const LineSegment& seen,
+                                               const AssociationOptions& association) const {
+  const DatabaseLine* closest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const DatabaseLine& line : lines_) {
+    const auto distance = matchDistance(seen, line, association);
+    if (distance && *distance < least) {
+      least = *distance;
+      closest = &line;
+    }
+  }
+  return closest;
+}
+
+void LineDatabase::prune(const LineDatabaseOptions& options) {
+  const auto hopeless = [&](const DatabaseLine& line) {
+    return line.count < options.minCount && updates_ - line.inserted >= options.pruneInterval;
+  };
+  lines_.erase(std::remove_if(lines_.begin(), lines_.end(), hopeless), lines_.end());
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,29 @@
+/// @file LineExtractor.h
+/// @brief Line detection (Sec. III-B): segmentation, fit, Hough refinement.
+#pragma once
+
+#include <vector>
+
+#include "slam/lines/HoughRefinement.h"
+#include "slam/lines/LineFit.h"
+#include "slam/lines/LineSegment.h"
+#include "slam/lines/Segmentation.h"
+
+namespace hybrid_slam {
+
+/// Turns a scan into line segments. Has no state beyond its options: one extractor serves all threads.
+class LineExtractor {
+ public:
+  LineExtractor(const SegmentationOptions& segmentation, const LineFitOptions& fit,
+                const HoughOptions& hough);
+
+  /// The lines of at least minLength, in the robot frame, in the order of the beams.
+  std::vector<LineSegment> extract(const LaserScan& scan) const;
+
+ private:
+  SegmentationOptions segmentation_;
+  LineFitOptions fit_;
+  HoughOptions hough_;
+};
+
+}  // namespace hybrid_slam

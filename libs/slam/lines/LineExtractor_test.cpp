@@ -1,0 +1,239 @@
+#include "slam/lines/LineExtractor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "testing/TestScans.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+using Method = LineFitOptions::Method;
+
+const LineExtractor kDefault{SegmentationOptions(), LineFitOptions(), HoughOptions()};
+const test::Walls kRoom = test::polygon({{-3, -2}, {5, -2}, {5, 4}, {-3, 4}});
+
+/// The wall that a line in the map frame lies on within 0.3 deg and 1 cm, or -1.
+int wallOf(const LineSegment& line, const test::Walls& walls) {
+  for (size_t i = 0; i < walls.size(); ++i) {
+    const LineSegment wall = makeSegment(walls[i].first, walls[i].second);
+    if (test::angleBetween(wall.theta, line.theta) < 0.3 * test::kDegree &&
+        std::abs(signedDistance(middle(line), wall.rho, wall.theta)) < 0.01)
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// A full turn of a laser at the robot's centre, whose two ends meet in the room's first corner, so that no
+/// wall is cut there.
+LaserScan roomScan(const TPose2D& robot, double noise, RandomStream& random) {
+  const TPose2D sensor(0, 0, std::atan2(robot.y + 2, robot.x + 3) - robot.phi);
+  return test::scanOf(kRoom, robot, sensor, 720, 359.5 * test::kDegree, noise, random);
+}
+
+TEST(LineExtractor, ARectangularRoomGivesItsFourWalls) {
+  RandomStream random(1, 0, 0);
+  for (int i = 0; i < 200; ++i) {
+    const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2),
+                        test::uniform(random, -M_PI, M_PI));
+    const auto lines = kDefault.extract(roomScan(robot, 0, random));
+    ASSERT_EQ(lines.size(), 4u);
+    for (size_t k = 0; k < 4; ++k) {
+      const LineSegment line = transformed(lines[k], robot),
+                        wall = makeSegment(kRoom[k].first, kRoom[k].second);
+      EXPECT_NEAR(test::angleBetween(line.theta, wall.theta), 0, 0.1 * test::kDegree);
+      EXPECT_NEAR(signedDistance(middle(line), wall.rho, wall.theta), 0, 0.005);
+      EXPECT_NEAR(line.length, wall.length, 0.15);  // up to a beam's spacing at either end
+    }
+  }
+}
+
+/// With noise a corner may be cut a beam or two off, which now and then leaves a short piece askew.
+TEST(LineExtractor, ARoomWithNoise) {
+  RandomStream random(2, 0, 0);
+  double total = 0, onWalls = 0;
+  for (int i = 0; i < 200; ++i) {
+    const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2),
+                        test::uniform(random, -M_PI, M_PI));
+    for (const LineSegment& line : kDefault.extract(roomScan(robot, 0.012, random))) {
+      total += line.length;
+      if (wallOf(transformed(line, robot), kRoom) >= 0) onWalls += line.length;
+    }
+  }
+  EXPECT_GT(total, 0.97 * 200 * 28);
+  EXPECT_LT(total, 200 * 28);
+  EXPECT_GT(onWalls, 0.995 * total);
+}
+
+TEST(LineExtractor, AHalfCircleScanSeesTheThreeWallsAheadOfIt) {
+  RandomStream random(2, 0, 0);
+  const auto lines =
+      kDefault.extract(test::scanOf(kRoom, {-2.9, 1, 0}, {}, 541, 180 * test::kDegree, 0, random));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_NEAR(lines[0].theta, -90 * test::kDegree, 1e-6);
+  EXPECT_NEAR(lines[0].rho, 3, 1e-6);
+  EXPECT_NEAR(lines[1].theta, 0, 1e-6);
+  EXPECT_NEAR(lines[1].rho, 7.9, 1e-6);
+  EXPECT_NEAR(lines[1].length, 6, 0.1);
+  EXPECT_NEAR(lines[2].theta, 90 * test::kDegree, 1e-6);
+  EXPECT_NEAR(lines[2].rho, 3, 1e-6);
+}
+
+TEST(LineExtractor, CornersSplitUnlessSwitchedOff) {
+  RandomStream random(3, 0, 0);
+  const LaserScan scan = test::scanOf(kRoom, {1, 1, 0.4}, {}, 541, 270 * test::kDegree, 0.01, random);
+  EXPECT_GE(kDefault.extract(scan).size(), 4u);
+  SegmentationOptions whole;
+  whole.split = false;
+  // One run round three corners: no line fits it.
+  EXPECT_TRUE(LineExtractor(whole, LineFitOptions(), HoughOptions()).extract(scan).empty());
+}
+
+TEST(LineExtractor, LinesShorterThanTheMinimumAreDropped) {
+  RandomStream random(4, 0, 0);
+  const LaserScan scan = test::scanOf({{{2, -0.5}, {2, 0.5}}}, {}, {}, 541, 270 * test::kDegree, 0, random);
+  SegmentationOptions segmentation;
+  segmentation.minLength = 0.9;
+  EXPECT_EQ(LineExtractor(segmentation, LineFitOptions(), HoughOptions()).extract(scan).size(), 1u);
+  segmentation.minLength = 1.1;
+  EXPECT_TRUE(LineExtractor(segmentation, LineFitOptions(), HoughOptions()).extract(scan).empty());
+}
+
+TEST(LineExtractor, NothingToSee) {
+  LaserScan scan;
+  EXPECT_TRUE(kDefault.extract(scan).empty());
+  scan.beams.resize(541);  // all invalid
+  EXPECT_TRUE(kDefault.extract(scan).empty());
+  scan.beams.assign(1, {0, 1, true});
+  EXPECT_TRUE(kDefault.extract(scan).empty());
+}
+
+/// The same walls through sensors that are offset, turned, upside down or clockwise give the same lines.
+TEST(LineExtractor, MountingOfTheSensorDoesNotMatter) {
+  const TPose2D robot(0.5, 0.7, 0.3);
+  for (const bool upsideDown : {false, true})
+    for (const bool rightToLeft : {true, false})
+      for (const double yaw : {0.0, 0.6, -2.0}) {
+        mrpt::obs::CObservation2DRangeScan o;
+        o.aperture = static_cast<float>(270 * test::kDegree);
+        o.maxRange = 20;
+        o.rightToLeft = rightToLeft;
+        o.sensorPose = mrpt::poses::CPose3D(0.4, -0.1, 0.3, yaw, 0, upsideDown ? M_PI : 0);
+        o.resizeScan(541);
+        const TPoint2D origin = robot.composePoint(TPoint2D(0.4, -0.1));
+        for (size_t i = 0; i < 541; ++i) {
+          const double angle = o.getScanAngle(i);
+          double x = 0, y = 0, z = 0;  // the beam's direction in the robot frame, by 3D geometry
+          o.sensorPose.composePoint(std::cos(angle), std::sin(angle), 0, x, y, z);
+          const double heading = robot.phi + std::atan2(y + 0.1, x - 0.4);
+          o.setScanRange(i, static_cast<float>(castRay(kRoom, origin, heading)));
+          o.setScanRangeValidity(i, true);
+        }
+        const auto lines = kDefault.extract(toLaserScan(o, 20));
+        EXPECT_GE(lines.size(), 3u);
+        for (const LineSegment& line : lines) {
+          const LineSegment inMap = transformed(line, robot);
+          EXPECT_GE(wallOf(inMap, kRoom), 0)
+              << "rho " << inMap.rho << " theta " << inMap.theta << " yaw " << yaw << " upside down "
+              << upsideDown << " right to left " << rightToLeft;
+        }
+      }
+}
+
+TEST(LineExtractor, ThePaperToTheLetterLosesTheWallAcrossItsWay) {
+  RandomStream random(5, 0, 0);
+  // Two walls apart from each other: ahead (vertical in the sensor frame) and to the left.
+  const test::Walls walls{{{4, -2}, {4, 2}}, {{-3, 3}, {1, 3}}};
+  const LaserScan scan = test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.012, random);
+  EXPECT_EQ(kDefault.extract(scan).size(), 2u);
+  SegmentationOptions whole;
+  whole.split = false;
+  LineFitOptions paper;
+  paper.method = Method::paper;
+  HoughOptions hough;
+  const auto lines = LineExtractor(whole, paper, hough).extract(scan);
+  ASSERT_EQ(lines.size(), 1u);  // eq. (5) drops the one along y
+  EXPECT_NEAR(lines[0].theta, 90 * test::kDegree, 0.5 * test::kDegree);
+  EXPECT_NEAR(lines[0].rho, 3, 0.02);
+}
+
+/// Prints the table of doc/paper-notes.md on the Intel log: how far each line is from the direction that the
+/// others of its scan have in common.
+TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
+  const char* folder = std::getenv("HYBRID_SLAM_DATASETS");
+  if (!folder) GTEST_SKIP() << "HYBRID_SLAM_DATASETS is not set";
+  mrpt::io::CFileGZInputStream file;
+  ASSERT_TRUE(file.open(std::string(folder) + "/intel-lab.clf.gz"));
+  std::vector<LaserScan> scans;
+  for (std::string text; file.getline(text);) {
+    std::istringstream row(text);
+    std::string key;
+    size_t beams = 0;
+    if (!(row >> key) || key != "FLASER" || !(row >> beams)) continue;
+    LaserScan scan;
+    for (size_t i = 0; i < beams; ++i) {
+      Beam beam{(static_cast<double>(i) - 90) * test::kDegree, 0, false};
+      row >> beam.range;
+      beam.valid = beam.range > 0 && beam.range < 20;
+      scan.beams.push_back(beam);
+    }
+    scans.push_back(scan);
+  }
+  ASSERT_EQ(scans.size(), 4653u);
+
+  std::printf(
+      "| fit | Hough | split | lines a scan | of these above 5 m | median angle (deg) "
+      "|\n|---|---|---|---|---|---|\n");
+  const auto measure = [&scans](Method method, bool hough, bool split) {
+    SegmentationOptions segmentation;
+    segmentation.split = split;
+    LineFitOptions fit;
+    fit.method = method;
+    HoughOptions refinement;
+    refinement.enabled = hough;
+    const LineExtractor extractor(segmentation, fit, refinement);
+    std::vector<double> angles;
+    size_t count = 0, longLines = 0;
+    for (const LaserScan& scan : scans) {
+      const auto lines = extractor.extract(scan);
+      double sine = 0, cosine = 0;
+      for (const LineSegment& line : lines) {
+        sine += line.length * std::sin(4 * line.theta);
+        cosine += line.length * std::cos(4 * line.theta);
+        longLines += line.length > 5;
+      }
+      count += lines.size();
+      for (const LineSegment& line : lines) {
+        if (lines.size() < 2) continue;
+        const double others = std::atan2(sine - line.length * std::sin(4 * line.theta),
+                                         cosine - line.length * std::cos(4 * line.theta)) /
+                              4;
+        angles.push_back(std::abs(std::remainder(line.theta - others, M_PI / 2)) / test::kDegree);
+      }
+    }
+    const double n = static_cast<double>(scans.size()), median = test::spread(angles).median;
+    std::printf("| %s | %s | %s | %.2f | %.3f | %.2f |\n", method == Method::paper ? "paper" : "orthogonal",
+                hough ? "yes" : "no", split ? "yes" : "no", static_cast<double>(count) / n,
+                static_cast<double>(longLines) / n, median);
+    return median;
+  };
+  const double byDefault = measure(Method::orthogonal, true, true);
+  const double withoutHough = measure(Method::orthogonal, false, true);
+  measure(Method::paper, true, true);
+  const double byPaper = measure(Method::paper, false, true);
+  measure(Method::paper, true, false);
+  EXPECT_LT(byDefault, 3);
+  EXPECT_LT(byDefault, withoutHough);
+  EXPECT_LT(byDefault, byPaper);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,97 @@
+#include "slam/lines/LineFit.h"
+
+#include <cmath>
+#include <limits>
+
+#include "slam/lines/LineSegment.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPoint2D;
+
+void LineFitOptions::describe(OptionTable& table) {
+  table.add("method", method, {{Method::orthogonal, "orthogonal"}, {Method::paper, "paper"}},
+            "least squares of orthogonal distances, or eq. (2)-(5) of the paper (worse: doc/paper-notes.md)");
+  table.add(
+      "max_rms", maxRms, 0, 10, "m",
+      "method orthogonal: segments with a larger root mean square distance from their line are dropped");
+  table.add("max_error", maxError, 0, 1e6, "m^2",
+            "method paper: segments with a larger error, eq. (5), are dropped");
+}
+
+std::optional<FittedLine> fitOrthogonal(PointRange points) {
+  if (points.size() < 2) return std::nullopt;
+  double meanX = 0, meanY = 0;
+  for (const TPoint2D& p : points) {
+    meanX += p.x;
+    meanY += p.y;
+  }
+  meanX /= static_cast<double>(points.size());
+  meanY /= static_cast<double>(points.size());
+  double xx = 0, xy = 0, yy = 0;  // about the mean, so that the distance from the origin costs no digits
+  for (const TPoint2D& p : points) {
+    const double x = p.x - meanX, y = p.y - meanY;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+  }
+  if (xx + yy <= 0) return std::nullopt;
+  FittedLine line;
+  line.theta = 0.5 * std::atan2(2 * xy, xx - yy) + M_PI / 2;  // the axis of least inertia, then its normal
+  line.rho = signedDistance({meanX, meanY}, 0, line.theta);
+  normalise(line.rho, line.theta);
+  return line;
+}
+
+double rmsDistance(PointRange points, const FittedLine& line) {
+  const double c = std::cos(line.theta), s = std::sin(line.theta);
+  double sum = 0;
+  for (const TPoint2D& p : points) {
+    const double distance = p.x * c + p.y * s - line.rho;
+    sum += distance * distance;
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+LineCoefficients fitCoefficients(PointRange points) {
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const TPoint2D& p : points) {
+    x += p.x;
+    y += p.y;
+    xx += p.x * p.x;
+    xy += p.x * p.y;
+    yy += p.y * p.y;
+  }
+  return {x * yy - y * xy, y * xx - x * xy, xy * xy - xx * yy};
+}
+
+double verticalError(PointRange points, const LineCoefficients& line) {
+  if (line.b == 0) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (const TPoint2D& p : points) {
+    const double residual = -line.a / line.b * p.x - line.c / line.b - p.y;
+    sum += residual * residual;
+  }
+  return sum;
+}
+
+std::optional<FittedLine> toHesse(const LineCoefficients& line) {
+  const double norm = std::hypot(line.a, line.b);
+  if (norm <= 0) return std::nullopt;
+  FittedLine result{-line.c / norm, std::atan2(line.b, line.a)};
+  normalise(result.rho, result.theta);
+  return result;
+}
+
+std::optional<FittedLine> fitLine(PointRange points, const LineFitOptions& options) {
+  if (options.method == LineFitOptions::Method::paper) {
+    const LineCoefficients line = fitCoefficients(points);
+    if (verticalError(points, line) > options.maxError) return std::nullopt;
+    return toHesse(line);
+  }
+  const auto line = fitOrthogonal(points);
+  if (!line || rmsDistance(points, *line) > options.maxRms) return std::nullopt;
+  return line;
+}
+
+}  // namespace hybrid_slam

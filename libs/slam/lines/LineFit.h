@@ -1,0 +1,51 @@
+/// @file LineFit.h
+/// @brief Least-squares line fitting (Sec. III-B, step 2): eq. (2)-(6), and orthogonal least squares.
+#pragma once
+
+#include <optional>
+
+#include "base/Options.h"
+#include "slam/lines/Segmentation.h"
+
+namespace hybrid_slam {
+
+/// Section [line_fit].
+struct LineFitOptions : Options {
+  enum class Method {
+    orthogonal,  ///< total least squares; error: root mean square distance from the line
+    paper        ///< eq. (2)-(4); error: eq. (5)
+  };
+  Method method = Method::orthogonal;
+  double maxRms = 0.03;   ///< m
+  double maxError = 0.1;  ///< m^2
+
+  void describe(OptionTable& table) override;
+};
+
+/// x cos(theta) + y sin(theta) = rho, rho >= 0, in the frame of the points.
+struct FittedLine {
+  double rho = 0;    ///< m
+  double theta = 0;  ///< rad, in (-pi, pi]
+};
+
+/// The line with the least sum of squared orthogonal distances. Nothing for fewer than two distinct points.
+std::optional<FittedLine> fitOrthogonal(PointRange points);
+/// Root mean square orthogonal distance of the points from the line, m.
+double rmsDistance(PointRange points, const FittedLine& line);
+
+/// a x + b y + c = 0.
+struct LineCoefficients {
+  double a = 0, b = 0, c = 0;
+};
+/// eq. (2)-(4). All three are 0 (no line) where the points lie on one line through the origin.
+LineCoefficients fitCoefficients(PointRange points);
+/// eq. (5): sum of the squared residuals along y, m^2. Infinite where b = 0.
+double verticalError(PointRange points, const LineCoefficients& line);
+/// eq. (6) with the signs that fit the Hesse normal form (doc/paper-notes.md). Nothing where a = b = 0.
+std::optional<FittedLine> toHesse(const LineCoefficients& line);
+
+/// The fit of the chosen method, or nothing where there is none or where its error is above the method's
+/// limit.
+std::optional<FittedLine> fitLine(PointRange points, const LineFitOptions& options);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,93 @@
+#include "slam/lines/LineWeight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+namespace {
+
+using Method = LineWeightOptions::Method;
+
+bool hasDirections(const LineDatabase& database, Method method) {
+  return method == Method::dominatingDirection ? database.dominatingDirection().has_value()
+                                               : !database.lines().empty();
+}
+
+}  // namespace
+
+void LineWeightOptions::describe(OptionTable& table) {
+  table.add(
+      "method", method,
+      {{Method::graded, "graded"},
+       {Method::dominatingDirection, "dominating_direction"},
+       {Method::paper, "paper"}},
+      "eq. (9) with a graded match, graded against the one dominating direction, or eq. (9) as printed");
+  table.addAngle("sigma_deg", sigma, 0.05, 22.5,
+                 "graded, dominating_direction: the spread of directions that the weight tells apart");
+  table.addAngle("threshold_deg", threshold, 0, 45,
+                 "paper: lines this near to parallel or perpendicular match");
+  table.add("floor", floor, 1e-6, 1, "", "the least weight, so that one bad scan cannot end a particle");
+}
+
+DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options) {
+  const double wrapped = wrapToRightAngle(theta), information = 1 / (options.sigma * options.sigma);
+  DirectionMatch match;
+  const auto add = [&](double direction, double weight) {
+    constexpr double kLeastExponent = -20;  // exp(-20) = 2e-9
+    const double d = rightAngleDifference(wrapped, direction), exponent = -0.5 * d * d * information;
+    match.isMatched |= std::abs(d) <= 2 * options.sigma;
+    if (exponent < kLeastExponent) return;
+    const double agreement = weight * std::exp(exponent);
+    match.value += agreement;
+    match.slope -= agreement * d * information;
+  };
+  switch (options.method) {
+    case Method::graded: {
+      double total = 0;
+      for (const DatabaseLine& line : database.lines()) total += evidence(line);
+      if (total <= 0) break;
+      for (const DatabaseLine& line : database.lines()) add(line.direction, evidence(line) / total);
+      break;
+    }
+    case Method::dominatingDirection:
+      if (const auto direction = database.dominatingDirection()) add(*direction, 1);
+      break;
+    case Method::paper:
+      for (const DatabaseLine& line : database.lines())
+        if (std::abs(rightAngleDifference(wrapped, wrapToRightAngle(line.theta))) < options.threshold) {
+          match.value = 1;
+          match.isMatched = true;
+          break;
+        }
+      break;
+  }
+  return match;
+}
+
+// eq. (9), Sec. III-D.
+LineWeight lineWeight(const std::vector<LineSegment>& seen, double heading, const LineDatabase& database,
+                      const LineWeightOptions& options) {
+  LineWeight weight;
+  weight.seen = static_cast<int>(seen.size());
+  if (!hasDirections(database, options.method)) return weight;
+
+  double matchedLength = 0, slope = 0, totalLength = 0;
+  for (const LineSegment& line : seen) {
+    const DirectionMatch match = matchDirection(line.theta + heading, database, options);
+    totalLength += line.length;
+    matchedLength += line.length * match.value;
+    slope += line.length * match.slope;
+    weight.matched += match.isMatched;
+  }
+  if (totalLength <= 0) return weight;
+  weight.value = matchedLength / totalLength;
+  weight.slope = slope / totalLength;
+  if (weight.value <= options.floor) {
+    weight.value = options.floor;
+    weight.slope = 0;
+  }
+  weight.value = std::min(weight.value, 1.0);  // rounding
+  return weight;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,216 @@
+#include "slam/lines/LineWeight.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include "base/Errors.h"
+#include "testing/TestScans.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+using Method = LineWeightOptions::Method;
+
+/// A segment of this length and normal direction (only these two count).
+LineSegment line(double thetaDeg, double length) {
+  return transformed(makeSegment(TPoint2D(2, 0), TPoint2D(2, length)), {0, 0, thetaDeg * test::kDegree});
+}
+
+LineDatabase databaseOf(const std::vector<LineSegment>& lines) {
+  LineDatabaseOptions options;
+  options.minLength = 0;
+  LineDatabase database;
+  database.update(lines, options, AssociationOptions());
+  return database;
+}
+
+LineWeightOptions method(Method m) {
+  LineWeightOptions options;
+  options.method = m;
+  return options;
+}
+
+const std::vector<Method> kMethods{Method::graded, Method::dominatingDirection, Method::paper};
+
+TEST(LineWeight, NeutralWithoutLinesOrDatabase) {
+  for (const Method m : kMethods) {
+    const LineWeight empty = lineWeight({line(10, 3), line(20, 1)}, 0.3, LineDatabase(), method(m));
+    EXPECT_EQ(empty.value, 1);
+    EXPECT_EQ(empty.seen, 2);
+    EXPECT_EQ(empty.matched, 0);
+    const LineWeight blind = lineWeight({}, 0.3, databaseOf({line(0, 6)}), method(m));
+    EXPECT_EQ(blind.value, 1);
+    EXPECT_EQ(blind.seen, 0);
+  }
+}
+
+TEST(LineWeight, NeutralForLinesWithoutLength) {
+  for (const Method m : kMethods)
+    EXPECT_EQ(lineWeight({line(30, 0)}, 0, databaseOf({line(0, 6)}), method(m)).value, 1);
+}
+
+/// eq. (9) by hand: 6 of 10 m parallel or perpendicular within 3 deg.
+TEST(LineWeight, PaperByHand) {
+  const LineDatabase database = databaseOf({line(20, 6)});
+  const std::vector<LineSegment> seen{line(22.9, 1), line(110, 2), line(-72.9, 3), line(24, 2.5),
+                                      line(65, 1.5)};
+  auto options = method(Method::paper);
+  options.threshold = 3 * test::kDegree;
+  const LineWeight weight = lineWeight(seen, 0, database, options);
+  EXPECT_NEAR(weight.value, 0.6, 1e-12);
+  EXPECT_EQ(weight.seen, 5);
+  EXPECT_EQ(weight.matched, 3);
+}
+
+TEST(LineWeight, PaperMatchesAnyLineOfTheDatabase) {
+  const LineDatabase database = databaseOf({line(20, 6), line(50, 6)});
+  EXPECT_NEAR(lineWeight({line(50.2, 2), line(-70.2, 2)}, 0, database, method(Method::paper)).value, 1,
+              1e-12);
+  EXPECT_EQ(lineWeight({line(35, 2)}, 0, database, method(Method::paper)).value, LineWeightOptions().floor);
+}
+
+/// By hand: 6 m of wall at 20 deg, 2 m at 50 deg, sigma 2 deg; seen are 2 m at 110 deg (on the first), 3 m at
+/// 52 deg (1 sigma off the second) and 1 m at 80 deg (on neither).
+TEST(LineWeight, GradedByHand) {
+  const LineDatabase database = databaseOf({line(20, 6), line(50, 2)});
+  auto options = method(Method::graded);
+  options.sigma = 2 * test::kDegree;
+  const LineWeight weight = lineWeight({line(110, 2), line(52, 3), line(80, 1)}, 0, database, options);
+  EXPECT_NEAR(weight.value, (2 * 0.75 + 3 * 0.25 * std::exp(-0.5)) / 6, 1e-9);
+  EXPECT_EQ(weight.seen, 3);
+  EXPECT_EQ(weight.matched, 2);
+}
+
+/// A wall seen thirty times counts twenty times as much as one that was inserted a moment ago.
+TEST(LineWeight, GradedCountsEvidence) {
+  LineDatabase database;
+  for (int i = 0; i < 30; ++i) database.update({line(20, 6)}, LineDatabaseOptions(), AssociationOptions());
+  database.update({line(60, 6)}, LineDatabaseOptions(), AssociationOptions());
+  ASSERT_EQ(database.lines().size(), 2u);
+  EXPECT_NEAR(lineWeight({line(20, 2)}, 0, database, {}).value, 20. / 21, 1e-9);
+  EXPECT_NEAR(lineWeight({line(60, 2)}, 0, database, {}).value, 1. / 21, 1e-9);
+}
+
+/// What eq. (9) lacks and the one dominating direction does not allow: two frames that both count.
+TEST(LineWeight, SeveralFramesStandSideBySide) {
+  const LineDatabase database = databaseOf({line(0, 6), line(90, 6), line(30, 6), line(120, 6)});
+  const std::vector<LineSegment> wing{line(30, 4), line(120, 4)};
+  const auto at = [&](Method m, double error) {
+    return lineWeight(wing, error * test::kDegree, database, method(m)).value;
+  };
+  EXPECT_NEAR(at(Method::graded, 0), 0.5, 1e-9);
+  EXPECT_LT(at(Method::graded, 1), 0.05);
+  EXPECT_EQ(at(Method::dominatingDirection, 0), LineWeightOptions().floor);  // it lies between the two frames
+}
+
+/// By hand: residuals 0, 2 deg (1 sigma) and 45 deg.
+TEST(LineWeight, DominatingDirectionByHand) {
+  const LineDatabase database = databaseOf({line(20, 6)});
+  auto options = method(Method::dominatingDirection);
+  options.sigma = 2 * test::kDegree;
+  const LineWeight weight = lineWeight({line(110, 2), line(22, 3), line(65, 1)}, 0, database, options);
+  EXPECT_NEAR(weight.value, (2 + 3 * std::exp(-0.5)) / 6, 1e-9);
+  EXPECT_EQ(weight.seen, 3);
+  EXPECT_EQ(weight.matched, 2);
+}
+
+TEST(LineWeight, MatchedIsWithinTwoSigma) {
+  const LineDatabase database = databaseOf({line(0, 6)});
+  auto options = method(Method::dominatingDirection);
+  options.sigma = 2 * test::kDegree;
+  EXPECT_EQ(lineWeight({line(3.99, 2)}, 0, database, options).matched, 1);
+  EXPECT_EQ(lineWeight({line(4.01, 2)}, 0, database, options).matched, 0);
+}
+
+TEST(LineWeight, TheHeadingTurnsTheLinesIntoTheMap) {
+  RandomStream random(1, 0, 0);
+  for (const Method m : kMethods)
+    for (int i = 0; i < 300; ++i) {
+      const double turn = test::uniform(random, -M_PI, M_PI), heading = test::uniform(random, -9, 9);
+      const LineDatabase database = databaseOf({line(turn / test::kDegree, 6)});
+      EXPECT_NEAR(lineWeight({line((turn - heading) / test::kDegree, 2)}, heading, database, method(m)).value,
+                  1, 1e-9);
+    }
+}
+
+/// Why the threshold of eq. (9) has to be as small as the spread of the headings: within it all weigh the
+/// same.
+TEST(LineWeight, EqNineTellsNothingApartWithinItsThreshold) {
+  const LineDatabase database = databaseOf({line(0, 6), line(90, 6)});
+  const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};
+  double previous = 2;
+  for (const double error : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
+    LineWeightOptions paper = method(Method::paper);
+    paper.threshold = 3 * test::kDegree;
+    EXPECT_EQ(lineWeight(seen, error * test::kDegree, database, paper).value, 1);
+    paper.threshold = 0.25 * test::kDegree;
+    EXPECT_EQ(lineWeight(seen, error * test::kDegree, database, paper).value, error < 0.25 ? 1 : paper.floor);
+    LineWeightOptions options = method(Method::graded);
+    options.sigma = 1 * test::kDegree;
+    const double graded = lineWeight(seen, error * test::kDegree, database, options).value;
+    EXPECT_LT(graded, previous - 1e-3 * error);
+    previous = graded;
+  }
+}
+
+TEST(LineWeight, TheSlopeIsThatOfTheValue) {
+  RandomStream random(3, 0, 0);
+  int sloped = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<LineSegment> known, seen;
+    for (int k = 0; k < 1 + i % 5; ++k) known.push_back(test::randomSegment(random, 10));
+    for (int k = 0; k < 1 + i % 7; ++k) seen.push_back(test::randomSegment(random, 10));
+    const LineDatabase database = databaseOf(known);
+    LineWeightOptions options = method(i % 2 ? Method::graded : Method::dominatingDirection);
+    options.sigma = test::uniform(random, 1, 10) * test::kDegree;
+    options.floor = 1e-6;
+    const double heading = test::uniform(random, -M_PI, M_PI), step = 1e-6;
+    const auto at = [&](double h) { return lineWeight(seen, h, database, options); };
+    if (at(heading - step).value == options.floor || at(heading + step).value == options.floor) continue;
+    const double slope = at(heading).slope;
+    EXPECT_NEAR(slope, (at(heading + step).value - at(heading - step).value) / (2 * step),
+                1e-4 * (1 + std::abs(slope)));
+    sloped += std::abs(slope) > 0.01;
+  }
+  EXPECT_GT(sloped, 300);
+}
+
+TEST(LineWeight, StaysBetweenFloorAndOne) {
+  RandomStream random(2, 0, 0);
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<LineSegment> known, seen;
+    for (int k = 0; k < 1 + i % 5; ++k) known.push_back(test::randomSegment(random, 10));
+    for (int k = 0; k < 1 + i % 7; ++k) seen.push_back(test::randomSegment(random, 10));
+    const LineDatabase database = databaseOf(known);
+    for (const Method m : kMethods) {
+      LineWeightOptions options = method(m);
+      options.floor = test::uniform(random, 1e-6, 0.5);
+      const LineWeight weight = lineWeight(seen, test::uniform(random, -M_PI, M_PI), database, options);
+      EXPECT_GE(weight.value, options.floor);
+      EXPECT_LE(weight.value, 1);
+      EXPECT_EQ(weight.seen, static_cast<int>(seen.size()));
+      EXPECT_LE(weight.matched, weight.seen);
+    }
+  }
+}
+
+TEST(LineWeightOptions, NamesAndRanges) {
+  const auto load = [](const char* line) {
+    LineWeightOptions options;
+    options.loadFromConfigFile(mrpt::config::CConfigFileMemory(std::string("[line_weight]\n") + line + "\n"),
+                               "line_weight");
+    return options;
+  };
+  EXPECT_EQ(load("method = paper").method, Method::paper);
+  EXPECT_EQ(load("method = dominating_direction").method, Method::dominatingDirection);
+  EXPECT_EQ(load("method = graded").method, Method::graded);
+  EXPECT_NEAR(load("sigma_deg = 1").sigma, test::kDegree, 1e-12);
+  for (const char* line :
+       {"method = general", "sigma_deg = 0", "floor = 0", "floor = 1.5", "threshold_deg = 46"})
+    EXPECT_THROW(load(line), InputError) << line;
+}
+
+}  // namespace
+}  // namespace hybrid_slam

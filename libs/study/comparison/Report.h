@@ -1,0 +1,37 @@
+/// @file Report.h
+/// @brief report.html: one file with tables, plots and map pictures, without scripts or network.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "study/comparison/RunEvaluation.h"
+#include "study/comparison/Summary.h"
+
+namespace hybrid_slam::comparison {
+
+struct ReportInput {
+  std::string command;  ///< as it was called
+  std::string version;
+  std::string config;  ///< the INI file
+  std::string log;
+  double logDuration = 0;             ///< s
+  std::vector<std::string> settings;  ///< of all runs, on top of the INI file
+  std::vector<Group> groups;
+  std::vector<RunResult> results;
+  std::vector<GroupSummary> summaries;
+  GroundTruth truth;
+  std::filesystem::path runs;  ///< the folder of the run folders
+};
+
+/// The name of a run's folder: "hybrid-eq9-20-3".
+std::string runName(const Group& group, int seed);
+
+/// Writes XHTML. Trajectories, spreads and maps are read from the folders of the finished runs.
+void writeReport(const ReportInput& input, std::ostream& out);
+
+/// Bytes as base64 (RFC 4648).
+std::string base64(const std::string& bytes);
+
+}  // namespace hybrid_slam::comparison

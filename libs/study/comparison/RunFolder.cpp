@@ -1,0 +1,117 @@
+#include "study/comparison/RunFolder.h"
+
+#include <sys/stat.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/Errors.h"
+
+namespace hybrid_slam::comparison {
+namespace {
+
+namespace fs = std::filesystem;
+const char* const kOrigin = "origin.json";
+const char* const kError = "error.txt";
+
+/// "[section] key" -> value. Lines of other forms do not stand in a config.ini.
+std::map<std::string, std::string> settingsOf(std::istream& text) {
+  std::map<std::string, std::string> settings;
+  std::string section;
+  for (std::string line; std::getline(text, line);) {
+    const auto equals = line.find(" =");
+    if (!line.empty() && line[0] == '[')
+      section = line;
+    else if (equals != std::string::npos)
+      settings[section + " " + line.substr(0, equals)] =
+          line.size() > equals + 3 ? line.substr(equals + 3) : std::string();
+  }
+  return settings;
+}
+
+[[noreturn]] void differs(const fs::path& folder, const std::string& what) {
+  throw InputError("finished run of another comparison", "folder " + folder.string() + ", " + what,
+                   "expected the same settings and log, or another -o");
+}
+
+std::string canonical(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)).string(); }
+
+}  // namespace
+
+void noteLog(RunIdentity& identity, const std::string& log) {
+  struct stat status {};
+  if (stat(log.c_str(), &status) != 0) throw InputError("no such file", log, "expected a rawlog");
+  identity.log = canonical(log);
+  identity.logSize = static_cast<uintmax_t>(status.st_size);
+  identity.logTime = static_cast<int64_t>(status.st_mtim.tv_sec) * 1000000000 + status.st_mtim.tv_nsec;
+}
+
+void RunFolder::expect(const RunIdentity& identity) const {
+  std::ifstream config(file("config.ini"));
+  std::istringstream expectedConfig(identity.configuration);
+  auto found = settingsOf(config), expected = settingsOf(expectedConfig);
+  if (canonical(found["[run] rawlog"]) != identity.log)
+    differs(folder_, "log " + found["[run] rawlog"] + ", now " + identity.log);
+  for (const char* place : {"[run] rawlog", "[run] output"}) found.erase(place), expected.erase(place);
+  for (const auto& [key, value] : expected)
+    if (found.count(key) == 0 || found[key] != value)
+      differs(folder_, "config.ini: " + key + " = " + (found.count(key) ? found[key] : "(nothing)") +
+                           ", now " + value);
+  for (const auto& [key, value] : found)
+    if (expected.count(key) == 0)
+      differs(folder_, "config.ini: " + key + " = " + value + ", now no such key");
+
+  std::ifstream originFile(file(kOrigin));
+  if (!originFile) return;
+  const auto origin = nlohmann::json::parse(originFile, nullptr, false);
+  if (!origin.is_object()) differs(folder_, std::string(kOrigin) + " is broken");
+  if (origin.value("other_sections", "") != identity.otherSections)
+    differs(folder_, "MRPT's sections of the INI file have changed");
+  if (origin.value("log_size", uintmax_t{0}) != identity.logSize ||
+      origin.value("log_time_ns", int64_t{0}) != identity.logTime)
+    differs(folder_, "the log " + identity.log + " has changed since");
+}
+
+void RunFolder::begin(const RunIdentity& identity) const {
+  fs::remove_all(partial_);
+  fs::create_directories(partial_);
+  const nlohmann::ordered_json origin{{"log_size", identity.logSize},
+                                      {"log_time_ns", identity.logTime},
+                                      {"other_sections", identity.otherSections}};
+  std::ofstream out(partial_ / kOrigin);
+  out << origin.dump(2) << '\n';
+  if (!out.flush()) throw std::runtime_error("cannot write: " + partial_.string() + "; is the disk full?");
+}
+
+void RunFolder::finish() const {
+  fs::remove_all(folder_);
+  fs::rename(partial_, folder_);
+  dropLargeFiles();
+}
+
+void RunFolder::fail(const std::string& error) const {
+  fs::remove_all(folder_);
+  abandon();
+  fs::create_directories(folder_);
+  std::ofstream(file(kError)) << error << '\n';
+}
+
+void RunFolder::abandon() const {
+  std::error_code ignored;
+  fs::remove_all(partial_, ignored);
+}
+
+std::string RunFolder::error() const {
+  std::ifstream in(file(kError));
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+void RunFolder::dropLargeFiles() const {
+  for (const char* name : {"map.simplemap.gz", "map.pgm", "map.yaml"}) fs::remove(file(name));
+}
+
+}  // namespace hybrid_slam::comparison

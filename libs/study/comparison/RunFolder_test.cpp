@@ -1,0 +1,124 @@
+#include "study/comparison/RunFolder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam::comparison {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A log, and a run on it as hybrid-slam leaves it.
+struct RunFolderTest : testing::Test {
+  files::TemporaryFolder temporary;
+  RunFolder folder{fs::path(temporary.path("runs")), "hybrid-20-1"};
+  RunIdentity identity;
+
+  RunFolderTest() {
+    noteLog(identity, temporary.write("log.rawlog", "scans"));
+    identity.configuration = configuration("0.05");
+  }
+  std::string configuration(const std::string& resolution) const {
+    return "[run]\nmethod = hybrid\nrawlog = " + identity.log +
+           "\noutput = elsewhere\n\n[grid]\nresolution = " + resolution + "\nlabel = \n";
+  }
+  void finishRun() const {
+    folder.begin(identity);
+    std::ofstream(folder.partial() / "config.ini") << identity.configuration;
+    for (const char* name : {"map.pgm", "map.yaml", "map.simplemap.gz", "map.gridmap.gz", "metrics.json"})
+      std::ofstream(folder.partial() / name) << "{}";
+    folder.finish();
+  }
+  std::string difference(const RunIdentity& other) const {
+    try {
+      folder.expect(other);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(folder.path().string()));
+      return error.what();
+    }
+    return "none";
+  }
+};
+
+TEST_F(RunFolderTest, IsFinishedWhenItHasItsFinalName) {
+  EXPECT_FALSE(folder.isFinished());
+  folder.begin(identity);
+  std::ofstream(folder.partial() / "metrics.json") << "{}";
+  EXPECT_FALSE(folder.isFinished());
+  folder.finish();
+  EXPECT_TRUE(folder.isFinished());
+  EXPECT_FALSE(fs::exists(folder.partial()));
+}
+
+TEST_F(RunFolderTest, KeepsWhatTheReportNeedsAndDropsTheLargeRest) {
+  finishRun();
+  EXPECT_TRUE(fs::exists(folder.file("map.gridmap.gz")));
+  for (const char* name : {"map.pgm", "map.yaml", "map.simplemap.gz"})
+    EXPECT_FALSE(fs::exists(folder.file(name)));
+}
+
+TEST_F(RunFolderTest, ExpectsTheSameSettingsAndLog) {
+  finishRun();
+  EXPECT_EQ(difference(identity), "none");
+
+  RunIdentity other = identity;
+  other.configuration = configuration("0.1");
+  EXPECT_THAT(difference(other), HasSubstr("[grid] resolution = 0.05, now 0.1"));
+  other = identity;
+  other.configuration += "fresh = 1\n";
+  EXPECT_THAT(difference(other), HasSubstr("[grid] fresh = (nothing), now 1"));
+  other = identity;
+  other.configuration.erase(other.configuration.find("label"));
+  EXPECT_THAT(difference(other), HasSubstr("[grid] label = , now no such key"));
+  other = identity;
+  other.log += "2";
+  EXPECT_THAT(difference(other), HasSubstr("log.rawlog2"));
+  for (const auto& change : std::vector<std::function<void(RunIdentity&)>>{
+           [](RunIdentity& i) { ++i.logSize; }, [](RunIdentity& i) { ++i.logTime; },
+           [](RunIdentity& i) { i.otherSections = "[MappingApplication]\n"; }}) {
+    other = identity;
+    change(other);
+    EXPECT_THAT(difference(other), HasSubstr("changed"));
+  }
+}
+
+TEST_F(RunFolderTest, WithoutANoteOfItsOriginComparesSettingsAndPathOnly) {
+  finishRun();
+  fs::remove(folder.file("origin.json"));
+  RunIdentity other = identity;
+  ++other.logSize;
+  EXPECT_EQ(difference(other), "none");
+  other.configuration = configuration("0.1");
+  EXPECT_THAT(difference(other), HasSubstr("resolution"));
+}
+
+TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {
+  folder.begin(identity);
+  std::ofstream(folder.partial() / "metrics.json") << "{}";
+  folder.fail("disk full: here; there");
+  EXPECT_FALSE(folder.isFinished());
+  EXPECT_EQ(folder.error(), "disk full: here; there");
+  EXPECT_FALSE(fs::exists(folder.partial()));
+  finishRun();  // the next attempt
+  EXPECT_TRUE(folder.isFinished());
+  EXPECT_EQ(folder.error(), "");
+}
+
+TEST_F(RunFolderTest, AnAbandonedRunLeavesNothing) {
+  folder.begin(identity);
+  folder.abandon();
+  EXPECT_TRUE(fs::is_empty(temporary.path("runs")));
+}
+
+TEST_F(RunFolderTest, AMissingLogIsTheUsersError) {
+  EXPECT_THROW(noteLog(identity, temporary.path("none.rawlog")), InputError);
+}
+
+}  // namespace
+}  // namespace hybrid_slam::comparison

@@ -1,0 +1,56 @@
+/// @file Summary.h
+/// @brief Groups of runs in figures, and each group against the first.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <ostream>
+#include <vector>
+
+#include "study/comparison/Figures.h"
+#include "study/comparison/Statistics.h"
+
+namespace hybrid_slam::comparison {
+
+/// One figure over the finished runs of a group.
+struct FigureSummary {
+  size_t runs = 0;
+  std::optional<Quartiles> quartiles;  ///< nothing for no run
+  /// Errors only: of these runs those that succeeded. Between runs that did and runs that did not, the median
+  /// over all says little of either.
+  size_t successfulRuns = 0;
+  std::optional<double> successfulMedian;
+};
+
+/// One figure of a group against the first group's, over the seeds that both have finished.
+struct PairedComparison {
+  size_t pairs = 0;
+  std::optional<MedianRatio> ratio;  ///< this group's median / the first group's
+  double wilcoxonP = 1, signP = 1;   ///< two-sided
+};
+
+struct GroupSummary {
+  size_t done = 0, failed = 0;
+  /// Over finished and failed runs: a run that fails has not closed the loop. Nothing without a criterion.
+  std::optional<size_t> successes;
+  double successRate = 0;
+  Interval successInterval;  ///< Wilson, 95 %
+  double successSignP = 1;   ///< against the first group: McNemar's exact test over the seeds that both have
+  std::array<FigureSummary, kFigures> figures;
+  std::array<std::optional<PairedComparison>, kFigures> paired;  ///< errors only; none in the first group
+
+  size_t ended() const { return done + failed; }
+  bool hasSuccessesAndFailures() const { return successes && *successes > 0 && *successes < ended(); }
+};
+
+/// @param results  all runs; the groups' order is that of their numbers
+std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>& results);
+
+/// One row for each group and figure.
+void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
+                  std::ostream& out);
+nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,
+                                   const std::vector<GroupSummary>& summaries);
+
+}  // namespace hybrid_slam::comparison

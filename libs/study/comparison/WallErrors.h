@@ -1,0 +1,37 @@
+/// @file WallErrors.h
+/// @brief A grid map against the walls it should show: how far off its occupied cells are.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <string>
+#include <vector>
+
+#include "study/simulation/FloorPlan.h"
+
+namespace mrpt::maps {
+class COccupancyGridMap2D;
+}
+
+namespace hybrid_slam::comparison {
+
+/// Centres of the cells with an occupancy above 0.65, as for ROS's map_server; m, in the map's frame, row by
+/// row.
+std::vector<mrpt::math::TPoint2D> occupiedCells(const mrpt::maps::COccupancyGridMap2D& map);
+
+/// From the centres of the occupied cells to the nearest wall, m.
+struct WallErrors {
+  double mean = 0, p95 = 0;
+};
+
+/// @param alignment  the map's frame in the floor plan's: the rigid alignment of the trajectory to the
+/// reference
+/// @throws std::runtime_error for a map without occupied cells
+WallErrors wallErrors(const mrpt::maps::COccupancyGridMap2D& map, const simulation::FloorPlan& plan,
+                      const mrpt::math::TPose2D& alignment);
+
+/// Reads `map.gridmap.gz`.
+/// @throws std::runtime_error if it cannot be read
+mrpt::maps::COccupancyGridMap2D loadGridMap(const std::string& file);
+
+}  // namespace hybrid_slam::comparison

@@ -1,0 +1,39 @@
+#include "study/evaluation/Association.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "study/evaluation/StampIndex.h"
+
+namespace hybrid_slam::evaluation {
+
+std::vector<PosePair> associate(const files::Trajectory& estimate, const files::Trajectory& reference,
+                                double tolerance) {
+  const StampIndex index(reference);
+  std::vector<PosePair> pairs;
+  for (const files::StampedPose& p : estimate)
+    if (const auto row = index.nearest(p.timestamp, tolerance))
+      pairs.push_back({p.timestamp, p.pose, reference[*row].pose});
+  if (pairs.empty()) {
+    std::ostringstream expected;
+    expected << "expected poses within " << tolerance << " s of each other";
+    throw InputError("the reference does not overlap the trajectory in time",
+                     "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
+                     expected.str());
+  }
+  return pairs;
+}
+
+std::string timeSpan(const files::Trajectory& trajectory) {
+  if (trajectory.empty()) return "without poses";
+  const auto [first, last] = std::minmax_element(
+      trajectory.begin(), trajectory.end(),
+      [](const files::StampedPose& a, const files::StampedPose& b) { return a.timestamp < b.timestamp; });
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << first->timestamp << ".." << last->timestamp << " s";
+  return text.str();
+}
+
+}  // namespace hybrid_slam::evaluation

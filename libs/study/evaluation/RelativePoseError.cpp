@@ -1,0 +1,74 @@
+#include "study/evaluation/RelativePoseError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+#include "base/Errors.h"
+#include "study/evaluation/Association.h"
+
+namespace hybrid_slam::evaluation {
+namespace {
+
+/// Time (s) or way along the reference (m) at each pair; grows from pair to pair.
+std::vector<double> progressAlong(const std::vector<PosePair>& pairs, RpeDelta::Unit unit) {
+  std::vector<double> result;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const mrpt::math::TPose2D& here = pairs[i].reference;
+    const mrpt::math::TPose2D& before = pairs[i > 0 ? i - 1 : 0].reference;
+    if (unit == RpeDelta::Unit::seconds)
+      result.push_back(pairs[i].timestamp);
+    else
+      result.push_back((i > 0 ? result.back() : 0) + std::hypot(here.x - before.x, here.y - before.y));
+  }
+  return result;
+}
+
+/// The index after i, which is not the last, whose progress is nearest to the target.
+size_t nearestAfter(const std::vector<double>& progress, size_t i, double target) {
+  const auto first = std::next(progress.begin(), static_cast<std::ptrdiff_t>(i) + 1);
+  auto nearest = std::lower_bound(first, progress.end(), target);
+  if (nearest == progress.end() || (nearest != first && target - *std::prev(nearest) <= *nearest - target))
+    --nearest;
+  return static_cast<size_t>(nearest - progress.begin());
+}
+
+}  // namespace
+
+RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Trajectory& reference,
+                            const RpeDelta& delta, double tolerance) {
+  constexpr double kLengthTolerance = 0.1;  // of delta
+  constexpr double kRounding = 1e-6;        // s or m; of stamps in files
+  std::vector<PosePair> pairs = associate(estimate, reference, tolerance);
+  if (delta.unit == RpeDelta::Unit::seconds)
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const PosePair& a, const PosePair& b) { return a.timestamp < b.timestamp; });
+  const std::vector<double> at = progressAlong(pairs, delta.unit);
+
+  std::vector<double> translations, rotations;
+  for (size_t i = 0; i + 1 < pairs.size(); ++i) {
+    const double target = at[i] + delta.length;
+    if (at.back() < target - kRounding) break;  // cut short by the end: these would all be too short
+    const size_t j = nearestAfter(at, i, target);
+    if (std::abs(at[j] - target) > kLengthTolerance * delta.length) continue;
+    const PosePair &first = pairs[i], &last = pairs[j];
+    const mrpt::math::TPose2D error = (last.estimate - first.estimate) - (last.reference - first.reference);
+    translations.push_back(std::hypot(error.x, error.y));
+    rotations.push_back(std::abs(error.phi));
+  }
+  if (translations.empty()) {
+    std::ostringstream what;
+    what << "no stretch of " << delta.length << (delta.unit == RpeDelta::Unit::seconds ? " s" : " m");
+    throw InputError(what.str(), "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
+                     "expected two poses that far apart, within 10 %");
+  }
+  RpeErrors result;
+  result.pairs = translations.size();
+  result.translation = errorStatistics(std::move(translations));
+  result.rotation = errorStatistics(std::move(rotations));
+  return result;
+}
+
+}  // namespace hybrid_slam::evaluation

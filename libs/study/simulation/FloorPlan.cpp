@@ -1,0 +1,17 @@
+#include "study/simulation/FloorPlan.h"
+
+#include <cmath>
+
+#include "study/simulation/FloorPlanFile.h"
+
+namespace hybrid_slam::simulation {
+
+FloorPlan FloorPlan::load(const std::string& file) { return FloorPlan(readWalls(file)); }
+
+std::optional<double> FloorPlan::castRay(const mrpt::math::TPoint2D& origin, double heading,
+                                         double maxRange) const {
+  const double range = index_.rayDistance(origin, {std::cos(heading), std::sin(heading)}, maxRange);
+  return std::isfinite(range) ? std::optional<double>(range) : std::nullopt;
+}
+
+}  // namespace hybrid_slam::simulation

@@ -1,0 +1,74 @@
+/// @file Laser.h
+/// @brief SICK laser scanners in a floor plan.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <vector>
+
+#include "base/Options.h"
+
+namespace mrpt::obs {
+class CObservation2DRangeScan;
+}
+
+namespace hybrid_slam {
+class RandomStream;
+}
+
+namespace hybrid_slam::simulation {
+
+class FloorPlan;
+
+enum class LaserType { lms100, lms200 };
+
+/// What the data sheet says.
+struct LaserSpec {
+  struct Mode {
+    double resolutionDeg;  ///< between beams
+    double rate;           ///< scans/s, at most
+  };
+  const char* name;
+  double apertureDeg;  ///< first to last beam
+  std::vector<Mode> modes;
+  double maxRange;     ///< m
+  double sigma;        ///< m, standard deviation of a reading
+  double readingStep;  ///< m, what readings are rounded to
+  double divergence;   ///< rad, full angle of one beam: it sees both sides of an edge
+};
+
+const LaserSpec& laserSpec(LaserType type);
+
+/// INI section [laser].
+struct LaserOptions : Options {
+  LaserType sensor = LaserType::lms100;
+  double resolutionDeg = 0.5;
+  double rate = 5;
+  bool noise = true;
+  bool mixedPixels = false;
+  double x = 0.15, y = 0, yaw = 0;
+  void describe(OptionTable& table) override;
+};
+
+/// Takes scans as snapshots: all beams of a scan belong to one moment.
+class Laser {
+ public:
+  /// @throws InputError for a resolution or a rate that the sensor does not have
+  explicit Laser(const LaserOptions& options);
+
+  size_t beamCount() const { return beamCount_; }
+  /// A scan from `robotPose` (frame of the plan), label LASER, right to left, without timestamp. Beams that
+  /// come back from nowhere within the maximum range hold that range and are marked invalid.
+  mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
+                                          RandomStream& random) const;
+
+ private:
+  double reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
+                 RandomStream& random) const;
+
+  LaserOptions options_;
+  LaserSpec spec_;
+  size_t beamCount_ = 0;
+};
+
+}  // namespace hybrid_slam::simulation

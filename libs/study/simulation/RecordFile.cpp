@@ -1,0 +1,49 @@
+#include "study/simulation/RecordFile.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+#include "base/Options.h"
+
+namespace hybrid_slam::simulation {
+
+std::vector<Record> readRecords(const std::string& file, const std::vector<std::string>& words) {
+  std::ifstream in(file);
+  if (!in || !std::filesystem::is_regular_file(file))
+    throw InputError("cannot be read", "file " + file, "expected a readable text file");
+  std::vector<Record> records;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream parts(line.substr(0, line.find('#')));
+    Record record;
+    if (!(parts >> record.word)) continue;
+    record.where = "file " + file + ", line " + std::to_string(number);
+    if (std::find(words.begin(), words.end(), record.word) == words.end())
+      throw InputError("unknown word `" + record.word + "`", record.where,
+                       "the nearest known word is `" + nearestName(record.word, words) + "`");
+    for (std::string text; parts >> text;) {
+      const auto value = parseFinite(text);
+      if (!value)
+        throw InputError("`" + text + "` is not a number", record.where,
+                         "expected only numbers after the word");
+      record.numbers.push_back(*value);
+    }
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+void expectNumbers(const Record& record, const std::string& names) {
+  std::istringstream parts(names);
+  const auto count = std::distance(std::istream_iterator<std::string>(parts), {});
+  if (static_cast<size_t>(count) != record.numbers.size())
+    throw InputError("`" + record.word + "` with " + std::to_string(record.numbers.size()) + " numbers",
+                     record.where, "expected `" + record.word + " " + names + "`");
+}
+
+}  // namespace hybrid_slam::simulation

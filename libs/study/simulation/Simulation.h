@@ -1,0 +1,55 @@
+/// @file Simulation.h
+/// @brief A robot driven along a route through a floor plan, into observations and ground truth.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <vector>
+
+#include "base/Options.h"
+#include "study/simulation/Laser.h"
+#include "study/simulation/WheelOdometry.h"
+
+namespace hybrid_slam::simulation {
+
+class FloorPlan;
+class Route;
+
+/// Pose of the robot's centre in the frame of the floor plan (m, rad).
+struct TruePose {
+  mrpt::Clock::time_point timestamp;
+  mrpt::math::TPose2D pose;
+};
+
+/// Everything one run produces, for use without files. `scans`, `groundTruth` and `odometryAtScans` go
+/// together, one entry a scan; `odometry` has its own times.
+struct SimulatedLog {
+  std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> scans;
+  std::vector<mrpt::math::TPose2D> odometryAtScans;  ///< the odometry's pose at the moment of each scan
+  std::vector<mrpt::obs::CObservationOdometry::Ptr> odometry;
+  std::vector<TruePose> groundTruth;
+};
+
+enum class RawlogForm { observations, pairs };
+
+/// INI section [simulation].
+struct SimulationOptions : Options {
+  std::string plan, route;
+  RawlogForm form = RawlogForm::observations;
+  int seed = 1;
+  int scans = 0;
+  double startTime = 1287388800;  // 2010-10-18 08:00:00 UTC
+  double robotRadius = 0.27;
+  void describe(OptionTable& table) override;
+};
+
+/// Scans at 0, 1/rate, 2/rate ... s; odometry readings at their own rate, 30 ms later in phase, as two
+/// devices of one robot are. The same options and seed give the same log.
+/// @throws InputError for a route that touches walls, or ends before the number of scans asked for
+SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
+                      const LaserOptions& laser, const OdometryOptions& odometry);
+
+}  // namespace hybrid_slam::simulation

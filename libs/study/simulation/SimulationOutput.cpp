@@ -1,0 +1,162 @@
+#include "study/simulation/SimulationOutput.h"
+
+#include <zlib.h>
+
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "base/Numbers.h"
+#include "study/simulation/FloorPlan.h"
+
+namespace hybrid_slam::simulation {
+
+using mrpt::math::TPoint2D;
+
+namespace {
+
+/// The action whose increment takes one odometry pose to the next.
+mrpt::obs::CActionCollection actionBetween(const mrpt::math::TPose2D& before,
+                                           const mrpt::math::TPose2D& after,
+                                           mrpt::Clock::time_point timestamp) {
+  // To 1 um and 1 urad: the bits below differ from one processor's sine to another's.
+  const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6; };
+  const mrpt::math::TPose2D step = after - before;
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.timestamp = timestamp;
+  movement.computeFromOdometry(mrpt::poses::CPose2D(rounded(step.x), rounded(step.y), rounded(step.phi)), {});
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movement);
+  return actions;
+}
+
+/// Draws in plan coordinates, y upwards.
+class Drawing {
+ public:
+  Drawing(const TPoint2D& low, const TPoint2D& high)
+      : low_(low - TPoint2D(kMargin, kMargin)),
+        height_(static_cast<int>((high.y - low.y + 2 * kMargin) * kScale)),
+        image_(static_cast<unsigned>((high.x - low.x + 2 * kMargin) * kScale), height_) {
+    image_.filledRectangle(0, 0, static_cast<int>(image_.getWidth()) - 1, height_ - 1, {255, 255, 255});
+  }
+  void line(const TPoint2D& a, const TPoint2D& b, const mrpt::img::TColor& color, unsigned width) {
+    image_.line(column(a), row(a), column(b), row(b), color, width);
+  }
+  void disc(const TPoint2D& p, const mrpt::img::TColor& color) {
+    for (int radius = 1; radius <= 6; ++radius) image_.drawCircle(column(p), row(p), radius, color, 2);
+  }
+  bool save(const std::string& file) const { return image_.saveToFile(file); }
+
+ private:
+  static constexpr double kScale = 20, kMargin = 1;  // pixels/m, m
+  int column(const TPoint2D& p) const { return static_cast<int>(std::lround((p.x - low_.x) * kScale)); }
+  int row(const TPoint2D& p) const {
+    return height_ - 1 - static_cast<int>(std::lround((p.y - low_.y) * kScale));
+  }
+
+  TPoint2D low_;
+  int height_;
+  mrpt::img::CImage image_;
+};
+
+}  // namespace
+
+mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
+  mrpt::obs::CRawlog rawlog;
+  if (form == RawlogForm::observations) {
+    auto odometry = log.odometry.begin();
+    for (const auto& scan : log.scans) {
+      for (; odometry != log.odometry.end() && (*odometry)->timestamp < scan->timestamp; ++odometry)
+        rawlog.insert(*odometry);
+      rawlog.insert(scan);
+    }
+    for (; odometry != log.odometry.end(); ++odometry) rawlog.insert(*odometry);
+    return rawlog;
+  }
+  for (size_t i = 0; i < log.scans.size(); ++i) {
+    auto actions = actionBetween(log.odometryAtScans[i > 0 ? i - 1 : 0], log.odometryAtScans[i],
+                                 log.scans[i]->timestamp);
+    rawlog.insert(actions);
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(log.scans[i]);
+    rawlog.insert(frame);
+  }
+  return rawlog;
+}
+
+namespace {
+
+/// The bytes of a gzip file, best compression, no name and no time in its head.
+bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
+  z_stream z{};
+  constexpr int kGzip = 15 + 16, kMemoryLevel = 8;
+  if (deflateInit2(&z, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+    return false;
+  zipped.resize(deflateBound(&z, plain.size()));
+  z.next_in = plain.data(), z.avail_in = static_cast<uInt>(plain.size());
+  z.next_out = zipped.data(), z.avail_out = static_cast<uInt>(zipped.size());
+  const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
+  zipped.resize(z.total_out);
+  deflateEnd(&z);
+  return done;
+}
+
+}  // namespace
+
+void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
+  mrpt::io::CMemoryStream plain;
+  auto archive = mrpt::serialization::archiveFrom(plain);
+  for (const auto& entry : rawlog) archive << *entry;
+  const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
+  // MRPT's own compressor goes through a temporary file that two programs at a time may share.
+  std::vector<uint8_t> zipped;
+  const bool done = gzip({bytes, bytes + plain.getTotalBytesCount()}, zipped);
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(zipped.data()), static_cast<std::streamsize>(zipped.size()));
+  out.close();
+  if (!done || !out) throw std::runtime_error("cannot write " + file);
+}
+
+void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file) {
+  std::ofstream out(file);
+  for (const TruePose& p : poses)
+    out << fixedText(mrpt::Clock::toDouble(p.timestamp), 6) << ' ' << fixedText(p.pose.x, 6) << ' '
+        << fixedText(p.pose.y, 6) << " 0 0 0 " << fixedText(std::sin(p.pose.phi / 2), 9) << ' '
+        << fixedText(std::cos(p.pose.phi / 2), 9) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file);
+}
+
+void writePicture(const FloorPlan& plan, const std::vector<TruePose>& poses, const std::string& file) {
+  const TPoint2D &low = plan.lowerLeft(), &high = plan.upperRight();
+  Drawing drawing(low, high);
+  constexpr double kGrid = 5;  // m
+  const auto lineNumber = [](double coordinate) { return static_cast<int>(std::ceil(coordinate / kGrid)); };
+  for (int i = lineNumber(low.x); i * kGrid <= high.x; ++i)
+    drawing.line({i * kGrid, low.y}, {i * kGrid, high.y}, {225, 225, 225}, 1);
+  for (int i = lineNumber(low.y); i * kGrid <= high.y; ++i)
+    drawing.line({low.x, i * kGrid}, {high.x, i * kGrid}, {225, 225, 225}, 1);
+  for (const Wall& wall : plan.walls()) {
+    const int chords = wall.isArc() ? static_cast<int>(std::ceil(wall.sweep / 0.05)) : 1;
+    for (int i = 0; i < chords; ++i)
+      drawing.line(wall.pointAt(static_cast<double>(i) / chords), wall.pointAt((i + 1.0) / chords), {0, 0, 0},
+                   2);
+  }
+  const auto at = [&poses](size_t i) { return TPoint2D(poses[i].pose.x, poses[i].pose.y); };
+  for (size_t i = 1; i < poses.size(); ++i) drawing.line(at(i - 1), at(i), {40, 90, 220}, 2);
+  if (!poses.empty()) {
+    drawing.disc(at(0), {0, 150, 0});
+    drawing.disc(at(poses.size() - 1), {220, 0, 0});
+  }
+  if (!drawing.save(file)) throw std::runtime_error("cannot write " + file);
+}
+
+}  // namespace hybrid_slam::simulation

@@ -1,0 +1,69 @@
+/// @file WheelOdometry.h
+/// @brief What the wheels of a Pioneer 3-DX tell about a motion: systematic and random error, and slips.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <string>
+#include <vector>
+
+#include "base/Options.h"
+
+namespace hybrid_slam {
+class RandomStream;
+}
+
+namespace hybrid_slam::simulation {
+
+/// Error parameters in the form of Eliazar and Parr: a true motion of d metres forwards and t radians reads
+/// as D forwards, C sideways (to the left), T of rotation. For X in {D, C, T}
+///
+///     X ~ N(d meanXd + t meanXt,  |d| sigmaXd^2 + |t| sigmaXt^2).
+///
+/// Unlike theirs, the variance grows with |d|, not with d^2, so that the error of a path does not depend on
+/// into how many readings it is cut. Over steps of one length d0 the two are the same with s_Xd = sigmaXd^2 /
+/// d0.
+struct OdometryOptions : Options {
+  double rate = 10;
+  double meanDd = 1.01, meanDt = 0;         ///< m/m, m/rad
+  double meanCd = 0, meanCt = 0;            ///< m/m, m/rad
+  double meanTd = 0.1 * M_PI / 180;         ///< rad/m
+  double meanTt = 1.01;                     ///< rad/rad
+  double sigmaDd = 0.02, sigmaDt = 0.005;   ///< m/sqrt(m), m/sqrt(rad)
+  double sigmaCd = 0.005, sigmaCt = 0.005;  ///< m/sqrt(m), m/sqrt(rad)
+  double sigmaTd = 0.5 * M_PI / 180;        ///< rad/sqrt(m)
+  double sigmaTt = 1.0 * M_PI / 180;        ///< rad/sqrt(rad)
+  std::string slips;                        ///< "T DEG M, T DEG M, ..."
+  void describe(OptionTable& table) override;
+};
+
+/// At `time` (s from the start) the odometry shows so much rotation (rad) and forward motion (m) too much.
+struct Slip {
+  double time = 0, rotation = 0, distance = 0;
+};
+
+/// @throws InputError for text that is not "T DEG M, T DEG M, ..."
+std::vector<Slip> parseSlips(const std::string& text);
+
+/// Integrates true motions into the odometry's own pose, which starts at (0, 0, 0).
+class WheelOdometry {
+ public:
+  explicit WheelOdometry(const OdometryOptions& options) : options_(options) {}
+
+  /// The robot really moved `distance` (m) along an arc of `rotation` (rad).
+  void move(double distance, double rotation, RandomStream& random);
+  /// The wheels alone moved.
+  void slip(const Slip& slip) { advance(slip.distance, 0, slip.rotation); }
+
+  const mrpt::math::TPose2D& pose() const { return pose_; }
+  /// As the robot's controller reports it: whole millimetres, and 4096 parts of a full turn.
+  mrpt::math::TPose2D reading() const;
+
+ private:
+  void advance(double forwards, double sideways, double rotation);
+
+  OdometryOptions options_;
+  mrpt::math::TPose2D pose_;
+};
+
+}  // namespace hybrid_slam::simulation

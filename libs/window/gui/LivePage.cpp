@@ -1,0 +1,103 @@
+#include "window/gui/LivePage.h"
+
+#include <wx/sizer.h>
+
+#include "base/Errors.h"
+#include "window/gui/Messages.h"
+
+namespace hybrid_slam::window {
+
+using State = LiveSnapshot::State;
+
+LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
+  auto* const row = new wxBoxSizer(wxHORIZONTAL);
+  const auto add = [&](wxWindow* control, int share = 0) {
+    row->Add(control, share, wxALIGN_CENTRE_VERTICAL | wxALL, FromDIP(4));
+  };
+  add(new wxStaticText(this, wxID_ANY, "observation-server"));
+  server_ = new wxTextCtrl(this, wxID_ANY, "127.0.0.1:4550", wxDefaultPosition, FromDIP(wxSize(180, -1)));
+  add(server_);
+  add(new wxStaticText(this, wxID_ANY, "results and recording in"));
+  output_ = new wxTextCtrl(this, wxID_ANY, "out/live");
+  add(output_, 1);
+  button_ = new wxButton(this, wxID_ANY, "Connect");
+  add(button_);
+  text_ = new wxStaticText(this, wxID_ANY, "not connected", wxDefaultPosition, FromDIP(wxSize(170, -1)),
+                           wxST_NO_AUTORESIZE);
+  add(text_);
+
+  canvas_ = new MapCanvas(this, "no map yet: Connect", view_, [this] { canvas_->Refresh(false); });
+  plots_ = new PlotPanel(this);
+  events_ = new wxListBox(this, wxID_ANY, wxDefaultPosition, FromDIP(wxSize(-1, 90)));
+  auto* const column = new wxBoxSizer(wxVERTICAL);
+  column->Add(row, 0, wxEXPAND);
+  column->Add(canvas_, 1, wxEXPAND);
+  column->Add(plots_, 0, wxEXPAND);
+  column->Add(events_, 0, wxEXPAND | wxALL, FromDIP(4));
+  SetSizer(column);
+  button_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { connectOrStop(); });
+}
+
+void LivePage::setSettings(std::shared_ptr<const Settings> settings) {
+  settings_ = std::move(settings);
+  if (settings_ && !settings_->live.server.empty()) server_->SetValue(settings_->live.server);
+}
+
+bool LivePage::isRunning() const {
+  if (!session_) return false;
+  const auto state = session_->snapshot()->state;
+  return state == State::running || state == State::finishing;
+}
+
+void LivePage::connectOrStop() {
+  if (isRunning()) return session_->stop();
+  try {
+    start();
+  } catch (const std::exception& e) {
+    showError(this, messageOf(e));
+  }
+}
+
+void LivePage::start() {
+  if (!settings_)
+    throw InputError("no settings", "the live view", "open an INI file first: File, Open INI file");
+  const std::string server = server_->GetValue().utf8_string();
+  live::hostAndPort(server, "the live view's server");
+  session_.reset();
+  shown_.reset();
+  used_ = settings_->copy({"run.output=" + output_->GetValue().utf8_string()});
+  session_ = std::make_unique<LiveSession>(used_->configuration, used_->live, server);
+}
+
+void LivePage::fit() {
+  view_->fixed.reset();
+  canvas_->Refresh(false);
+}
+
+void LivePage::toggle(bool Layers::*layer) {
+  view_->layers.*layer = !(view_->layers.*layer);
+  canvas_->Refresh(false);
+}
+
+void LivePage::refresh() {
+  if (!session_) return;
+  const auto now = session_->snapshot();
+  if (now == shown_) return;
+  const bool isNews = !shown_ || shown_->state != now->state;
+  if (!shown_ || shown_->events != now->events) {
+    events_->Clear();
+    for (const std::string& line : now->events) events_->Append(wxString::FromUTF8(line));
+    if (!now->events.empty()) events_->EnsureVisible(static_cast<int>(events_->GetCount()) - 1);
+  }
+  shown_ = now;
+  canvas_->show(now->filter);
+  plots_->show({now->filter});
+  const char* const states[] = {"running", "writing the results", "done", "failed"};
+  text_->SetLabel(wxString::Format("%zu scans, %s", now->scans, states[static_cast<int>(now->state)]));
+  button_->SetLabel(isRunning() ? "Stop" : "Connect");
+  if (!isNews) return;
+  if (now->state == State::done) showNotice(this, now->message);
+  if (now->state == State::failed) showError(this, now->message);
+}
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,53 @@
+/// @file LivePage.h
+/// @brief The filter fed by an observation-server: map, plots and what happens to the connection.
+#pragma once
+
+#include <wx/button.h>
+#include <wx/listbox.h>
+#include <wx/panel.h>
+#include <wx/stattext.h>
+#include <wx/textctrl.h>
+
+#include <memory>
+
+#include "window/gui/MapCanvas.h"
+#include "window/gui/PlotPanel.h"
+#include "window/gui/Settings.h"
+#include "window/view/LiveSession.h"
+
+namespace hybrid_slam::window {
+
+class LivePage : public wxPanel {
+ public:
+  explicit LivePage(wxWindow* parent);
+
+  void setSettings(std::shared_ptr<const Settings> settings);
+  /// Starts a run with the server of the text field, or ends the one that runs.
+  void connectOrStop();
+  /// Looks what the session has got to; to be called several times a second.
+  void refresh();
+  bool isRunning() const;
+  void fit();
+  void toggle(bool Layers::*layer);
+
+  void setServer(const wxString& server) { server_->SetValue(server); }
+  void setOutput(const wxString& folder) { output_->SetValue(folder); }
+  MapCanvas* canvas() const { return canvas_; }
+  LiveSession* session() const { return session_.get(); }
+
+ private:
+  void start();
+
+  std::shared_ptr<const Settings> settings_, used_;  ///< of the next run; of the present one
+  wxTextCtrl *server_, *output_;
+  wxButton* button_;
+  wxStaticText* text_;
+  std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
+  MapCanvas* canvas_ = nullptr;
+  PlotPanel* plots_;
+  wxListBox* events_;
+  std::unique_ptr<LiveSession> session_;
+  std::shared_ptr<const LiveSnapshot> shown_;
+};
+
+}  // namespace hybrid_slam::window

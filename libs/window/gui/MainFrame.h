@@ -1,0 +1,88 @@
+/// @file MainFrame.h
+/// @brief The window: menus with their keys, the replay and the live page.
+#pragma once
+
+#include <wx/frame.h>
+#include <wx/notebook.h>
+#include <wx/timer.h>
+
+#include <memory>
+#include <string>
+
+#include "window/gui/LivePage.h"
+#include "window/gui/ReplayPage.h"
+#include "window/gui/Settings.h"
+
+namespace hybrid_slam::window {
+
+/// The menus' entries.
+enum Command {
+  kOpenIni = wxID_HIGHEST + 1,
+  kOpenRawlog,
+  kSaveIni,
+  kExportPicture,
+  kExportResults,
+  kPlay,
+  kStep,
+  kRestart,
+  kSeek,
+  kFaster,
+  kSlower,
+  kParameters,
+  kZoomIn,
+  kZoomOut,
+  kFit,
+  kGeneral,
+  kParticles,
+  kPath,
+  kLines,
+  kScanLines,
+  kEllipse,
+  kReplayPage,
+  kLivePage
+};
+
+class MainFrame : public wxFrame {
+ public:
+  MainFrame();
+
+  /// With dialogs for what is wrong with the files.
+  /// @param rawlog  empty: [run] rawlog of the INI file, if it names one
+  void open(const std::string& ini, const std::string& rawlog);
+  void applyChanges(const std::vector<std::string>& changes);
+
+  /// @name What the menus' entries do with the file that was chosen
+  /// @throws InputError if it cannot be written, or there is nothing to write yet
+  /// @{
+  void saveIniTo(const std::string& file) const;
+  void exportPictureTo(const std::string& file) const;  ///< PNG, 1600 x 1200
+  void exportResultsTo(const std::string& folder);
+  /// @}
+
+  ReplayPage* replay() const { return replay_; }
+  LivePage* live() const { return live_; }
+  const Settings* settings() const { return settings_.get(); }
+
+ private:
+  void makeMenus();
+  void bindFileMenu();
+  void bindReplayMenu();
+  void bindViewMenu();
+  void use(std::shared_ptr<Settings> settings);
+  void openIni();
+  void openRawlog();
+  void saveIni();
+  void exportPicture();
+  void exportResults();
+  std::shared_ptr<const FilterSnapshot> shownFilter() const;
+  void askForScan();
+  void editParameters();
+
+  std::shared_ptr<const Settings> settings_;
+  wxNotebook* pages_;
+  ReplayPage* replay_;
+  LivePage* live_;
+  wxTimer timer_;
+};
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,88 @@
+#include "window/gui/MapCanvas.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam::window {
+
+MapCanvas::MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr<SharedView> shared,
+                     std::function<void()> onChange)
+    : CWxGLCanvasBase(parent), title_(title), shared_(std::move(shared)), onChange_(std::move(onChange)) {
+  SetMinSize(FromDIP(wxSize(200, 200)));
+  setUseCameraFromScene(true);
+  // What is bound last is asked first: these stand in for the handlers of the base, which turn the camera.
+  Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
+  Bind(wxEVT_MOUSEWHEEL, &MapCanvas::onWheel, this);
+  Bind(wxEVT_MOTION, &MapCanvas::onMotion, this);
+  Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base takes the focus
+  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { lastMouse_ = event.GetPosition(); });
+  Bind(wxEVT_LEFT_DCLICK, [this](wxMouseEvent&) {
+    shared_->fixed.reset();
+    onChange_();
+  });
+}
+
+void MapCanvas::show(const std::shared_ptr<const FilterSnapshot>& filter) {
+  if (filter == filter_) return;
+  filter_ = filter;
+  map_ = filter ? mapPlane(filter->map) : nullptr;
+  Refresh(false);
+}
+
+PictureSize MapCanvas::size() const { return {GetClientSize().x, GetClientSize().y}; }
+
+MapView MapCanvas::view() const {
+  if (shared_->fixed) return *shared_->fixed;
+  return filter_ ? wholeMap(filter_->map, size()) : MapView();
+}
+
+void MapCanvas::zoom(double factor) { zoomAt({size().width / 2, size().height / 2}, factor); }
+
+/// The place under the mouse stays there.
+void MapCanvas::zoomAt(const wxPoint& at, double factor) {
+  MapView next = view();
+  const auto before = next.toMap(at.x, at.y, size());
+  next.scale = std::clamp(next.scale * factor, 0.1, 2000.0);
+  const auto after = next.toMap(at.x, at.y, size());
+  next.centreX += before.x - after.x;
+  next.centreY += before.y - after.y;
+  shared_->fixed = next;
+  onChange_();
+}
+
+void MapCanvas::onWheel(wxMouseEvent& event) {
+  zoomAt(event.GetPosition(), std::pow(1.2, event.GetWheelRotation() / double(event.GetWheelDelta())));
+}
+
+void MapCanvas::onMotion(wxMouseEvent& event) {
+  if (!event.Dragging() || !event.LeftIsDown()) return;
+  MapView next = view();
+  next.centreX -= (event.GetX() - lastMouse_.x) / next.scale;
+  next.centreY += (event.GetY() - lastMouse_.y) / next.scale;
+  lastMouse_ = event.GetPosition();
+  shared_->fixed = next;
+  onChange_();
+}
+
+mrpt::opengl::COpenGLScene::Ptr MapCanvas::titleScene() const {
+  auto scene = mrpt::opengl::COpenGLScene::Create();
+  scene->getViewport()->setCustomBackgroundColor({0.5f, 0.5f, 0.5f});
+  mrpt::opengl::TFontParams font;
+  font.vfont_name = "sans";
+  font.vfont_scale = static_cast<float>(11 * GetContentScaleFactor());
+  scene->getViewport()->addTextMessage(0.1, 0.5, title_, 0, font);
+  return scene;
+}
+
+void MapCanvas::paint() {
+  const wxPaintDC dc(this);
+  if (!m_gl_context || size().width <= 0 || size().height <= 0) return;
+  const auto lock = mrpt::lockHelper(m_gl_context_mtx);
+  SetCurrent(*m_gl_context);
+  const double density = GetContentScaleFactor();
+  setOpenGLSceneRef(filter_ ? filterScene(*filter_, map_, view(), shared_->layers, size(), density)
+                            : titleScene());
+  renderCanvas(static_cast<int>(size().width * density), static_cast<int>(size().height * density));
+}
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,100 @@
+#include "window/gui/PlotPanel.h"
+
+#include <wx/dcbuffer.h>
+#include <wx/graphics.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam::window {
+namespace {
+
+struct Plot {
+  const char* title;
+  double (*value)(const PlotRow&);
+  double least;  ///< the axis ends no lower than here
+};
+
+const Plot kPlots[] = {{"std x (m)", [](const PlotRow& r) { return r.stdX; }, 0.01},
+                       {"std y (m)", [](const PlotRow& r) { return r.stdY; }, 0.01},
+                       {"std phi (deg)", [](const PlotRow& r) { return r.stdPhi * 180 / M_PI; }, 0.1},
+                       {"ESS", [](const PlotRow& r) { return r.ess; }, 1}};
+
+wxColour colourOf(size_t filter) { return filter == 0 ? wxColour(0, 90, 200) : wxColour(230, 110, 0); }
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below the value.
+double roundedUp(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * power >= value * (1 - 1e-9)) return step * power;
+  return 10 * power;
+}
+
+void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const Plot& plot,
+              const std::vector<std::shared_ptr<const FilterSnapshot>>& filters) {
+  double high = plot.least, end = 1;
+  for (const auto& filter : filters)
+    for (const PlotRow& row : filter->plot) {
+      high = std::max(high, plot.value(row));
+      end = std::max(end, row.time);
+    }
+  high = roundedUp(high);
+  double width = 0, height = 0;
+  to.GetTextExtent("0", &width, &height);
+  to.DrawText(wxString::Format("%s, 0 to %g; to %.0f s", plot.title, high, end), area.m_x, area.m_y);
+  const double top = area.m_y + height + 3, bottom = area.m_y + area.m_height;
+  to.SetBrush(*wxWHITE_BRUSH);
+  to.SetPen(*wxGREY_PEN);
+  to.DrawRectangle(area.m_x, top, area.m_width, bottom - top);
+  for (size_t i = 0; i < filters.size(); ++i) {
+    if (filters[i]->plot.size() < 2) continue;
+    wxGraphicsPath curve = to.CreatePath();
+    bool isFirst = true;
+    for (const PlotRow& row : filters[i]->plot) {
+      const double x = area.m_x + area.m_width * row.time / end;
+      const double y = bottom - (bottom - top) * plot.value(row) / high;
+      isFirst ? curve.MoveToPoint(x, y) : curve.AddLineToPoint(x, y);
+      isFirst = false;
+    }
+    to.SetPen(wxPen(colourOf(i), 1));
+    to.StrokePath(curve);
+  }
+}
+
+}  // namespace
+
+PlotPanel::PlotPanel(wxWindow* parent)
+    : wxPanel(parent, wxID_ANY, wxDefaultPosition, wxDefaultSize, wxFULL_REPAINT_ON_RESIZE) {
+  SetBackgroundStyle(wxBG_STYLE_PAINT);
+  SetMinSize(FromDIP(wxSize(-1, 130)));
+  Bind(wxEVT_PAINT, &PlotPanel::onPaint, this);
+}
+
+void PlotPanel::show(const std::vector<std::shared_ptr<const FilterSnapshot>>& filters) {
+  std::vector<std::shared_ptr<const FilterSnapshot>> there;
+  for (const auto& filter : filters)
+    if (filter) there.push_back(filter);
+  if (there == filters_) return;
+  filters_ = std::move(there);
+  Refresh(false);
+}
+
+void PlotPanel::onPaint(wxPaintEvent&) {
+  wxAutoBufferedPaintDC dc(this);
+  dc.SetBackground(wxBrush(GetBackgroundColour()));
+  dc.Clear();
+  const std::unique_ptr<wxGraphicsContext> to(wxGraphicsContext::Create(dc));
+  to->SetFont(GetFont(), GetForegroundColour());
+  const double gap = FromDIP(8), legend = FromDIP(70);
+  const wxSize size = GetClientSize();
+  const double width = (size.x - legend - 5 * gap) / 4;
+  for (size_t i = 0; i < 4; ++i)
+    drawPlot(*to, {gap + static_cast<double>(i) * (width + gap), 2, width, size.y - 6.0}, kPlots[i],
+             filters_);
+  for (size_t i = 0; i < filters_.size(); ++i) {
+    to->SetFont(GetFont(), colourOf(i));
+    to->DrawText(filters_[i]->method, size.x - legend, FromDIP(24) + static_cast<double>(i) * FromDIP(20));
+  }
+}
+
+}  // namespace hybrid_slam::window

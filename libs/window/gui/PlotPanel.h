@@ -1,0 +1,27 @@
+/// @file PlotPanel.h
+/// @brief The spread of the particles and the effective sample size over time, a curve for each filter.
+#pragma once
+
+#include <wx/panel.h>
+
+#include <memory>
+#include <vector>
+
+#include "window/view/FilterSnapshot.h"
+
+class wxGraphicsContext;
+
+namespace hybrid_slam::window {
+
+/// Four plots in a row: std x (m), std y (m), std phi (deg), ESS (share).
+class PlotPanel : public wxPanel {
+ public:
+  explicit PlotPanel(wxWindow* parent);
+  void show(const std::vector<std::shared_ptr<const FilterSnapshot>>& filters);
+
+ private:
+  void onPaint(wxPaintEvent&);
+  std::vector<std::shared_ptr<const FilterSnapshot>> filters_;
+};
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,57 @@
+/// @file ReplayPage.h
+/// @brief The hybrid filter beside the general one on the same log, with a player's controls.
+#pragma once
+
+#include <wx/button.h>
+#include <wx/choice.h>
+#include <wx/panel.h>
+#include <wx/slider.h>
+#include <wx/stattext.h>
+
+#include <memory>
+#include <vector>
+
+#include "window/gui/MapCanvas.h"
+#include "window/gui/PlotPanel.h"
+#include "window/view/ReplaySession.h"
+
+namespace hybrid_slam::window {
+
+class ReplayPage : public wxPanel {
+ public:
+  explicit ReplayPage(wxWindow* parent);
+
+  /// Starts to read configuration.run.rawlog.
+  void open(const run::Configuration& configuration);
+  /// Looks what the session has got to; to be called several times a second.
+  void refresh();
+
+  void playOrPause();
+  void step();
+  void restart();
+  void seek(size_t scan);
+  void faster(int steps);
+  void fit();
+  void toggle(bool Layers::*layer);
+  void showGeneral(bool isShown);
+  MapCanvas* canvas(size_t i) const { return canvases_.at(i); }
+  ReplaySession* session() const { return session_.get(); }
+
+ private:
+  void addControls(wxSizer* to);
+  void redraw();
+
+  std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
+  std::vector<MapCanvas*> canvases_;
+  PlotPanel* plots_ = nullptr;
+  wxButton* play_ = nullptr;
+  wxChoice* speed_ = nullptr;
+  wxSlider* place_ = nullptr;
+  wxStaticText* text_ = nullptr;
+  std::unique_ptr<ReplaySession> session_;
+  std::shared_ptr<const ReplaySnapshot> shown_;
+  size_t told_ = 0;  ///< messages of the session that were shown
+  bool isSliding_ = false;
+};
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,240 @@
+#include "window/view/FilterScene.h"
+
+#include <mrpt/core/format.h>
+#include <mrpt/opengl/CFBORender.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace hybrid_slam::window {
+
+using mrpt::img::TColor;
+using mrpt::math::TPoint2D;
+using mrpt::opengl::COpenGLScene;
+using mrpt::opengl::COpenGLViewport;
+using mrpt::opengl::CSetOfTriangles;
+using mrpt::opengl::CTexturedPlane;
+
+namespace {
+
+const TColor kRed(220, 0, 0), kGreen(0, 150, 0), kBlue(0, 70, 230), kOrange(245, 130, 0),
+    kViolet(150, 0, 180), kLightBlue(80, 180, 255);
+
+/// Seen from above, without perspective; a viewport of `size` shows `scale` pixels for each m.
+void lookDown(COpenGLViewport& viewport, double x, double y, double scale, PictureSize size) {
+  // MRPT's orthogonal camera shows half of its distance across the shorter side.
+  const double distance = 2 * std::min(size.width, size.height) / scale;
+  auto& camera = viewport.getCamera();
+  camera.setOrthogonal(true);
+  camera.setAzimuthDegrees(-90);
+  camera.setElevationDegrees(90);
+  camera.setPointingAt(mrpt::math::TPoint3D(x, y, 0));
+  camera.setZoomDistance(static_cast<float>(distance));
+  viewport.setViewportClipDistances(0.01f * static_cast<float>(distance), 2 * static_cast<float>(distance));
+}
+
+TPoint2D ahead(const TPoint2D& from, double heading, double distance) {
+  return {from.x + distance * std::cos(heading), from.y + distance * std::sin(heading)};
+}
+
+/// Figures of one colour and pen, of triangles: mrpt-opengl draws lines one pixel wide.
+class Strokes {
+ public:
+  /// @param width  of the pen, m
+  /// @param height above the grid, m
+  Strokes(const char* name, const TColor& colour, double width, double height)
+      : colour_(colour), half_(width / 2), height_(static_cast<float>(height)) {
+    triangles_->setName(name);
+    triangles_->enableLight(false);
+  }
+  void triangle(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
+    const auto point = [&](const TPoint2D& p) {
+      return mrpt::math::TPoint3Df(static_cast<float>(p.x), static_cast<float>(p.y), height_);
+    };
+    mrpt::opengl::TTriangle corners(point(a), point(b), point(c));
+    corners.setColor(colour_);
+    triangles_->insertTriangle(corners);
+  }
+  /// As long as the pen is wide at both ends, so that segments in a row meet.
+  void segment(const TPoint2D& a, const TPoint2D& b) {
+    const double heading = std::atan2(b.y - a.y, b.x - a.x);
+    const TPoint2D from = ahead(a, heading, -half_), to = ahead(b, heading, half_);
+    const double left = heading + M_PI / 2;
+    triangle(ahead(from, left, half_), ahead(from, left, -half_), ahead(to, left, -half_));
+    triangle(ahead(from, left, half_), ahead(to, left, -half_), ahead(to, left, half_));
+  }
+  /// @param a,b  half axes, m
+  void ellipse(const TPoint2D& centre, double a, double b, double direction) {
+    constexpr int kCorners = 48;
+    const auto corner = [&](int i) {
+      const double t = 2 * M_PI * i / kCorners;
+      return ahead(ahead(centre, direction, a * std::cos(t)), direction + M_PI / 2, b * std::sin(t));
+    };
+    for (int i = 0; i < kCorners; ++i) segment(corner(i), corner(i + 1));
+  }
+  const CSetOfTriangles::Ptr& object() const { return triangles_; }
+
+ private:
+  TColor colour_;
+  double half_;
+  float height_;
+  CSetOfTriangles::Ptr triangles_ = CSetOfTriangles::Create();
+};
+
+class ScenePainter {
+ public:
+  ScenePainter(const FilterSnapshot& filter, const MapView& view, PictureSize size, double density)
+      : filter_(filter), pixel_(1 / view.scale), density_(density), size_(size), view_(view) {
+    main_ = scene_->getViewport();
+    main_->setCustomBackgroundColor({0.5f, 0.5f, 0.5f});
+    lookDown(*main_, view.centreX, view.centreY, view.scale, size);
+  }
+
+  void grid(const CTexturedPlane::Ptr& plane) {
+    if (plane) scene_->insert(plane);
+  }
+  void lines() {
+    Strokes all = strokes("lines", kGreen, 2);
+    for (const DatabaseLine& line : filter_.lines) all.segment(line.start, line.end);
+  }
+  void path() {
+    Strokes all = strokes("path", kRed, 1);
+    for (size_t i = 1; i < filter_.path.size(); ++i)
+      all.segment(TPoint2D(filter_.path[i - 1]), TPoint2D(filter_.path[i]));
+  }
+  void scanLines() {
+    Strokes matched = strokes("scan lines, matched", kBlue, 3),
+            others = strokes("scan lines, not matched", kOrange, 3);
+    for (const ScanLine& line : filter_.scanLines)
+      (line.isMatched ? matched : others).segment(line.segment.start, line.segment.end);
+  }
+  /// Arrows.
+  void particles() {
+    Strokes all = strokes("particles", kRed, 1);
+    for (const auto& particle : filter_.particles) {
+      const TPoint2D at(particle.pose);
+      const double phi = particle.pose.phi;
+      all.triangle(ahead(at, phi, 7 * pixel_), ahead(at, phi + 2.4, 3 * pixel_),
+                   ahead(at, phi - 2.4, 3 * pixel_));
+    }
+  }
+  void ellipse() {
+    constexpr double kSigmas = 3;
+    const UncertaintyEllipse& e = filter_.ellipse;
+    strokes("uncertainty", kViolet, 2)
+        .ellipse(e.centre, std::max(kSigmas * e.major, 2 * pixel_), std::max(kSigmas * e.minor, 2 * pixel_),
+                 e.direction);
+  }
+  void robot() {
+    if (filter_.path.empty()) return;
+    const auto& pose = filter_.path.back();
+    const double radius = std::max(6 * pixel_, 0.25);
+    Strokes all = strokes("robot", kLightBlue, 3);
+    all.ellipse(TPoint2D(pose), radius, radius, 0);
+    all.segment(TPoint2D(pose), ahead(TPoint2D(pose), pose.phi, radius));
+  }
+  /// A compass in the upper right corner: the two dominating directions.
+  void dominatingDirection() {
+    if (!filter_.dominatingDirection) return;
+    const double radius = 24 * pixel_;
+    const TPoint2D at = view_.toMap(size_.width - 34.0, 34, size_);
+    strokes("compass", TColor(255, 255, 255), 1).ellipse(at, radius + 3 * pixel_, radius + 3 * pixel_, 0);
+    for (const double turn : {0.0, M_PI / 2})
+      strokes("dominating direction", kGreen, turn == 0 ? 3 : 1)
+          .segment(ahead(at, *filter_.dominatingDirection + turn, -radius),
+                   ahead(at, *filter_.dominatingDirection + turn, radius));
+  }
+  void caption() {
+    std::string text = mrpt::format("%s: %zu updates, ESS %.0f %%", filter_.method.c_str(), filter_.updates,
+                                    100 * filter_.step.ess);
+    if (!filter_.lines.empty() || !filter_.scanLines.empty())
+      text += mrpt::format(", %zu lines, %d of %d matched", filter_.lines.size(), filter_.step.linesMatched,
+                           filter_.step.linesSeen);
+    mrpt::opengl::TFontParams font;
+    font.vfont_name = "sans";
+    font.vfont_scale = static_cast<float>(11 * density_);
+    font.color = {1, 1, 1};
+    font.draw_shadow = true;
+    font.shadow_color = {0, 0, 0};
+    main_->addTextMessage(8 * density_, -18 * density_, text, 0, font);
+  }
+  const COpenGLScene::Ptr& scene() const { return scene_; }
+
+ private:
+  /// In the scene, above what was drawn before. @param width  pixels
+  Strokes strokes(const char* name, const TColor& colour, double width) {
+    height_ += pixel_;
+    const Strokes added(name, colour, width * pixel_, height_);
+    scene_->insert(added.object());
+    return added;
+  }
+
+  const FilterSnapshot& filter_;
+  double pixel_;  ///< m
+  double density_;
+  PictureSize size_;
+  MapView view_;
+  double height_ = 0;  ///< m
+  COpenGLScene::Ptr scene_ = COpenGLScene::Create();
+  COpenGLViewport::Ptr main_;
+};
+
+}  // namespace
+
+MapView wholeMap(const MapImage& map, PictureSize size) {
+  MapView view;
+  if (map.width == 0) return view;
+  view.centreX = (map.left + map.right()) / 2;
+  view.centreY = (map.bottom + map.top()) / 2;
+  const double free = std::max(size.height - 60, 1);  // the caption above, and as much below
+  view.scale = std::min(size.width / (map.right() - map.left), free / (map.top() - map.bottom));
+  view.scale = std::max(view.scale, 0.01);
+  return view;
+}
+
+CTexturedPlane::Ptr mapPlane(const MapImage& map) {
+  if (map.width == 0) return nullptr;
+  mrpt::img::CImage image(static_cast<unsigned>(map.width), static_cast<unsigned>(map.height),
+                          mrpt::img::CH_RGB);
+  for (int y = 0; y < map.height; ++y) {
+    const uint8_t* const row = &map.grey[static_cast<size_t>(
+        (map.height - 1 - y) * map.width)];  // a plane's first row is its lowest
+    uint8_t* to = image.ptrLine<uint8_t>(static_cast<unsigned>(y));
+    for (int x = 0; x < map.width; ++x) to = std::fill_n(to, 3, row[x]);
+  }
+  auto plane = CTexturedPlane::Create();
+  plane->setName("grid");
+  plane->setPlaneCorners(static_cast<float>(map.left), static_cast<float>(map.right()),
+                         static_cast<float>(map.bottom), static_cast<float>(map.top()));
+  plane->assignImage(image);
+  plane->enableTextureLinearInterpolation(false);
+  return plane;
+}
+
+COpenGLScene::Ptr filterScene(const FilterSnapshot& filter, const CTexturedPlane::Ptr& map,
+                              const MapView& view, const Layers& layers, PictureSize size, double density) {
+  ScenePainter painter(filter, view, size, density);
+  painter.grid(map);
+  if (layers.lines) painter.lines();
+  if (layers.path) painter.path();
+  if (layers.scanLines) painter.scanLines();
+  painter.robot();
+  if (layers.ellipse) painter.ellipse();
+  if (layers.particles) painter.particles();
+  if (layers.lines) painter.dominatingDirection();
+  painter.caption();
+  return painter.scene();
+}
+
+mrpt::img::CImage pictureOf(const FilterSnapshot& filter, PictureSize size, const Layers& layers) {
+  const auto scene = filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, size), layers, size);
+  mrpt::opengl::CFBORender renderer(static_cast<unsigned>(size.width), static_cast<unsigned>(size.height));
+  renderer.setCamera(*scene, scene->getViewport()->getCamera());
+  mrpt::img::CImage picture;
+  renderer.render_RGB(*scene, picture);
+  return picture;
+}
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,77 @@
+#include "window/view/FilterSnapshot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam::window {
+std::string nameOf(run::RunOptions::Method method) {
+  const char* const names[] = {"hybrid", "general", "stock"};
+  return names[static_cast<int>(method)];
+}
+
+UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses) {
+  UncertaintyEllipse ellipse;
+  if (poses.empty()) return ellipse;
+  double top = poses.front().logWeight, sum = 0;
+  for (const auto& p : poses) top = std::max(top, p.logWeight);
+  for (const auto& p : poses) {
+    const double w = std::exp(p.logWeight - top);
+    sum += w;
+    ellipse.centre.x += w * p.pose.x;
+    ellipse.centre.y += w * p.pose.y;
+  }
+  ellipse.centre.x /= sum;
+  ellipse.centre.y /= sum;
+  double xx = 0, xy = 0, yy = 0;
+  for (const auto& p : poses) {
+    const double w = std::exp(p.logWeight - top) / sum;
+    const double dx = p.pose.x - ellipse.centre.x, dy = p.pose.y - ellipse.centre.y;
+    xx += w * dx * dx;
+    xy += w * dx * dy;
+    yy += w * dy * dy;
+  }
+  const double mean = (xx + yy) / 2, swing = std::hypot((xx - yy) / 2, xy);
+  ellipse.major = std::sqrt(std::max(mean + swing, 0.0));
+  ellipse.minor = std::sqrt(std::max(mean - swing, 0.0));
+  ellipse.direction = std::atan2(2 * xy, xx - yy) / 2;
+  return ellipse;
+}
+
+FilterWatch::FilterWatch(const run::Configuration& configuration)
+    : method_(nameOf(configuration.run.method)),
+      useLines_(configuration.run.method == run::RunOptions::Method::hybrid),
+      lineWeight_(configuration.filter.lineWeight),
+      prepare_(configuration.filter) {}
+
+void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, bool isUpdate) {
+  if (!start_) start_ = reading.timestamp;
+  if (!isUpdate) return;
+  const FilterStep& step = view.lastStep();
+  plot_.push_back({reading.timestamp - *start_, step.stdX, step.stdY, step.stdPhi, step.ess});
+  if (!useLines_) return;
+  scan_ = reading.scan;
+  linesBefore_ = std::exchange(linesAfter_, view.bestLines());
+}
+
+std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& view) const {
+  auto out = std::make_shared<FilterSnapshot>();
+  out->method = method_;
+  out->updates = view.updates();
+  out->map = mapImage(view.bestGrid());
+  out->path = view.bestPath();
+  out->lines = linesAfter_;
+  out->dominatingDirection = directionModuloRightAngle(out->lines);
+  out->particles = view.particlePoses();
+  out->ellipse = uncertaintyOf(out->particles);
+  out->plot = plot_;
+  if (view.updates() > 0) out->step = view.lastStep();
+  if (!scan_ || out->path.empty()) return out;
+  const LineDatabase before(linesBefore_);
+  for (const LineSegment& line : prepare_(*scan_).lines) {
+    const LineSegment placed = transformed(line, out->path.back());
+    out->scanLines.push_back({placed, matchDirection(placed.theta, before, lineWeight_).isMatched});
+  }
+  return out;
+}
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,84 @@
+/// @file FilterSnapshot.h
+/// @brief What a window shows of a running filter: taken in the filter's thread, never changed after that.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "readings/ReadingAssembler.h"
+#include "run/Configuration.h"
+#include "slam/filter/FilterView.h"
+#include "slam/filter/PreparedScan.h"
+#include "slam/lines/LineDatabase.h"
+#include "slam/lines/LineWeight.h"
+#include "window/view/MapImage.h"
+
+namespace hybrid_slam::window {
+
+/// One update of the filter in the plots.
+struct PlotRow {
+  double time = 0;                        ///< s since the first scan
+  double stdX = 0, stdY = 0, stdPhi = 0;  ///< m, m, rad
+  double ess = 1;                         ///< share in [0, 1]
+};
+
+/// A line of the present scan in the map frame, placed by the best particle.
+struct ScanLine {
+  LineSegment segment;
+  bool isMatched = false;  ///< as w_line counts: in direction, with the database as it was before this scan
+};
+
+/// The 1-sigma ellipse of the particles' places.
+struct UncertaintyEllipse {
+  mrpt::math::TPoint2D centre;  ///< m, map frame: the weighted mean
+  double major = 0, minor = 0;  ///< m, half axes
+  double direction = 0;         ///< rad, of the major axis
+};
+
+struct FilterSnapshot {
+  std::string method;  ///< "hybrid", "general", "stock"
+  size_t updates = 0;
+  MapImage map;                           ///< of the best particle, as are the next three
+  std::vector<mrpt::math::TPose2D> path;  ///< one pose for each update; the last is the robot's
+  std::vector<DatabaseLine> lines;
+  std::optional<double> dominatingDirection;  ///< rad, modulo a right angle
+  std::vector<WeightedPose> particles;
+  std::vector<ScanLine> scanLines;  ///< of the last update
+  UncertaintyEllipse ellipse;
+  std::vector<PlotRow> plot;
+  FilterStep step;  ///< the last update
+};
+
+/// Watches one filter in the thread that runs it.
+class FilterWatch {
+ public:
+  /// @param configuration  that of the filter
+  explicit FilterWatch(const run::Configuration& configuration);
+
+  /// After each scan. @param isUpdate  whether the filter was updated with it
+  void saw(const FilterView& view, const readings::Reading& reading, bool isUpdate);
+  /// Copies the grid, which takes some ms: call it as often as there is something to look at.
+  std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view) const;
+
+ private:
+  std::string method_;
+  bool useLines_;
+  LineWeightOptions lineWeight_;
+  ScanPreparation prepare_;
+  std::optional<double> start_;  ///< s
+  std::vector<PlotRow> plot_;
+  mrpt::obs::CObservation2DRangeScan::Ptr scan_;        ///< of the last update
+  std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update
+};
+
+/// "hybrid", "general" or "stock".
+std::string nameOf(run::RunOptions::Method method);
+
+/// The ellipse of weighted poses.
+UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses);
+
+}  // namespace hybrid_slam::window

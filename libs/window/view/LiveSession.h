@@ -1,0 +1,59 @@
+/// @file LiveSession.h
+/// @brief The filter fed by an observation-server, for a window.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "live/EventLog.h"
+#include "live/LiveOptions.h"
+#include "window/view/FilterSnapshot.h"
+
+namespace hybrid_slam::window {
+
+struct LiveSnapshot {
+  enum class State { running, finishing, done, failed };
+  State state = State::running;
+  size_t scans = 0;
+  std::vector<std::string> events;               ///< of the connection and the filter, one line each
+  std::string message;                           ///< what the run came to, or why it failed
+  std::shared_ptr<const FilterSnapshot> filter;  ///< null before the first update
+};
+
+/// hybrid-slam-live in two threads: cycles are taken by one, filtered by the other. The recording and the
+/// results go to the configuration's folder.
+class LiveSession {
+ public:
+  /// @param server  HOST:PORT @throws InputError if it is none
+  LiveSession(const run::Configuration& configuration, const live::LiveOptions& options,
+              const std::string& server);
+  /// Stops, and waits for the results.
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  /// Ends the run; its results are written, and then the state is done.
+  void stop() { isStopping_ = true; }
+  std::shared_ptr<const LiveSnapshot> snapshot() const;
+
+ private:
+  void work();
+  std::string run();
+  template <class Change>
+  void publish(const Change& change);
+
+  run::Configuration configuration_;
+  live::LiveOptions options_;
+  std::pair<std::string, uint16_t> server_;
+  live::EventLog log_;
+  std::atomic<bool> isStopping_{false};
+  mutable std::mutex mutex_;
+  std::shared_ptr<const LiveSnapshot> snapshot_ = std::make_shared<LiveSnapshot>();
+  std::thread thread_;
+};
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,41 @@
+#include "window/view/MapImage.h"
+
+#include <algorithm>
+
+namespace hybrid_slam::window {
+
+MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid) {
+  constexpr int kMargin = 10;
+  const int width = static_cast<int>(grid.getSizeX()), height = static_cast<int>(grid.getSizeY());
+  int x0 = width, y0 = height, x1 = -1, y1 = -1;  // of the known cells, both ends included
+  for (int y = 0; y < height; ++y) {
+    const auto* row = grid.getRow(y);
+    for (int x = 0; x < width; ++x)
+      if (row[x] != 0) {
+        x0 = std::min(x0, x);
+        x1 = std::max(x1, x);
+        y0 = std::min(y0, y);
+        y1 = std::max(y1, y);
+      }
+  }
+  MapImage image;
+  if (x1 < 0) return image;
+  x0 = std::max(x0 - kMargin, 0);
+  y0 = std::max(y0 - kMargin, 0);
+  x1 = std::min(x1 + kMargin, width - 1);
+  y1 = std::min(y1 + kMargin, height - 1);
+
+  image.width = x1 - x0 + 1;
+  image.height = y1 - y0 + 1;
+  image.resolution = grid.getResolution();
+  image.left = grid.getXMin() + x0 * image.resolution;
+  image.bottom = grid.getYMin() + y0 * image.resolution;
+  image.grey.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+  for (int y = y1; y >= y0; --y) {
+    const auto* row = grid.getRow(y);
+    for (int x = x0; x <= x1; ++x) image.grey.push_back(mrpt::maps::COccupancyGridMap2D::l2p_255(row[x]));
+  }
+  return image;
+}
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,290 @@
+#include "window/view/ReplaySession.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+#include "run/FilterRun.h"
+
+namespace hybrid_slam::window {
+namespace {
+
+using State = ReplaySnapshot::State;
+using Clock = std::chrono::steady_clock;
+
+/// Between two pictures while the replay runs: copying the grids takes time that the filters would use.
+constexpr auto kPictureInterval = std::chrono::milliseconds(80);
+
+/// One filter, its results in a folder of its own until they are asked for.
+struct Lane {
+  Lane(const run::Configuration& all, run::RunOptions::Method method, const std::string& folder)
+      : configuration(withMethod(all, method, folder)), run(configuration), watch(configuration) {}
+
+  static run::Configuration withMethod(run::Configuration c, run::RunOptions::Method method,
+                                       const std::string& folder) {
+    c.run.method = method;
+    c.run.output = folder;
+    c.filter.useLines = method == run::RunOptions::Method::hybrid;
+    return c;
+  }
+
+  /// Writes the results to its folder, with the first call.
+  /// @param target  their folder in the end, as config.ini is to say
+  /// @throws InputError if that failed, with this call or the first
+  void finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target) {
+    if (!std::exchange(isFinished, true)) {
+      configuration.run.output = target;
+      try {
+        run.finish(file, log, HYBRID_SLAM_VERSION, nlohmann::ordered_json::object());
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  run::Configuration configuration;
+  run::FilterRun run;
+  FilterWatch watch;
+  bool isFinished = false;     ///< it takes no more scans
+  std::exception_ptr failure;  ///< why the results could not be written
+};
+
+}  // namespace
+
+/// Once through the log, from its start.
+struct ReplaySession::Pass {
+  Pass(const run::Configuration& configuration, const std::vector<Method>& methods,
+       const readings::RawlogSummary& summary)
+      : file(configuration.run.rawlog), log(summary), source(file, configuration.input, log) {
+    for (const Method method : methods)
+      lanes.push_back(std::make_unique<Lane>(configuration, method, folder.path(nameOf(method))));
+    next = source.next();
+    if (next) start = next->timestamp;
+  }
+
+  std::string file;
+  readings::RawlogSummary log;
+  readings::RawlogSource source;
+  files::TemporaryFolder folder;
+  std::vector<std::unique_ptr<Lane>> lanes;
+  std::optional<readings::Reading> next;
+  double start = 0, time = 0;  ///< s: of the first scan; since then
+  size_t scans = 0;
+  bool isOutdated = true;  ///< the published maps are not the last ones
+  Clock::time_point lastScan, lastPicture;
+  std::vector<std::shared_ptr<const FilterSnapshot>> pictures;
+
+  bool isFinished() const {
+    return std::any_of(lanes.begin(), lanes.end(), [](const auto& lane) { return lane->isFinished; });
+  }
+  bool isOver() const { return isFinished() || !next; }
+};
+
+ReplaySession::ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods)
+    : configuration_(configuration), methods_(methods), thread_([this] { work(); }) {}
+
+ReplaySession::~ReplaySession() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    isClosing_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void ReplaySession::play() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goal_ = Goal::play;
+  wantsRestart_ |= snapshot_->state == State::ended || snapshot_->state == State::failed;
+  wake_.notify_all();
+}
+
+void ReplaySession::pause() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goal_ = Goal::pause;
+  wake_.notify_all();
+}
+
+void ReplaySession::step() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  // Several steps asked for in quick succession add up.
+  target_ = (goal_ == Goal::reach ? target_ : snapshot_->scans) + 1;
+  goal_ = Goal::reach;
+  wake_.notify_all();
+}
+
+void ReplaySession::seek(size_t scan) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goal_ = Goal::reach;
+  target_ = scan;
+  wantsRestart_ |= snapshot_->state == State::failed;
+  wake_.notify_all();
+}
+
+void ReplaySession::setSpeed(double factor) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  speed_ = factor;
+  wake_.notify_all();
+}
+
+void ReplaySession::exportResults(const std::string& folder) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  exportTo_ = folder;
+  wake_.notify_all();
+}
+
+std::shared_ptr<const ReplaySnapshot> ReplaySession::snapshot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return snapshot_;
+}
+
+void ReplaySession::work() {
+  for (;;) {
+    try {
+      runPass();
+    } catch (const std::exception& e) {
+      tell(messageOf(e), true, State::failed);
+      std::unique_lock<std::mutex> lock(mutex_);
+      wake_.wait(lock, [this] { return isClosing_ || wantsRestart_; });
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (isClosing_) return;
+    wantsRestart_ = false;
+  }
+}
+
+void ReplaySession::runPass() {
+  if (!log_)
+    log_ = summarise(configuration_.run.rawlog, configuration_.input, [this] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      return isClosing_;
+    });
+  Pass pass(configuration_, methods_, *log_);
+  ++runs_;
+  publish(pass, State::paused, false);
+  if (!pass.log.defect.empty())
+    tell("log " + pass.log.defect + ": entry " + std::to_string(pass.log.entries + 1) + " of " + pass.file +
+             "; the replay ends there",
+         true, State::paused);
+  while (hasWork(pass)) advance(pass);
+}
+
+/// Waits until the next scan is due. @return false if this pass through the log is to be left
+bool ReplaySession::hasWork(Pass& pass) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    if (goal_ == Goal::reach && (target_ < pass.scans || (pass.isFinished() && target_ > pass.scans)))
+      wantsRestart_ = true;
+    if (isClosing_ || wantsRestart_) return false;
+    if (exportTo_) {
+      const std::string folder = *std::exchange(exportTo_, std::nullopt);
+      goal_ = Goal::pause;
+      lock.unlock();
+      exportPass(pass, folder);
+      lock.lock();
+      continue;
+    }
+    if (pass.isOver() || (goal_ == Goal::reach && target_ == pass.scans)) goal_ = Goal::pause;
+    if (goal_ == Goal::reach) return true;
+    if (goal_ == Goal::play && waitUntilDue(lock, pass)) return true;
+    if (goal_ != Goal::pause) continue;
+
+    const State state = pass.isOver() ? State::ended : State::paused;
+    if (pass.isOutdated || snapshot_->state != state) {
+      lock.unlock();
+      publish(pass, state, true);
+      lock.lock();
+    } else {
+      wake_.wait(lock);
+    }
+  }
+}
+
+/// @return whether the scan is due; else something was asked for meanwhile, or the maps were published
+bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass) {
+  if (speed_ <= 0) return true;
+  // A pause in the log is not sat through.
+  const double gap = std::clamp(pass.next->timestamp - pass.start - pass.time, 0.0, 2.0);
+  const auto due = pass.lastScan +
+                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gap / speed_));
+  if (Clock::now() >= due) return true;
+  if (pass.isOutdated) {
+    lock.unlock();
+    publish(pass, State::playing, true);
+    lock.lock();
+    return false;
+  }
+  return wake_.wait_until(lock, due) == std::cv_status::timeout && goal_ == Goal::play && !isClosing_ &&
+         !wantsRestart_;
+}
+
+void ReplaySession::advance(Pass& pass) {
+  pass.lastScan = Clock::now();
+  for (const auto& lane : pass.lanes) {
+    const bool isUpdate = lane->run.process(*pass.next);
+    lane->watch.saw(lane->run.view(), *pass.next, isUpdate);
+    pass.isOutdated |= isUpdate;
+  }
+  ++pass.scans;
+  pass.time = pass.next->timestamp - pass.start;
+  pass.next = pass.source.next();
+  publish(pass, State::playing, pass.isOutdated && Clock::now() - pass.lastPicture >= kPictureInterval);
+}
+
+void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
+  try {
+    if (pass.scans == 0)
+      throw InputError("no results yet", "before the first scan", "play or step the log first");
+    for (const auto& lane : pass.lanes)  // checks that all can be written to
+      files::OutputFolder(folder + "/" + nameOf(lane->configuration.run.method));
+    for (const auto& lane : pass.lanes) {
+      const std::string name = nameOf(lane->configuration.run.method), target = folder + "/" + name;
+      lane->finish(pass.file, pass.log, target);
+      std::filesystem::copy(
+          pass.folder.path(name), target,
+          std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+    }
+    tell("Results of " + std::to_string(pass.scans) + " scans written: " + folder, false, State::ended);
+  } catch (const std::exception& e) {
+    tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
+  }
+}
+
+void ReplaySession::publish(Pass& pass, State state, bool withMaps) {
+  if (withMaps && pass.scans > 0) {
+    pass.pictures.clear();
+    for (const auto& lane : pass.lanes) pass.pictures.push_back(lane->watch.snapshot(lane->run.view()));
+    pass.lastPicture = Clock::now();
+  }
+  if (withMaps) pass.isOutdated = false;
+  auto next = std::make_shared<ReplaySnapshot>();
+  next->state = state;
+  next->scans = pass.scans;
+  next->total = pass.log.scans;
+  next->time = pass.time;
+  next->run = runs_;
+  next->filters = pass.pictures;
+  next->filters.resize(methods_.size());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  next->message = snapshot_->message;
+  next->isError = snapshot_->isError;
+  next->messages = snapshot_->messages;
+  snapshot_ = next;
+}
+
+void ReplaySession::tell(const std::string& message, bool isError, State state) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto next = std::make_shared<ReplaySnapshot>(*snapshot_);
+  next->state = state;
+  next->message = message;
+  next->isError = isError;
+  ++next->messages;
+  snapshot_ = next;
+}
+
+}  // namespace hybrid_slam::window

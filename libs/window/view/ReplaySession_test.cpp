@@ -1,0 +1,209 @@
+/// A replay under a player's buttons, without a window.
+#include "window/view/ReplaySession.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files/TemporaryFolder.h"
+#include "run/Replay.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::window {
+namespace {
+
+using Method = run::RunOptions::Method;
+using State = ReplaySnapshot::State;
+using test::happens;
+using testing::HasSubstr;
+
+class ReplaySessionTest : public testing::Test {
+ protected:
+  static constexpr size_t kScans = 60;
+  run::Configuration configuration(const std::string& log) {
+    const std::string ini = folder.write("run.ini",
+                                         "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\n"
+                                         "resolution = 0.1\n");
+    return run::Configuration(ini, {"run.rawlog=" + log});
+  }
+  run::Configuration laps() {
+    return configuration(test::writeGzipped(folder.path("laps.rawlog"), test::laps(kScans)));
+  }
+  static bool reaches(const ReplaySession& session, State state, size_t scans) {
+    return test::happens([&] {
+      const auto now = session.snapshot();
+      return now->state == state && now->scans == scans;
+    });
+  }
+  files::TemporaryFolder folder;
+};
+
+TEST_F(ReplaySessionTest, WaitsBeforeTheFirstScanAndStepsOneByOne) {
+  ReplaySession session(laps(), {Method::hybrid, Method::general});
+  ASSERT_TRUE(reaches(session, State::paused, 0));
+  EXPECT_EQ(session.snapshot()->total, kScans);
+  EXPECT_EQ(session.snapshot()->filters.at(0), nullptr);
+  session.step();
+  ASSERT_TRUE(reaches(session, State::paused, 1));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->filters.at(1) != nullptr; }));
+  session.step();
+  session.step();
+  ASSERT_TRUE(reaches(session, State::paused, 3));
+}
+
+TEST_F(ReplaySessionTest, ShowsBothFiltersOnTheSameLog) {
+  ReplaySession session(laps(), {Method::hybrid, Method::general});
+  session.seek(kScans);
+  ASSERT_TRUE(reaches(session, State::ended, kScans));
+  const auto all = session.snapshot();
+  const FilterSnapshot &hybrid = *all->filters.at(0), &general = *all->filters.at(1);
+  EXPECT_EQ(hybrid.method, "hybrid");
+  EXPECT_EQ(general.method, "general");
+  EXPECT_EQ(hybrid.updates, general.updates);
+  EXPECT_EQ(hybrid.plot.size(), hybrid.updates);
+  EXPECT_EQ(hybrid.path.size(), hybrid.updates);
+  EXPECT_EQ(hybrid.particles.size(), 5u);
+  EXPECT_FALSE(hybrid.lines.empty());
+  EXPECT_TRUE(general.lines.empty());
+  ASSERT_TRUE(hybrid.dominatingDirection);
+  // The room's walls are all that is seen, and they have been there before. The first pose is the map's
+  // origin.
+  const double turned = std::remainder(*hybrid.dominatingDirection + test::poseOnLap(0, 80).phi, M_PI / 2);
+  EXPECT_NEAR(turned, 0, 0.05);
+  EXPECT_FALSE(hybrid.scanLines.empty());
+  // What is drawn as matched is what w_line counted, as steps.csv has it.
+  int matched = 0;
+  for (const ScanLine& line : hybrid.scanLines) matched += line.isMatched;
+  EXPECT_EQ(matched, hybrid.step.linesMatched);
+  EXPECT_GT(matched, 0);
+  // The map is the room: 10 m by 6 m, turned, and a margin.
+  EXPECT_GT(hybrid.map.right() - hybrid.map.left, 6);
+  EXPECT_LT(hybrid.map.right() - hybrid.map.left, 14);
+  EXPECT_EQ(hybrid.map.grey.size(), static_cast<size_t>(hybrid.map.width * hybrid.map.height));
+}
+
+TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
+  const run::Configuration c = laps();
+  run::Configuration offline = c;
+  offline.run.output = folder.path("offline");
+  const std::atomic<bool> stop{false};
+  run::replay(offline, true, stop, "test");
+
+  ReplaySession session(c, {Method::hybrid, Method::general});
+  session.seek(20);
+  ASSERT_TRUE(reaches(session, State::paused, 20));
+  session.seek(5);  // by starting anew
+  ASSERT_TRUE(reaches(session, State::paused, 5));
+  EXPECT_EQ(session.snapshot()->run, 2u);
+  session.setSpeed(0);
+  session.play();
+  ASSERT_TRUE(reaches(session, State::ended, kScans));
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages > 0; }));
+  EXPECT_THAT(session.snapshot()->message, HasSubstr("60 scans"));
+  EXPECT_FALSE(session.snapshot()->isError);
+  for (const char* name : {"trajectory.tum", "map.pgm", "lines.csv", "map.simplemap.gz"})
+    EXPECT_EQ(test::contentOf(folder.path(std::string("out/hybrid/") + name)),
+              test::contentOf(folder.path(std::string("offline/") + name)))
+        << name;
+  EXPECT_THAT(test::contentOf(folder.path("out/general/metrics.json")), HasSubstr("\"general\""));
+}
+
+TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {
+  ReplaySession session(laps(), {Method::hybrid});
+  ASSERT_TRUE(reaches(session, State::paused, 0));
+  const auto start = std::chrono::steady_clock::now();
+  session.setSpeed(4);
+  session.play();
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->scans >= 11; }));
+  // 10 gaps of 0.2 s at four times the pace.
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(490));
+  session.pause();
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::paused; }));
+  EXPECT_LT(session.snapshot()->scans, kScans);
+}
+
+TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayStartsAnew) {
+  ReplaySession session(laps(), {Method::hybrid});
+  session.exportResults(folder.path("early"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 1; }));
+  EXPECT_TRUE(session.snapshot()->isError);
+  EXPECT_THAT(session.snapshot()->message, HasSubstr("no results yet"));
+  session.seek(30);
+  ASSERT_TRUE(reaches(session, State::paused, 30));
+  session.exportResults("/proc/nowhere");
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
+  EXPECT_TRUE(session.snapshot()->isError);
+  session.seek(31);  // nothing was written: it can go on
+  ASSERT_TRUE(reaches(session, State::paused, 31));
+  EXPECT_EQ(session.snapshot()->run, 1u);
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 3; }));
+  EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("out/hybrid/metrics.json")));
+  session.setSpeed(0);
+  session.play();
+  ASSERT_TRUE(reaches(session, State::ended, kScans));
+  EXPECT_EQ(session.snapshot()->run, 2u);
+}
+
+TEST_F(ReplaySessionTest, ResultsThatCouldNotBeWrittenStayAFailure) {
+  const run::Configuration c = laps();
+  ReplaySession session(c, {Method::hybrid});
+  session.seek(30);
+  ASSERT_TRUE(reaches(session, State::paused, 30));
+  const std::string log = c.run.rawlog, away = log + ".away";
+  std::filesystem::rename(log, away);  // map.simplemap.gz is made from it
+  for (const size_t attempt : {1u, 2u}) {
+    session.exportResults(folder.path("out"));
+    ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == attempt; }));
+    EXPECT_TRUE(session.snapshot()->isError);
+    EXPECT_THAT(session.snapshot()->message, HasSubstr("laps.rawlog"));
+    EXPECT_EQ(session.snapshot()->state, State::ended);
+  }
+  std::filesystem::rename(away, log);
+  session.setSpeed(0);
+  session.play();
+  ASSERT_TRUE(reaches(session, State::ended, kScans));
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 3; }));
+  EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
+}
+
+TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
+  const run::Configuration c =
+      configuration(test::writeGzipped(folder.path("long.rawlog"), test::laps(20000)));
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  summarise(c.run.rawlog, c.input);
+  const auto whole = Clock::now() - start;
+  bool isQuick = false;  // once in three times: machines may be busy
+  for (int attempt = 0; attempt < 3 && !isQuick; ++attempt) {
+    const auto opened = Clock::now();
+    { const ReplaySession session(c, {Method::hybrid}); }
+    isQuick = Clock::now() - opened < whole / 4;
+  }
+  EXPECT_TRUE(isQuick);
+}
+
+TEST_F(ReplaySessionTest, ALogThatIsNoneFailsWithItsName) {
+  ReplaySession session(configuration(folder.path("missing.rawlog")), {Method::hybrid});
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::failed; }));
+  EXPECT_THAT(session.snapshot()->message, HasSubstr("missing.rawlog"));
+  session.play();  // tries again, and can be closed
+}
+
+TEST(UncertaintyEllipse, FollowsTheParticles) {
+  std::vector<WeightedPose> poses;
+  for (const double t : {-1., 1.}) poses.push_back({{3 + t, 4 + t, 0}, 0});
+  poses.push_back({{100, 0, 0}, -1000});  // weighs nothing
+  const UncertaintyEllipse e = uncertaintyOf(poses);
+  EXPECT_NEAR(e.centre.x, 3, 1e-9);
+  EXPECT_NEAR(e.centre.y, 4, 1e-9);
+  EXPECT_NEAR(e.major, std::sqrt(2), 1e-9);
+  EXPECT_NEAR(e.minor, 0, 1e-6);
+  EXPECT_NEAR(e.direction, M_PI / 4, 1e-9);
+}
+
+}  // namespace
+}  // namespace hybrid_slam::window
