@@ -14,12 +14,12 @@ namespace hybrid_slam::test {
 inline const Walls kCorridor{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1000, 1.2}}};
 
 inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStream& random) {
-  const LaserScan scan = scanOf(walls, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
+  const LaserScans scan{scanOf(walls, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random)};
   const FilterConfiguration c;
   const BeamSelection selection(scan);
   return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(c.gridWeight.beams)),
           ScanBeams(scan, selection.take(c.matcher.beams)),
-          LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan)};
+          LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan[0])};
 }
 
 /// A particle at `start` that has mapped the walls around.

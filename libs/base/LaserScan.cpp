@@ -9,10 +9,14 @@
 
 namespace hybrid_slam {
 
-LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange) {
+bool isHorizontal(const mrpt::obs::CObservation2DRangeScan& observation) {
   constexpr double kMaxTilt = 5 * M_PI / 180;
+  return std::abs(observation.sensorPose.getRotationMatrix()(2, 2)) >= std::cos(kMaxTilt);
+}
+
+LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange) {
   const auto rotation = observation.sensorPose.getRotationMatrix();
-  if (std::abs(rotation(2, 2)) < std::cos(kMaxTilt))
+  if (!isHorizontal(observation))
     throw InputError("the laser's scan plane is tilted", "sensor `" + observation.sensorLabel + "`",
                      "expected a horizontal plane within 5 deg, upright or upside down");
   const bool upsideDown = rotation(2, 2) < 0;
@@ -38,6 +42,15 @@ LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, dou
                  beam.range < scan.maxRange;
   }
   return scan;
+}
+
+LaserScans toLaserScans(const Scans& scans, double maxRange) {
+  if (scans.size() > kMaxLasers)
+    throw InputError("too many lasers", std::to_string(scans.size()) + " scans in one reading",
+                     "expected at most " + std::to_string(kMaxLasers));
+  LaserScans all;
+  for (const auto& scan : scans) all.push_back(toLaserScan(*scan, maxRange));
+  return all;
 }
 
 }  // namespace hybrid_slam

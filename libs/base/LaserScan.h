@@ -1,10 +1,12 @@
 /// @file LaserScan.h
-/// @brief A planar scan as the rest of the project sees it: valid beams only by flag, angles seen from above.
+/// @brief Planar scans as the rest of the project sees them: valid beams only by flag, angles seen from
+/// above.
 #pragma once
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <memory>
 #include <vector>
 
 namespace mrpt::obs {
@@ -31,8 +33,20 @@ struct LaserScan {
   std::vector<Beam> beams;
 };
 
+/// What a robot's lasers see at one time.
+using LaserScans = std::vector<LaserScan>;
+constexpr size_t kMaxLasers = 8;
+
+/// The same as it comes from a log or a robot, each scan with its laser's pose on the robot at that time.
+using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
+
 /// @param maxRange  m; the smaller of this and the observation's own limit holds (a limit <= 0 is none)
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
+/// @throws InputError likewise, and for more than kMaxLasers scans
+LaserScans toLaserScans(const Scans& scans, double maxRange);
+
+/// Whether a laser is mounted in the plane of the map, upright or upside down, within 5 deg.
+bool isHorizontal(const mrpt::obs::CObservation2DRangeScan& observation);
 
 }  // namespace hybrid_slam

@@ -43,7 +43,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
       isQuiet_(isQuiet),
       run_(configuration),
       recording_(recordingPath(configuration, options), log),
-      assembler_(configuration.input.sensorLabel, configuration.input.requireOdometry,
+      assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
                  configuration.input.maxOdometryGap),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {}
@@ -72,6 +72,10 @@ void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, C
 
 void LiveRun::pass(const Arrived& arrived) {
   recording_.write(*arrived.first);
+  if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(arrived.first))
+    if (const auto use = assembler_.useOf(*scan);
+        use != readings::ScanGrouper::Use::taken && ignored_.insert(scan->sensorLabel).second)
+      log_.report("laser `" + scan->sensorLabel + "`", "not used: " + readings::reasonOf(use));
   assembler_.take(arrived.first);
   while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -69,6 +70,7 @@ class LiveRun {
   Watcher watcher_;
   run::FilterRun run_;
   Recording recording_;
+  std::set<std::string> ignored_;  ///< labels of lasers whose scans are not used
   readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
   bool hasOdometry_ = false;

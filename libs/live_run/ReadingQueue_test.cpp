@@ -10,7 +10,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-readings::Reading reading(double time, const TPose2D& motion = {1, 0, 0}) { return {nullptr, time, motion}; }
+readings::Reading reading(double time, const TPose2D& motion = {1, 0, 0}) { return {{}, time, motion}; }
 
 TEST(ReadingQueue, KeepsUpToItsLimitInOrder) {
   ReadingQueue queue(3);

@@ -21,12 +21,13 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::strin
   RawlogSource source(rawlog, options, summary);
   std::vector<EndPoints> scans;
   while (const auto reading = source.next()) {
-    const LaserScan scan = toLaserScan(*reading->scan, maxRange);
     EndPoints ends{reading->timestamp, {}};
-    for (const Beam& beam : scan.beams)
-      if (beam.valid)
+    for (const LaserScan& scan : toLaserScans(reading->scans, maxRange))
+      for (const Beam& beam : scan.beams) {
+        if (!beam.valid) continue;
         ends.points.push_back(scan.sensorPose.composePoint(
             {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
+      }
     scans.push_back(std::move(ends));
   }
   return scans;

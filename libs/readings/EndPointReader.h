@@ -11,7 +11,7 @@
 namespace hybrid_slam::readings {
 
 /// The scans of one laser, in the order of the log.
-/// @param sensorLabel  of the laser; empty: that of the first scan
+/// @param sensorLabel  of the lasers, as [input] sensor_label; empty: all
 /// @param maxRange     m; the smaller of this and the log's own limit holds
 /// @throws InputError for a log without scans of that laser, and for one that is cut off: its figures would
 /// be

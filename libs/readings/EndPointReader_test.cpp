@@ -23,7 +23,7 @@ TEST_F(EndPointReader, BeamsEndOnTheWallsAsTheRobotSeesThem) {
   scan->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(onRobot));
   scan->setScanRangeValidity(3, false);
   test::writeGzipped(rawlog(), {test::scan(5), test::scan(7, {}, 181, "OTHER"), scan});
-  const auto scans = loadEndPoints(rawlog());
+  const auto scans = loadEndPoints(rawlog(), "LASER");
   ASSERT_EQ(scans.size(), 2u);
   EXPECT_DOUBLE_EQ(scans[1].timestamp, 7);
   EXPECT_EQ(scans[0].points.size(), 181u);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 #include "base/Errors.h"
@@ -23,10 +23,31 @@ void note(Oddity& oddity, size_t entry) {
 bool isStamped(const CObservation2DRangeScan& scan) { return scan.timestamp != INVALID_TIMESTAMP; }
 double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
 
+using Uses = std::map<std::string, std::map<ScanGrouper::Use, size_t>>;  ///< scans of each laser, by use
+
+std::string quotedList(const Uses& lasers) {
+  std::string all;
+  for (const auto& [label, uses] : lasers) all += (all.empty() ? "`" : ", `") + label + "`";
+  return all;
+}
+
+/// A laser without a single scan used is ignored.
+void noteIgnored(RawlogSummary& summary, const Uses& lasers) {
+  using Use = ScanGrouper::Use;
+  for (const auto& [label, uses] : lasers) {
+    if (uses.count(Use::taken) > 0) continue;
+    Use why = Use::empty;
+    for (const Use use : {Use::tooMany, Use::tilted, Use::unwanted})
+      if (uses.count(use) > 0) why = use;
+    summary.ignored.push_back("laser `" + label + "` is not used: " + reasonOf(why));
+  }
+}
+
 }  // namespace
 
 void InputOptions::describe(OptionTable& t) {
-  t.add("sensor_label", sensorLabel, "label of the laser to use; empty: that of the first scan in the log");
+  t.add("sensor_label", sensorLabel,
+        "label of the laser to use, or a list `FRONT, REAR`; empty: all that are mounted horizontally");
   t.add("require_odometry", requireOdometry,
         "false: take a log of scans only, as if the odometry said that the robot stands still");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
@@ -36,11 +57,12 @@ void InputOptions::describe(OptionTable& t) {
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
                         const std::function<bool()>& isStopped) {
   RawlogSummary summary;
-  summary.sensorLabel = options.sensorLabel;
+  const std::vector<std::string> wanted = labelsOf(options.sensorLabel);
   files::RawlogReader reader(file);
-  std::set<std::string> labels;
-  double earliest = 0, latest = 0, last = 0;
-  bool isFirst = true;
+  ScanGrouper grouper(wanted, options.maxOdometryGap);
+  Uses uses;
+  std::map<std::string, double> last;  // stamp of each laser's scan before
+  double earliest = 0, latest = 0;
   const auto noteOdometry = [&](const TPose2D& pose, bool& hasSome) {
     if (isFinite(pose))
       hasSome = true;
@@ -48,24 +70,30 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
       note(summary.wrongOdometry, reader.entry());
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
-    if (labels.empty() && options.sensorLabel.empty()) summary.sensorLabel = scan.sensorLabel;
-    labels.insert(scan.sensorLabel);
-    if (scan.sensorLabel != summary.sensorLabel) return;
-    if (!hasBeams(scan)) return note(summary.empty, reader.entry());
-    ++summary.scans;
+    const ScanGrouper::Use use = grouper.useOf(scan);
+    ++uses[scan.sensorLabel][use];
+    if (use == ScanGrouper::Use::empty) return note(summary.empty, reader.entry());
+    if (use == ScanGrouper::Use::tilted) return note(summary.tilted, reader.entry());
+    if (use != ScanGrouper::Use::taken) return;
+    grouper.add(scan);
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
-    if (!isFirst && t < last) note(summary.stepsBack, reader.entry());
-    if (!isFirst && t == last) note(summary.repeatedStamps, reader.entry());
+    const bool isFirst = last.empty();
+    const auto [before, isNew] = last.try_emplace(scan.sensorLabel, t);
+    if (!isNew && t < before->second) note(summary.stepsBack, reader.entry());
+    if (!isNew && t == before->second) note(summary.repeatedStamps, reader.entry());
     earliest = isFirst ? t : std::min(earliest, t);
     latest = isFirst ? t : std::max(latest, t);
-    last = t;
-    isFirst = false;
+    before->second = t;
   };
   while (const auto object = reader.next()) {
     if (isStopped())
       throw std::runtime_error("interrupted: entry " + std::to_string(reader.entry()) + " of " + file);
     if (const auto increment = incrementOf(object)) noteOdometry(*increment, summary.hasActions);
+    forEachObservation(object, [&](const CObservation::Ptr& observation) {
+      if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
+        if (grouper.useOf(*scan) == ScanGrouper::Use::taken) grouper.expect(scan->sensorLabel);
+    });
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
         noteOdometry(odometry->odometry.asTPose(), summary.hasOdometryReadings);
@@ -75,15 +103,19 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.duration = latest - earliest;
   summary.entries = reader.entry();
   summary.defect = reader.defect();
+  summary.scans = grouper.readings();
+  summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
+  noteIgnored(summary, uses);
 
-  if (labels.empty())
+  if (uses.empty())
     throw InputError("no laser scans", file, "expected objects of class CObservation2DRangeScan");
-  if (labels.count(summary.sensorLabel) == 0) {
-    std::string all;
-    for (const std::string& label : labels) all += (all.empty() ? "`" : ", `") + label + "`";
-    throw InputError("no scans of the laser `" + summary.sensorLabel + "`", file,
-                     "[input] sensor_label: the log has " + all);
-  }
+  for (const std::string& label : wanted)
+    if (uses.count(label) == 0)
+      throw InputError("no scans of the laser `" + label + "`", file,
+                       "[input] sensor_label: the log has " + quotedList(uses));
+  if (summary.scans == 0 && summary.tilted.count > 0)
+    throw InputError("the laser's scan plane is tilted", "sensor `" + uses.begin()->first + "` in " + file,
+                     "expected a horizontal plane within 5 deg, upright or upside down");
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
   if (!summary.hasActions && !summary.hasOdometryReadings && options.requireOdometry)
@@ -96,7 +128,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : file_(file),
       reader_(file),
-      assembler_(summary.sensorLabel, summary.hasOdometryReadings, options.maxOdometryGap) {}
+      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap) {}
 
 std::optional<Reading> RawlogSource::next() {
   auto reading = assembler_.next();
@@ -111,7 +143,7 @@ std::optional<Reading> RawlogSource::next() {
   }
   if (reading && reading->motion.norm() > kMaxStep)
     throw InputError("odometry jumps", "entry " + std::to_string(reader_.entry()) + " of " + file_,
-                     "expected at most 100 m between two scans");
+                     "expected at most 100 m between two readings");
   return reading;
 }
 

@@ -14,7 +14,7 @@ namespace hybrid_slam::readings {
 
 /// Section [input].
 struct InputOptions : Options {
-  std::string sensorLabel;
+  std::string sensorLabel;  ///< list of labels, see labelsOf
   bool requireOdometry = true;
   double maxOdometryGap = 1;
   void describe(OptionTable& table) override;
@@ -27,18 +27,20 @@ struct Oddity {
 
 /// What a log holds, found in one pass before the filter runs.
 struct RawlogSummary {
-  std::string sensorLabel;                             ///< of the laser to be used
-  size_t scans = 0;                                    ///< of that laser, with beams
-  Oddity empty, unstamped, repeatedStamps, stepsBack;  ///< scans of that laser
-  Oddity wrongOdometry;                                ///< NaN or infinite
+  std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
+  std::vector<std::string> ignored;  ///< one line for each other laser: its label, and why it is not used
+  size_t scans = 0;                  ///< readings: scans that several lasers take at one time count as one
+  Oddity empty, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans of the lasers used
+  Oddity wrongOdometry;                                        ///< NaN or infinite
   bool hasActions = false, hasOdometryReadings = false;
   double duration = 0;  ///< s, from the earliest scan to the latest
   size_t entries = 0;
   std::string defect;  ///< how the log is cut off; empty if it is whole
 };
 
-/// @throws InputError if there is no laser (or none of the wanted label), no scan with beams, or no odometry
-///         where the options require it
+/// @throws InputError if there is no laser or a wanted one is missing, no scan with beams, no laser that is
+/// mounted
+///         horizontally, or no odometry where the options require it
 /// @throws std::runtime_error if `isStopped`, asked at each entry, says so
 RawlogSummary summarise(
     const std::string& file, const InputOptions& options,

@@ -29,8 +29,11 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Replayed {
   RawlogSummary summary;
   std::vector<double> times, x, phi;
-  std::vector<size_t> entries;  ///< of the log that were read when each scan was given
-  std::vector<CObservation2DRangeScan::Ptr> scans;
+  std::vector<size_t> entries;                      ///< of the log that were read when each scan was given
+  std::vector<CObservation2DRangeScan::Ptr> scans;  ///< the latest of each reading
+  std::vector<Scans> readings;
+  std::vector<std::vector<size_t>> sizes;  ///< beams of the scans of each reading
+  std::vector<mrpt::math::TPose2D> poses;  ///< by odometry, from that of the first reading
   std::string error;
 };
 
@@ -53,7 +56,11 @@ Replayed replayed(const test::Log& log, const InputOptions& options = {}, bool i
     out.x.push_back(pose.x);
     out.phi.push_back(pose.phi);
     out.entries.push_back(source.entry());
-    out.scans.push_back(reading->scan);
+    out.scans.push_back(reading->scans.back());
+    out.readings.push_back(reading->scans);
+    out.sizes.emplace_back();
+    for (const auto& s : reading->scans) out.sizes.back().push_back(s->getScanSize());
+    out.poses.push_back(pose);
   }
   EXPECT_EQ(out.times.size(), out.summary.scans) << "the summary tells how many scans come";
   EXPECT_EQ(source.entry(), out.summary.entries);
@@ -210,23 +217,76 @@ TEST(RawlogSource, MemoryDoesNotGrowWhereOdometryEnds) {
   for (size_t i = 0; i < r.entries.size(); ++i) EXPECT_LE(r.entries[i], i + 14) << "within the gap of 1 s";
 }
 
-TEST(RawlogSource, OneOfSeveralLasersIsUsed) {
+/// Of two lasers in frames: both by default, or those that are named.
+TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {
   const test::Log log{
       test::action({0, 0, 0}), test::frame({scan(10, {}, 3, "front"), scan(10, {}, 4, "rear")}),
       test::action({1, 0, 0}), test::frame({scan(11, {}, 4, "rear")}),
       test::action({1, 0, 0}), test::frame({scan(12, {}, 4, "rear"), scan(12, {}, 3, "front")})};
-  const Replayed first = replayed(log);
-  EXPECT_EQ(first.summary.sensorLabel, "front") << "that of the first scan";
-  EXPECT_THAT(first.x, areNear({0, 2}));
-  for (const auto& s : first.scans) EXPECT_EQ(s->getScanSize(), 3u);
+  const Replayed all = replayed(log);
+  EXPECT_THAT(all.summary.lasers, testing::ElementsAre("front", "rear"));
+  EXPECT_THAT(all.summary.ignored, testing::IsEmpty());
+  EXPECT_THAT(all.x, areNear({0, 1, 2}));
+  EXPECT_THAT(all.sizes, testing::ElementsAre(testing::ElementsAre(3, 4), testing::ElementsAre(4),
+                                              testing::ElementsAre(4, 3)));
   InputOptions options;
   options.sensorLabel = "rear";
   const Replayed rear = replayed(log, options);
   EXPECT_THAT(rear.times, areNear({10, 11, 12}));
   EXPECT_THAT(rear.x, areNear({0, 1, 2}));
-  options.sensorLabel = "side";
+  EXPECT_THAT(rear.summary.ignored,
+              testing::ElementsAre("laser `front` is not used: not in [input] sensor_label"));
+  options.sensorLabel = " rear ,front";
+  EXPECT_EQ(replayed(log, options).sizes, all.sizes);
+  options.sensorLabel = "rear, side";
   EXPECT_THAT(replayed(log, options).error, HasSubstr("no scans of the laser `side`"));
   EXPECT_THAT(replayed(log, options).error, HasSubstr("sensor_label: the log has `front`, `rear`"));
+}
+
+/// Front and rear scan in turn while the robot drives and turns: what was seen first is placed where the
+/// robot was then, so that all points of the room's walls stay on them.
+TEST(RawlogSource, ScansOfOneReadingArePlacedByTheOdometryBetweenThem) {
+  test::Log log;
+  for (int i = 0; i < 12; ++i) {
+    const double time = 10 + 0.1 * i;
+    const mrpt::math::TPose2D pose(0.1 * i, 0.02 * i, 0.05 * i);
+    log.push_back(test::odometry(time, pose));
+    log.push_back(scan(time, pose, 181, i % 2 == 0 ? "front" : "rear"));
+  }
+  const Replayed r = replayed(log);
+  ASSERT_EQ(r.sizes.size(), 7u);
+  EXPECT_THAT(r.sizes[0], testing::ElementsAre(181)) << "the second laser is not known yet";
+  EXPECT_THAT(r.sizes[1], testing::ElementsAre(181, 181));
+  EXPECT_THAT(r.sizes.back(), testing::ElementsAre(181)) << "the end of the log ends a reading";
+  for (size_t i = 0; i < r.readings.size(); ++i)
+    for (const auto& taken : r.readings[i]) {
+      const LaserScan seen = toLaserScan(*taken, 100);
+      for (const Beam& beam : seen.beams) {
+        const auto end = r.poses[i].composePoint(seen.sensorPose.composePoint(
+            {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
+        ASSERT_LT(std::min(std::abs(std::abs(end.x) - test::kHalfLength),
+                           std::abs(std::abs(end.y) - test::kHalfWidth)),
+                  1e-4);
+      }
+    }
+}
+
+TEST(RawlogSource, TiltedLasersAreLeftOutUnlessNamed) {
+  const auto tilted = [](double time) {
+    auto s = scan(time, {}, 5, "tilted");
+    s->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0.5, 0);
+    return s;
+  };
+  const test::Log log{test::odometry(10, {}), tilted(10), scan(10),
+                      tilted(10.1),           scan(10.1), test::odometry(11, {})};
+  const Replayed r = replayed(log);
+  EXPECT_THAT(r.summary.lasers, testing::ElementsAre("LASER"));
+  EXPECT_THAT(r.summary.ignored,
+              testing::ElementsAre("laser `tilted` is not used: its scan plane is tilted"));
+  EXPECT_EQ(r.summary.tilted.count, 2u);
+  EXPECT_EQ(r.times.size(), 2u);
+  EXPECT_THAT(replayed({test::odometry(10, {}), tilted(10)}).error,
+              HasSubstr("the laser's scan plane is tilted: sensor `tilted`"));
 }
 
 TEST(RawlogSource, EveryScanOfAFrameCounts) {

@@ -49,11 +49,11 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
          isFinite(TPose2D(scan.sensorPose.asTPose()));
 }
 
-ReadingAssembler::ReadingAssembler(const std::string& sensorLabel, bool hasOdometryReadings,
+ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings,
                                    double maxOdometryGap)
-    : hasOdometryReadings_(hasOdometryReadings), maxOdometryGap_(maxOdometryGap) {
-  if (!sensorLabel.empty()) sensorLabel_ = sensorLabel;
-}
+    : grouper_(lasers, maxOdometryGap),
+      hasOdometryReadings_(hasOdometryReadings),
+      maxOdometryGap_(maxOdometryGap) {}
 
 std::optional<Reading> ReadingAssembler::next() {
   if (ready_.empty()) return std::nullopt;
@@ -66,17 +66,21 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   const auto increment = incrementOf(object);
   if (increment && isFinite(*increment)) travelled_ = travelled_ + *increment;
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
+    if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
+      if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) grouper_.expect(scan->sensorLabel);
+  });
+  forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
       if (isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
-      if (!sensorLabel_) sensorLabel_ = scan->sensorLabel;
-      if (scan->sensorLabel == *sensorLabel_ && hasBeams(*scan)) takeScan(scan);
+      if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
   });
 }
 
 void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
-  waiting_.push_back(scan);
+  const size_t reading = grouper_.add(*scan);
+  waiting_.push_back({scan, reading, grouper_.isComplete()});
   if (hasOdometryReadings_ && !lastOdometry_) return;
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
@@ -88,8 +92,8 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   const TPose2D pose = odometry.odometry.asTPose();
   const bool isStampedOdometry = odometry.timestamp != INVALID_TIMESTAMP;
   const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
-  for (const auto& scan : waiting_) {
-    const double t = isStamped(*scan) ? seconds(scan->timestamp) : lastOdometryTime_;
+  for (const Waiting& scan : waiting_) {
+    const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;
     if (!lastOdometry_)
       complete(scan, pose);
     else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= maxOdometryGap_)
@@ -103,20 +107,41 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
 }
 
 void ReadingAssembler::finishWaiting(const TPose2D& odometry) {
-  for (const auto& scan : waiting_) complete(scan, odometry);
+  for (const Waiting& scan : waiting_) complete(scan, odometry);
   waiting_.clear();
 }
 
-void ReadingAssembler::complete(const CObservation2DRangeScan::Ptr& scan, const TPose2D& odometry) {
-  markInvalidBeams(*scan);
+void ReadingAssembler::complete(const Waiting& scan, const TPose2D& odometry) {
+  if (scan.reading != current_) endReading();
+  current_ = scan.reading;
+  markInvalidBeams(*scan.scan);
+  collected_.emplace_back(scan.scan, odometry);
+  if (scan.endsReading) endReading();
+}
+
+void ReadingAssembler::endReading() {
+  if (collected_.empty()) return;
+  const auto& [latest, odometry] = collected_.back();
   Reading reading;
-  reading.scan = scan;
-  if (isStamped(*scan)) lastTimestamp_ = seconds(scan->timestamp);
+  for (const auto& [scan, before] : collected_) {
+    const TPose2D moved = before - odometry;  // where the robot was, seen from where it is
+    reading.scans.push_back(scan);
+    if (moved == TPose2D()) continue;
+    reading.scans.back() = CObservation2DRangeScan::Create(*scan);
+    reading.scans.back()->sensorPose = mrpt::poses::CPose3D(moved) + scan->sensorPose;
+  }
+  if (isStamped(*latest)) lastTimestamp_ = seconds(latest->timestamp);
   reading.timestamp = lastTimestamp_;
-  if (!first_) reading.motion = odometry - atLastScan_;
+  if (!first_) reading.motion = odometry - atLastReading_;
   first_ = false;
-  atLastScan_ = odometry;
+  atLastReading_ = odometry;
   ready_.push_back(reading);
+  collected_.clear();
+}
+
+void ReadingAssembler::finish() {
+  finishWaiting(travelled_);
+  endReading();
 }
 
 }  // namespace hybrid_slam::readings

@@ -11,34 +11,45 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "base/LaserScan.h"
+#include "readings/ScanGrouper.h"
 
 namespace hybrid_slam::readings {
 
-/// One scan, and how the robot moved since the scan before by its odometry (m, rad).
+/// What the lasers see at one time, and how the robot moved since the reading before by its odometry.
 struct Reading {
-  mrpt::obs::CObservation2DRangeScan::Ptr scan;
-  double timestamp = 0;  ///< s; that of the scan before where the scan has none
-  mrpt::math::TPose2D motion;
+  /// One of each laser at most, the latest last. Those before it were taken where the robot was then: their
+  /// sensor pose is moved by the odometry since.
+  Scans scans;
+  double timestamp = 0;        ///< s, of the latest scan; that of the reading before where it has none
+  mrpt::math::TPose2D motion;  ///< m, rad
 };
 
 /// Takes the objects of action-observation pairs, or observations, where odometry and scans interleave: there
 /// the odometry at a scan's own time is interpolated between the readings around it; where timestamps step
 /// back or the readings are too far apart, the reading before it in the order given holds, and the first one
-/// for the scans before it. Scans without beams and whatever is placed at no number are left out; beams that
-/// are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
+/// for the scans before it. Scans without beams or with a sensor pose that is not finite are left out; beams
+/// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
+/// ScanGrouper says which scans are used and which of them make one reading.
 ///
 /// The same objects in the same order give the same readings to the bit, whether they come from a file or
 /// from a robot: this is what makes the replay of a recording the same as the live run.
 class ReadingAssembler {
  public:
-  /// @param sensorLabel          laser to use; empty: that of the first scan
+  /// @param lasers               labels of the lasers to use; none: all
   /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
-  ReadingAssembler(const std::string& sensorLabel, bool hasOdometryReadings, double maxOdometryGap);
+  ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap);
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
+  /// Whether a scan is used, and why not.
+  ScanGrouper::Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
+    return grouper_.useOf(scan);
+  }
   /// No more objects come: the scans that still wait for odometry keep the last there was.
-  void finish() { finishWaiting(travelled_); }
+  void finish();
   /// The next complete reading; nothing until more objects come.
   std::optional<Reading> next();
 
@@ -46,17 +57,26 @@ class ReadingAssembler {
   void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   void finishWaiting(const mrpt::math::TPose2D& odometry);
-  void complete(const mrpt::obs::CObservation2DRangeScan::Ptr& scan, const mrpt::math::TPose2D& odometry);
+  struct Waiting {
+    mrpt::obs::CObservation2DRangeScan::Ptr scan;
+    size_t reading;  ///< number of the reading it belongs to
+    bool endsReading;
+  };
+  void complete(const Waiting& scan, const mrpt::math::TPose2D& odometry);
+  void endReading();
 
-  std::optional<std::string> sensorLabel_;  ///< nothing until the first scan names it
+  ScanGrouper grouper_;
   bool hasOdometryReadings_;
   double maxOdometryGap_;
   std::deque<Reading> ready_;
-  std::deque<mrpt::obs::CObservation2DRangeScan::Ptr> waiting_;  ///< for the odometry reading after them
+  std::deque<Waiting> waiting_;  ///< for the odometry reading after them
+  size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
+  std::vector<std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>>
+      collected_;  ///< with odometry
   std::optional<mrpt::math::TPose2D> lastOdometry_;
   double lastOdometryTime_ = 0;
-  mrpt::math::TPose2D travelled_;   ///< odometry pose, observation-only or summed actions
-  mrpt::math::TPose2D atLastScan_;  ///< odometry pose of the scan before
+  mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
+  mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the reading before
   bool first_ = true;
   double lastTimestamp_ = 0;
 };
@@ -76,7 +96,7 @@ bool isFinite(const mrpt::math::TPose2D& pose);
 /// Whether a scan has beams, and a place for them.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
-/// m between two scans; farther apart are two logs in one file, or odometry that was set back.
+/// m between two readings; farther apart are two logs in one file, or odometry that was set back.
 constexpr double kMaxStep = 100;
 
 }  // namespace hybrid_slam::readings

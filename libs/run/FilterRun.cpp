@@ -1,7 +1,5 @@
 #include "run/FilterRun.h"
 
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/system/os.h>
 #include <sys/resource.h>
 
@@ -15,7 +13,7 @@
 #include "run/MapFiles.h"
 #include "run/SimpleMapFile.h"
 #include "run/StepsTable.h"
-#include "slam/filter/HybridMapBuilder.h"
+#include "slam/filter/HybridFilter.h"
 #include "slam/filter/Refinement.h"
 #include "slam/filter/StockMapBuilder.h"
 #include "slam/grid/GridConversion.h"
@@ -68,15 +66,10 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     if (configuration.run.refine > 0)
       throw InputError("no refinement of MRPT's filter", "section [run], keys `method`, `refine`",
                        "expected hybrid or general, or refine = 0");
-    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration),
-                                                   static_cast<uint32_t>(configuration.filter.filter.seed));
-    view_ = stock.get();
-    builder_ = std::move(stock);
+    filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
+                                                static_cast<uint32_t>(configuration.filter.filter.seed));
   } else {
-    auto hybrid = std::make_unique<HybridMapBuilder>(configuration.filter);
-    hybrid->rememberScans(false);  // the log has them
-    view_ = hybrid.get();
-    builder_ = std::move(hybrid);
+    filter_ = std::make_unique<HybridFilter>(configuration.filter);
   }
   writeStepsHeader(steps_.stream());
   if (configuration.run.particlesEvery > 0)
@@ -87,22 +80,18 @@ FilterRun::~FilterRun() = default;
 
 bool FilterRun::process(const readings::Reading& reading) {
   const auto stepStart = Clock::now();
-  const size_t before = view_->updates();
-  mrpt::obs::CActionCollection action;
-  action.insert(toAction(reading.motion, configuration_.filter.motion));
-  mrpt::obs::CSensoryFrame observations;
-  observations.insert(reading.scan);
-  builder_->processActionObservation(action, observations);
+  const size_t before = filter_->updates();
+  filter_->process(reading.motion, reading.scans);
 
   ++scans_;
-  recorder_.add(reading.timestamp, reading.motion, view_->updates());
-  uses_.push_back(view_->updates() > before ? Use::update : Use::carried);
+  recorder_.add(reading.timestamp, reading.motion, filter_->updates());
+  uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
   if (uses_.back() != Use::update) return false;
-  const FilterStep& step = view_->lastStep();
+  const FilterStep& step = filter_->lastStep();
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
   if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
   writeStep(steps_.stream(), reading.timestamp, step, 1000 * secondsSince(stepStart));
-  if (particles_ && view_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
+  if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
     writeParticles(particles_->stream(), reading.timestamp, step);
   return true;
 }
@@ -114,12 +103,12 @@ std::string FilterRun::slipNote() const {
 }
 
 void FilterRun::refineResult(Result& result, readings::RawlogSource& source) const {
-  std::vector<PosedScan> scans;
+  std::vector<PosedScans> scans;
   for (const Use use : uses_) {
     const auto reading = source.next();
     if (!reading) break;
     if (use != Use::skipped)
-      scans.push_back({reading->scan, result.trajectory[scans.size()].pose, use == Use::update});
+      scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
   }
   refine(scans, configuration_.filter, configuration_.run.refine);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
@@ -135,7 +124,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
                               const std::string& version, const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "6 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
-  Result result{{}, view_->bestPath(), view_->bestGrid(), view_->bestLines()};
+  Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines()};
   result.trajectory = recorder_.trajectory(result.path);
   if (configuration_.run.refine > 0) {
     readings::RawlogSource scans(file, configuration_.input, log);
@@ -159,7 +148,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   const char* const names[] = {"hybrid", "general", "stock"};
   nlohmann::ordered_json metrics{
       {"method", names[static_cast<int>(configuration_.run.method)]},
-      {"particles", view_->particlePoses().size()},
+      {"particles", filter_->particlePoses().size()},
       {"seed", configuration_.filter.filter.seed},
       {"threads", configuration_.filter.filter.threads},
       {"scans", scans_},

@@ -13,11 +13,7 @@
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
 #include "run/TrajectoryRecorder.h"
-#include "slam/filter/FilterView.h"
-
-namespace mrpt::slam {
-class CMetricMapBuilder;
-}
+#include "slam/filter/Filter.h"
 
 namespace hybrid_slam::run {
 
@@ -34,7 +30,7 @@ class FilterRun {
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
-  /// One scan through the filter.
+  /// One reading through the filter.
   /// @return whether the filter was updated with it, not only the odometry gathered
   bool process(const readings::Reading& reading);
   /// So many readings of the log are left out here; the motion of the next one holds theirs.
@@ -43,9 +39,9 @@ class FilterRun {
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates in which the odometry was far off; empty if there were none.
   std::string slipNote() const;
-  const FilterView& view() const { return *view_; }
+  const FilterView& view() const { return *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
-  mrpt::system::CTimeLogger& profiler() { return view_->profiler(); }
+  mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
   const files::OutputFolder& folder() const { return folder_; }
 
   /// Writes the results.
@@ -72,8 +68,7 @@ class FilterRun {
   Configuration& configuration_;
   Clock::time_point start_;
   files::OutputFolder folder_;
-  std::unique_ptr<mrpt::slam::CMetricMapBuilder> builder_;
-  FilterView* view_ = nullptr;
+  std::unique_ptr<Filter> filter_;
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;

@@ -1,15 +1,12 @@
 #include "run/FilteredMotions.h"
 
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CSensoryFrame.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "base/Errors.h"
 #include "run/Progress.h"
-#include "slam/filter/HybridMapBuilder.h"
+#include "slam/filter/HybridFilter.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -43,8 +40,7 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   readings::RawlogSource source(file, configuration.input, log);
   FilterConfiguration filter = configuration.filter;
   filter.improved.exponent = 1;  // EM is about the likelihood itself
-  HybridMapBuilder builder(filter);
-  builder.rememberScans(false);  // the log has them
+  HybridFilter hybrid(filter);
 
   Expectation expectation;
   size_t scans = 0, updates = 0;
@@ -53,15 +49,11 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   while (const auto reading = source.next()) {
     if (stop)
       throw std::runtime_error("interrupted: entry " + std::to_string(source.entry()) + " of " + file);
-    mrpt::obs::CActionCollection action;
-    action.insert(toAction(reading->motion, configuration.filter.motion));
-    mrpt::obs::CSensoryFrame observations;
-    observations.insert(reading->scan);
-    const size_t before = builder.updates();
-    builder.processActionObservation(action, observations);
+    const size_t before = hybrid.updates();
+    hybrid.process(reading->motion, reading->scans);
     progress.update(++scans, progressNote);
-    const FilterStep& step = builder.lastStep();
-    if (builder.updates() == before || step.motions.empty()) continue;  // the first update moves nothing
+    const FilterStep& step = hybrid.lastStep();
+    if (hybrid.updates() == before || step.motions.empty()) continue;  // the first update moves nothing
     addSamples(expectation.samples, step);
     logLikelihoods += step.logLikelihood;
     ++updates;

@@ -18,10 +18,12 @@ std::vector<std::string> warningsOf(const readings::RawlogSummary& log) {
                     "; " + done);
   };
   add(log.empty, "scans without beams (or aperture or sensor pose)", "left out");
+  add(log.tilted, "scans of a tilted plane", "left out");
   add(log.unstamped, "scans without timestamp", "they take that of the scan before");
   add(log.repeatedStamps, "timestamps repeat that of the scan before", "kept as they are");
   add(log.stepsBack, "timestamps step back", "the order of the log holds");
   add(log.wrongOdometry, "odometry readings that are not numbers", "left out");
+  all.insert(all.end(), log.ignored.begin(), log.ignored.end());
   return all;
 }
 

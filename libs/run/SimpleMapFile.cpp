@@ -1,6 +1,7 @@
 #include "run/SimpleMapFile.h"
 
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
@@ -26,7 +27,7 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
       const auto reading = source_->next();
       if (!isUpdate || !reading) continue;
       mrpt::obs::CSensoryFrame frame;
-      frame.insert(reading->scan);
+      for (const auto& scan : reading->scans) frame.insert(scan);
       const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D((*path_)[written++])};
       out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
     }

@@ -25,7 +25,7 @@ TEST(SimpleMapFile, HasTheScansOfTheUpdatesAtTheirPoses) {
     isUpdate.push_back(i % 3 == 1);
     if (!isUpdate.back()) continue;
     path.emplace_back(0.5 * static_cast<double>(i), -1, 0.1 * static_cast<double>(i));
-    scans.push_back(reading->scan);
+    scans.push_back(reading->scans.at(0));
   }
   ASSERT_EQ(path.size(), 3u);
   saveSimpleMap(folder, again, isUpdate, path);

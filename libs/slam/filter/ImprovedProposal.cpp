@@ -6,8 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "slam/filter/LineLikelihood.h"
-
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
@@ -25,17 +23,22 @@ Eigen::Vector3d standardNormal(RandomStream& random) {
 
 }  // namespace
 
-ImprovedProposal::ImprovedProposal(const FilterConfiguration& configuration)
-    : configuration_(configuration), matcher_(configuration.matcher) {}
+ImprovedProposal::ImprovedProposal(const FilterConfiguration& c)
+    : options_(c.improved),
+      motion_(c.motion),
+      useLines_(c.useLines),
+      lines_(c),
+      lineWeight_(c.lineWeight),
+      matcher_(c.matcher) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
                                    const PreparedScan& scan, RandomStream& random) const {
-  const MotionDistribution motion = motionAfter(particle, stepMotion, configuration_);
+  const MotionDistribution motion = motionAfter(particle, stepMotion, motion_, options_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const TPose2D start = particle.path.back() + stepMotion.start;
   std::optional<LineLikelihood> lines;
-  if (configuration_.useLines)
-    lines.emplace(scan.lines, stepMotion.hasSlipped ? start : motion.mean, *particle.lines, configuration_);
+  if (useLines_)
+    lines.emplace(scan.lines, stepMotion.hasSlipped ? start : motion.mean, *particle.lines, lines_);
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
     if (lines) density += (*lines)(pose);
@@ -45,16 +48,15 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   const ScanMatch match = matcher_.match(likelihood, start, prior);
 
   const auto lineWeightAt = [&](const TPose2D& pose) {
-    return lineWeight(scan.lines, pose.phi, *particle.lines, configuration_.lineWeight);
+    return lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
   };
   Proposed proposed;
   proposed.fit = match.fit;
-  proposed.isMatched = match.fit >= configuration_.improved.minFit;
+  proposed.isMatched = match.fit >= options_.minFit;
   if (!proposed.isMatched) {
-    const TPose2D drawn =
-        stepMotion.hasSlipped
-            ? sampleMotion(stepMotion.start, configuration_.motion, random)
-            : sampleMotion(stepMotion.odometry, particle.motion.model(configuration_.motion), random);
+    const TPose2D drawn = stepMotion.hasSlipped
+                              ? sampleMotion(stepMotion.start, motion_, random)
+                              : sampleMotion(stepMotion.odometry, particle.motion.model(motion_), random);
     proposed.pose = particle.path.back() + drawn;
     proposed.logWeight = likelihood.value(proposed.pose);
     if (lines) {
@@ -69,7 +71,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   const Eigen::Matrix3d root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
   const double logVolume = root.diagonal().array().abs().log().sum();
 
-  const auto samples = static_cast<size_t>(configuration_.improved.samples);
+  const auto samples = static_cast<size_t>(options_.samples);
   std::vector<Eigen::Vector3d> offsets(samples);
   std::vector<double> logRatios(samples);  // ln of p over the density it was drawn from
   for (size_t k = 0; k < samples; ++k) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/RandomStream.h"
+#include "slam/filter/LineLikelihood.h"
 #include "slam/filter/SlipRecovery.h"
 
 namespace hybrid_slam {
@@ -33,7 +34,11 @@ class ImprovedProposal {
                    RandomStream& random) const;
 
  private:
-  FilterConfiguration configuration_;
+  ImprovedProposalOptions options_;
+  MotionModelOptions motion_;
+  bool useLines_;
+  LineLikelihoodOptions lines_;
+  LineWeightOptions lineWeight_;
   ScanMatcher matcher_;
 };
 

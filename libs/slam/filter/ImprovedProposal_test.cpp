@@ -42,7 +42,7 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
       motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion));
   const Eigen::Matrix3d root = motion.covariance.llt().matrixL();
   ScanLikelihood likelihood = ScanMatcher(c.matcher).likelihood(scan.matchedBeams, particle.grid);
-  const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, c);
+  const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, LineLikelihoodOptions(c));
   constexpr int kHalf = 18;
   constexpr double kStep = 0.25;
   Moments all;

@@ -7,16 +7,22 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
+LineLikelihoodOptions::LineLikelihoodOptions(const FilterConfiguration& c)
+    : weight(c.lineWeight),
+      sigmaRho(c.improved.lineSigmaRho),
+      association(c.association),
+      minCount(c.database.minCount) {
+  weight.sigma = c.improved.lineSigma;
+}
+
 LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose2D& predicted,
-                               const LineDatabase& database, const FilterConfiguration& configuration)
-    : database_(database), weight_(configuration.lineWeight), sigmaRho_(configuration.improved.lineSigmaRho) {
-  weight_.sigma = configuration.improved.lineSigma;
+                               const LineDatabase& database, const LineLikelihoodOptions& options)
+    : database_(database), weight_(options.weight), sigmaRho_(options.sigmaRho) {
   double total = 0;
   for (const LineSegment& line : seen) {
     total += line.length;
-    const DatabaseLine* const wall =
-        database.closestMatch(transformed(line, predicted), configuration.association);
-    if (wall && wall->count >= configuration.database.minCount)
+    const DatabaseLine* const wall = database.closestMatch(transformed(line, predicted), options.association);
+    if (wall && wall->count >= options.minCount)
       walls_.push_back({middle(line), line.theta, wall->rho, wall->theta, std::cos(wall->theta),
                         std::sin(wall->theta), line.length});
     else

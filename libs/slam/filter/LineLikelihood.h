@@ -9,6 +9,15 @@
 
 namespace hybrid_slam {
 
+/// What LineLikelihood uses of the settings.
+struct LineLikelihoodOptions {
+  explicit LineLikelihoodOptions(const FilterConfiguration& configuration);
+  LineWeightOptions weight;  ///< with the improved proposal's line_sigma
+  double sigmaRho;           ///< m
+  AssociationOptions association;
+  int minCount;
+};
+
 /// ln p(lines | pose, line database), up to a constant. It is the sum of two parts:
 ///
 /// - Lines of walls that the database does not know (nothing associated, or seen fewer than min_count times)
@@ -25,7 +34,7 @@ class LineLikelihood {
   /// @param seen       robot frame
   /// @param database   map frame; must outlive this
   LineLikelihood(const std::vector<LineSegment>& seen, const mrpt::math::TPose2D& predicted,
-                 const LineDatabase& database, const FilterConfiguration& configuration);
+                 const LineDatabase& database, const LineLikelihoodOptions& options);
 
   LogDensity operator()(const mrpt::math::TPose2D& pose) const;
 

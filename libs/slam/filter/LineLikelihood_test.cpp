@@ -35,7 +35,7 @@ TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
   const LineDatabase database = cornerOf(c.database.minCount);
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
-  const LineLikelihood lines(seen, truth, database, c);
+  const LineLikelihood lines(seen, truth, database, LineLikelihoodOptions(c));
   const double perAngle = std::pow(c.improved.lineSigma, -2),
                perDistance = std::pow(c.improved.lineSigmaRho, -2);
   EXPECT_NEAR(lines(truth).value, 0, 1e-12);
@@ -53,7 +53,7 @@ TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDirections) {
   const LineDatabase database = cornerOf(c.database.minCount - 1);
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
-  const LineLikelihood lines(seen, truth, database, c);
+  const LineLikelihood lines(seen, truth, database, LineLikelihoodOptions(c));
   const double d = 0.5 * c.improved.lineSigma;
   EXPECT_NEAR(lines({truth.x + 0.1, truth.y, truth.phi + d}).value,
               -0.5 * std::pow(d / c.improved.lineSigma, 2), 1e-9);
@@ -62,7 +62,8 @@ TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDirections) {
 TEST(LineLikelihood, NoLinesSayNothing) {
   const LineDatabase database = cornerOf(9);
   const std::vector<LineSegment> none;
-  const LogDensity density = LineLikelihood(none, {}, database, FilterConfiguration())({1, 2, 3});
+  const LogDensity density =
+      LineLikelihood(none, {}, database, LineLikelihoodOptions(FilterConfiguration()))({1, 2, 3});
   EXPECT_EQ(density.value, 0);
   EXPECT_EQ(density.gradient, Eigen::Vector3d::Zero());
   EXPECT_EQ(density.information, Eigen::Matrix3d::Zero());
@@ -76,7 +77,7 @@ TEST(LineLikelihood, TheGradientIsThatOfTheValue) {
   RandomStream random(7, 0, 0);
   for (const int minCount : {1, 1000}) {  // all walls are known, or none
     c.database.minCount = minCount;
-    const LineLikelihood lines(scan.lines, kStart, *particle.lines, c);
+    const LineLikelihood lines(scan.lines, kStart, *particle.lines, LineLikelihoodOptions(c));
     int sloped = 0;
     for (int i = 0; i < 200; ++i) {
       const TPose2D pose(kStart.x + 0.03 * random.gaussian(), kStart.y + 0.03 * random.gaussian(),

@@ -1,13 +1,5 @@
 #include "slam/filter/ParticleSet.h"
 
-// PF_implementations.h of MRPT 2.5.8 needs these two before it.
-#include <mrpt/bayes/CParticleFilterCapable.h>
-#include <mrpt/obs/CSensoryFrame.h>
-namespace mrpt::slam {
-using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
-}
-#include <mrpt/slam/PF_aux_structs.h>
-#include <mrpt/slam/PF_implementations.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -16,36 +8,14 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include <optional>
 
 #include "base/RandomStream.h"
-#include "slam/filter/Resampling.h"
 #include "slam/filter/Threads.h"
 #include "slam/motion/SpreadNormals.h"
-
-namespace mrpt::slam {
-/// Where a particle falls in the bins of KLD sampling; the number of particles is fixed here, but the
-/// templates ask for it.
-template <>
-void KLF_loadBinFromParticle(detail::TPoseBin2D& bin, const TKLDParams& options,
-                             const hybrid_slam::Particle* particle, const mrpt::math::TPose3D* newPose) {
-  const mrpt::math::TPose2D pose = newPose ? mrpt::math::TPose2D(*newPose) : particle->path.back();
-  bin.x = static_cast<int>(std::lround(pose.x / options.KLD_binSize_XY));
-  bin.y = static_cast<int>(std::lround(pose.y / options.KLD_binSize_XY));
-  bin.phi = static_cast<int>(std::lround(pose.phi / options.KLD_binSize_PHI));
-}
-}  // namespace mrpt::slam
 
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
-using mrpt::slam::detail::TPoseBin2D;
-using PfOptions = mrpt::bayes::CParticleFilter::TParticleFilterOptions;
 
 namespace {
-
-/// Of the one movement in an action. getBestMovementEstimation would find none of great uncertainty, such as
-/// of a step of 60 m.
-TPose2D rawOdometry(const mrpt::obs::CActionCollection& action) {
-  return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>()->rawOdometryIncrementReading.asTPose();
-}
 
 /// Notes the time from here to the end of its scope, if there is a profiler.
 class StageTimer {
@@ -60,13 +30,23 @@ class StageTimer {
 
 }  // namespace
 
-ParticleSet::ParticleSet(const FilterConfiguration& configuration, mrpt::system::CTimeLogger* profiler)
-    : configuration_(configuration),
+ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger* profiler)
+    : MrptParticles(c.filter),
+      useLines_(c.useLines),
+      filter_(c.filter),
+      motion_(c.motion),
+      grid_(c.grid),
+      gridExponent_(c.gridWeight.exponent),
+      improvedExponent_(c.improved.exponent),
+      association_(c.association),
+      database_(c.database),
+      lineWeight_(c.lineWeight),
       profiler_(profiler),
-      gridWeight_(configuration.gridWeight, configuration.grid.resolution),
-      improvedProposal_(configuration),
-      slipRecovery_(configuration),
-      arena_(arenaThreads(configuration.filter.threads)) {}
+      gridWeight_(c.gridWeight, c.grid.resolution),
+      improvedProposal_(c),
+      newSlipRecovery_(c),
+      slipRecovery_(newSlipRecovery_),
+      arena_(arenaThreads(c.filter.threads)) {}
 
 template <class Body>
 void ParticleSet::forEachParticle(const Body& body) {
@@ -78,34 +58,30 @@ void ParticleSet::forEachParticle(const Body& body) {
 void ParticleSet::reset(const TPose2D& start) {
   m_particles.clear();
   Particle particle;
-  particle.grid = OccupancyGrid(configuration_.grid.resolution);
+  particle.grid = OccupancyGrid(grid_.resolution);
   particle.path.push(start);
-  for (int i = 0; i < configuration_.filter.particles; ++i) {
+  for (int i = 0; i < filter_.particles; ++i) {
     m_particles.emplace_back();
     m_particles.back().d.reset(new Particle(particle));
     m_particles.back().log_w = 0;
   }
   stepNumber_ = 0;
-  slipRecovery_ = SlipRecovery(configuration_);  // what fits usually is known of the old map alone
+  slipRecovery_ = newSlipRecovery_;  // the usual fit belongs to the old map
 }
 
-void ParticleSet::beginStep(const PreparedScan& scan) {
-  scan_ = &scan;
+void ParticleSet::beginStep() {
   ++stepNumber_;
   step_ = FilterStep();
   step_.particles = m_particles.size();
   step_.resampled = false;
   logSumBefore_ = logSumOfWeights();
-  // MRPT's resampling and auxiliary filters draw from this thread's generator. A new one, since seeding the
-  // old one keeps the second normal number of its last pair.
-  mrpt::random::getRandomGenerator() =
-      mrpt::random::CRandomGenerator(static_cast<uint32_t>(sharedRandom().bits()));
+  seedStep(sharedRandom());
 }
 
 RandomStream ParticleSet::sharedRandom() const { return stream(m_particles.size()); }
 
 RandomStream ParticleSet::stream(size_t particle) const {
-  return RandomStream(static_cast<uint64_t>(configuration_.filter.seed), stepNumber_, particle);
+  return RandomStream(static_cast<uint64_t>(filter_.seed), stepNumber_, particle);
 }
 
 void ParticleSet::appendPose(const TPose2D& motion) {
@@ -125,45 +101,45 @@ void ParticleSet::startPathAt(const TPose2D& start) {
   for (auto& particle : m_particles) particle.d->path = path;
 }
 
-// Sec. III-A, steps 1 and 2, as in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
-double ParticleSet::sampleAndWeigh(Particle& particle, const TPose2D& odometry,
-                                   const std::array<double, 3>& normals) const {
-  const MotionModelOptions model = particle.motion.model(configuration_.motion);
-  particle.path.push(particle.path.back() + sampleMotion(odometry, model, normals));
-  particle.motion.learn(odometry, particle.path.lastMotion(), configuration_.motion);
-  const Weight weight = weigh(particle, particle.path.back());
-  setWeight(particle, weight);
-  return weight.log(configuration_.gridWeight.exponent);
+// Sec. III-A, steps 1 and 2.
+void ParticleSet::sampleAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {
+  const StageTimer timer(profiler_, "3 sample, weigh");
+  switch (filter_.proposal) {
+    case Proposal::standard:
+      return sampleFromMotionModel(odometry, scan);
+    case Proposal::improved:
+      return sampleAroundMatches(odometry, scan);
+    default:
+      return sampleByMrpt(odometry, scan);
+  }
 }
 
-void ParticleSet::prediction_and_update_pfStandardProposal(const mrpt::obs::CActionCollection* action,
-                                                           const mrpt::obs::CSensoryFrame* /*observation*/,
-                                                           const PfOptions& /*PF_options*/) {
-  const StageTimer timer(profiler_, "3 sample, weigh");
-  const TPose2D odometry = rawOdometry(*action);
+// As in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
+void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedScan& scan) {
   const SpreadNormals normals(stream(m_particles.size() + 1));  // after the particles' and the shared one
   forEachParticle([&](size_t i, Particle& particle) {
-    m_particles[i].log_w += sampleAndWeigh(particle, odometry, normals(i));
+    const MotionModelOptions model = particle.motion.model(motion_);
+    particle.path.push(particle.path.back() + sampleMotion(odometry, model, normals(i)));
+    particle.motion.learn(odometry, particle.path.lastMotion(), motion_);
+    const Weight weight = weigh(particle, particle.path.back(), scan);
+    setWeight(particle, weight);
+    m_particles[i].log_w += weight.log(gridExponent_);
   });
   summarise(odometry);
 }
 
 // The paper's [5]: sample around a scan match instead.
-void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActionCollection* action,
-                                                          const mrpt::obs::CSensoryFrame* /*observation*/,
-                                                          const PfOptions& /*PF_options*/) {
-  const StageTimer timer(profiler_, "3 sample, weigh");
-  const StepMotion motion = slipRecovery_.motionOf(best(), rawOdometry(*action), *scan_);
+void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& scan) {
+  const StepMotion motion = slipRecovery_.motionOf(best(), odometry, scan);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
-    const auto proposed = improvedProposal_.propose(particle, motion, *scan_, random);
+    const auto proposed = improvedProposal_.propose(particle, motion, scan, random);
     particle.path.push(proposed.pose);
-    if (!motion.hasSlipped)
-      particle.motion.learn(motion.odometry, particle.path.lastMotion(), configuration_.motion);
+    if (!motion.hasSlipped) particle.motion.learn(motion.odometry, particle.path.lastMotion(), motion_);
     particle.gridWeight = proposed.fit;
     particle.lineWeight = proposed.lineWeight;
     particle.isMatched = proposed.isMatched;
-    m_particles[i].log_w += configuration_.improved.exponent * proposed.logWeight;
+    m_particles[i].log_w += improvedExponent_ * proposed.logWeight;
   });
   summarise(motion.odometry);
   step_.slipped = motion.hasSlipped;
@@ -172,32 +148,22 @@ void ParticleSet::prediction_and_update_pfOptimalProposal(const mrpt::obs::CActi
   step_.matched = static_cast<double>(matched) / static_cast<double>(m_particles.size());
 }
 
-void ParticleSet::prediction_and_update_pfAuxiliaryPFStandard(const mrpt::obs::CActionCollection* action,
-                                                              const mrpt::obs::CSensoryFrame* observation,
-                                                              const PfOptions& PF_options) {
-  const StageTimer timer(profiler_, "3 sample, weigh");  // resampling among them
-  step_.resampled = ESS() < PF_options.BETA;             // by the weights of the step before
-  PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(action, observation, PF_options, {});
-  forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
-  summarise(rawOdometry(*action));
+// MRPT's auxiliary filters, which resample as they sample.
+void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan) {
+  auxiliaryStep(odometry, motion_, [&](const Particle& particle, const TPose2D& pose) {
+    return weigh(particle, pose, scan).log(gridExponent_);
+  });
+  forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back(), scan)); });
+  summarise(odometry);
+  step_.resampled = hasResampled();
 }
 
-void ParticleSet::prediction_and_update_pfAuxiliaryPFOptimal(const mrpt::obs::CActionCollection* action,
-                                                             const mrpt::obs::CSensoryFrame* observation,
-                                                             const PfOptions& PF_options) {
-  const StageTimer timer(profiler_, "3 sample, weigh");  // resampling among them
-  step_.resampled = ESS() < PF_options.BETA;
-  PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(action, observation, PF_options, {});
-  forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back())); });
-  summarise(rawOdometry(*action));
-}
-
-// Sec. III-D.
-ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose) const {
+// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9).
+ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose,
+                                       const PreparedScan& scan) const {
   Weight weight;
-  weight.logGrid = gridWeight_.logWeight(scan_->weighedBeams, scan_->scan, pose, particle.grid);
-  if (configuration_.useLines)
-    weight.line = hybrid_slam::lineWeight(scan_->lines, pose.phi, *particle.lines, configuration_.lineWeight);
+  weight.logGrid = gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, particle.grid);
+  if (useLines_) weight.line = lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
   return weight;
 }
 
@@ -227,40 +193,35 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   const Particle& bestParticle = best();
   step_.ess = ESS();
   step_.gridWeight = bestParticle.gridWeight;
-  if (configuration_.useLines) step_.lineWeight = bestParticle.lineWeight.value;
+  if (useLines_) step_.lineWeight = bestParticle.lineWeight.value;
   step_.linesSeen = bestParticle.lineWeight.seen;
   step_.linesMatched = bestParticle.lineWeight.matched;
   setSpread(step_, poses(), bestParticle.path.back().phi);
 }
 
-void ParticleSet::performSubstitution(const std::vector<size_t>& indices) {
+// Sec. III-A, step 3; by ESS, where the paper resamples at every step.
+void ParticleSet::resampleIfDue() {
+  const bool isAuxiliary = filter_.proposal != Proposal::standard && filter_.proposal != Proposal::improved;
+  if (isAuxiliary || !isResamplingDue()) return;
   const StageTimer timer(profiler_, "4 resample");
-  if (configuration_.filter.resampling == mrpt::bayes::CParticleFilter::prResidual) {
-    std::vector<double> logWeights;
-    for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
-    RandomStream random = sharedRandom();
-    CParticleFilterDataImpl::performSubstitution(residualResampling(logWeights, random));
-  } else {
-    CParticleFilterDataImpl::performSubstitution(indices);
-  }
-  for (auto& particle : m_particles) particle.log_w = 0;
-  step_.resampled = true;
+  resample();
+  step_.resampled = hasResampled();
 }
 
 // Sec. III-A, step 4. Copies made by resampling stand side by side and share their path: one of them works,
 // the others take over its map.
-void ParticleSet::updateMaps() {
+void ParticleSet::updateMaps(const PreparedScan& scan) {
   const auto isCopy = [this](size_t i) {
     return i > 0 && m_particles[i].d->path.sharesWith(m_particles[i - 1].d->path);
   };
   forEachParticle([&](size_t i, Particle& particle) {
     if (isCopy(i)) return;
     const TPose2D pose = particle.path.back();
-    particle.grid.insert(scan_->beams, pose, configuration_.grid);
-    if (!configuration_.useLines) return;
+    particle.grid.insert(scan.beams, pose, grid_);
+    if (!useLines_) return;
     std::vector<LineSegment> lines;
-    for (const LineSegment& line : scan_->lines) lines.push_back(transformed(line, pose));
-    particle.lines.write().update(lines, configuration_.database, configuration_.association);
+    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, pose));
+    particle.lines.write().update(lines, database_, association_);
   });
   for (size_t i = 1; i < m_particles.size(); ++i)
     if (isCopy(i)) {
@@ -279,22 +240,6 @@ std::vector<WeightedPose> ParticleSet::poses() const {
   std::vector<WeightedPose> all;
   for (const auto& particle : m_particles) all.push_back({particle.d->path.back(), particle.log_w});
   return all;
-}
-
-mrpt::math::TPose3D ParticleSet::getLastPose(size_t i, bool& isValid) const {
-  isValid = true;
-  return mrpt::math::TPose3D(m_particles[i].d->path.back());
-}
-
-void ParticleSet::PF_SLAM_implementation_custom_update_particle_with_new_pose(
-    Particle* particle, const mrpt::math::TPose3D& pose) const {
-  particle->path.push(TPose2D(pose));
-}
-
-double ParticleSet::PF_SLAM_computeObservationLikelihoodForParticle(
-    const PfOptions& /*options*/, size_t particle, const mrpt::obs::CSensoryFrame& /*observation*/,
-    const mrpt::poses::CPose3D& pose) const {
-  return weigh(*m_particles[particle].d, TPose2D(pose.asTPose())).log(configuration_.gridWeight.exponent);
 }
 
 }  // namespace hybrid_slam

@@ -11,7 +11,7 @@ using namespace test;
 
 PreparedScan prepared(const TPose2D& robot, uint64_t seed) {
   RandomStream random(seed, 0, 0);
-  const LaserScan scan = test::scanOf(test::room(), robot, {}, 181, M_PI, 0.01, random);
+  const LaserScans scan{test::scanOf(test::room(), robot, {}, 181, M_PI, 0.01, random)};
   return {scan, ScanBeams(scan), ScanBeams(scan), ScanBeams(scan), {}};
 }
 
@@ -52,9 +52,9 @@ TEST(ParticleSet, ParticlesOnOnePathKeepOneMap) {
   ParticleSet particles(fourParticles());
   particles.reset({});
   const PreparedScan scan = prepared({}, 1);
-  particles.beginStep(scan);
+  particles.beginStep();
   particles.appendPose({0.1, 0, 0});
-  particles.updateMaps();
+  particles.updateMaps(scan);
   for (size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(tileOf(particles, i), tileOf(particles, 0));
     EXPECT_TRUE(particles.m_particles[i].d->lines.sharesWith(particles.m_particles[0].d->lines));
@@ -68,12 +68,12 @@ TEST(ParticleSet, CopiesKeepOneMapAndOthersTheirOwn) {
   ParticleSet particles(fourParticles());
   particles.reset({});
   const PreparedScan first = prepared({}, 1), second = prepared({}, 2);
-  particles.beginStep(first);
-  particles.updateMaps();
+  particles.beginStep();
+  particles.updateMaps(first);
   for (size_t i = 0; i < 4; ++i) particles.m_particles[i].d->path.push({0.1 * static_cast<double>(i), 0, 0});
-  particles.beginStep(second);
+  particles.beginStep();
   particles.performSubstitution({3, 1, 1, 3});
-  particles.updateMaps();
+  particles.updateMaps(second);
 
   const double expected[] = {0.1, 0.1, 0.3, 0.3};  // copies stand side by side
   for (size_t i = 0; i < 4; ++i) {
@@ -90,16 +90,19 @@ TEST(ParticleSet, CopiesKeepOneMapAndOthersTheirOwn) {
   EXPECT_FALSE(sameCells(particles.m_particles[1].d->grid, particles.m_particles[2].d->grid));
 }
 
-TEST(ParticleSet, SubstitutionMakesTheWeightsEqualAndSaysSo) {
-  ParticleSet particles(fourParticles());
-  particles.reset({});
-  const PreparedScan scan = prepared({}, 1);
-  particles.beginStep(scan);
-  EXPECT_EQ(particles.lastStep().resampled, false);
-  for (size_t i = 0; i < 4; ++i) particles.m_particles[i].log_w = -static_cast<double>(i);
-  particles.performSubstitution({0, 0, 0, 1});
-  EXPECT_EQ(particles.lastStep().resampled, true);
-  for (const auto& particle : particles.poses()) EXPECT_EQ(particle.logWeight, 0);
+TEST(ParticleSet, ResamplingMakesTheWeightsEqualAndSaysSo) {
+  for (const double threshold : {0.0, 0.9}) {
+    FilterConfiguration c = fourParticles();
+    c.filter.essThreshold = threshold;
+    ParticleSet particles(c);
+    particles.reset({});
+    particles.beginStep();
+    for (size_t i = 0; i < 4; ++i) particles.m_particles[i].log_w = -static_cast<double>(i);
+    particles.resampleIfDue();
+    EXPECT_EQ(particles.lastStep().resampled, threshold > 0);
+    for (size_t i = 0; i < 4; ++i)
+      EXPECT_EQ(particles.poses()[i].logWeight, threshold > 0 ? 0 : -static_cast<double>(i));
+  }
 }
 
 /// One step from particles of different weight, with and without resampling after it: the scan's likelihood
@@ -108,21 +111,18 @@ TEST(ParticleSet, TheStepTellsItsMotionsAndTheLikelihoodOfTheScan) {
   for (const double threshold : {0.0, 1.0}) {
     FilterConfiguration c = fourParticles();
     c.useLines = false;
+    c.filter.essThreshold = threshold;
     ParticleSet particles(c);
     particles.reset({1, 0, 0.5});
     const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
-    particles.beginStep(first);
-    particles.updateMaps();
+    particles.beginStep();
+    particles.updateMaps(first);
     const auto map = particles.m_particles[0].d->grid;
     for (size_t i = 0; i < 4; ++i) particles.m_particles[i].log_w = -0.5 * static_cast<double>(i);
 
-    particles.beginStep(second);
-    mrpt::obs::CActionCollection action = test::actionOf({0.2, 0, 0.1});
-    mrpt::obs::CSensoryFrame observations;
-    mrpt::bayes::CParticleFilter filter;
-    filter.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-    filter.m_options.BETA = threshold;
-    filter.executeOn(particles, &action, &observations);
+    particles.beginStep();
+    particles.sampleAndWeigh({0.2, 0, 0.1}, second);
+    particles.resampleIfDue();
 
     const FilterStep& step = particles.lastStep();
     EXPECT_EQ(step.resampled, threshold > 0);
@@ -136,7 +136,7 @@ TEST(ParticleSet, TheStepTellsItsMotionsAndTheLikelihoodOfTheScan) {
       const double w = std::exp(-0.5 * static_cast<double>(i));
       weights += w;
       likelihood += w * std::exp(c.gridWeight.exponent *
-                                 gridWeight.logWeight(second.weighedBeams, second.scan, pose, map));
+                                 gridWeight.logWeight(second.weighedBeams, second.scans, pose, map));
     }
     EXPECT_NEAR(step.logLikelihood, std::log(likelihood / weights), 1e-9);
   }
@@ -150,15 +150,10 @@ TEST(ParticleSet, TheImprovedProposalsWeightsAreTempered) {
     ParticleSet particles(c);
     particles.reset({1, 0, 0.5});
     const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
-    particles.beginStep(first);
-    particles.updateMaps();
-    particles.beginStep(second);
-    mrpt::obs::CActionCollection action = test::actionOf({0.2, 0.1, 0});
-    mrpt::obs::CSensoryFrame observations;
-    mrpt::bayes::CParticleFilter filter;
-    filter.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfOptimalProposal;
-    filter.m_options.BETA = 0;
-    filter.executeOn(particles, &action, &observations);
+    particles.beginStep();
+    particles.updateMaps(first);
+    particles.beginStep();
+    particles.sampleAndWeigh({0.2, 0.1, 0}, second);
     std::vector<double> differences;
     for (size_t i = 1; i < 4; ++i)
       differences.push_back(particles.m_particles[i].log_w - particles.m_particles[0].log_w);
@@ -176,8 +171,8 @@ TEST(ParticleSet, ANewStartKeepsTheMapsAndForgetsThePaths) {
   ParticleSet particles(fourParticles());
   particles.reset({});
   const PreparedScan scan = prepared({}, 1);
-  particles.beginStep(scan);
-  particles.updateMaps();
+  particles.beginStep();
+  particles.updateMaps(scan);
   const auto* tile = tileOf(particles, 0);
   particles.startPathAt({1, 1, 1});
   for (size_t i = 0; i < 4; ++i) {

@@ -4,16 +4,25 @@
 
 namespace hybrid_slam {
 
-ScanPreparation::ScanPreparation(const FilterConfiguration& configuration)
-    : configuration_(configuration),
-      lineExtractor_(configuration.segmentation, configuration.lineFit, configuration.hough) {}
+ScanPreparation::ScanPreparation(const FilterConfiguration& c)
+    : maxRange_(c.grid.maxRange),
+      weighedBeams_(c.gridWeight.beams),
+      matchedBeams_(c.matcher.beams),
+      useLines_(c.useLines),
+      lineExtractor_(c.segmentation, c.lineFit, c.hough) {}
 
-PreparedScan ScanPreparation::operator()(const mrpt::obs::CObservation2DRangeScan& observation) const {
-  const LaserScan scan = toLaserScan(observation, configuration_.grid.maxRange);
-  const BeamSelection selection(scan);
-  return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(configuration_.gridWeight.beams)),
-          ScanBeams(scan, selection.take(configuration_.matcher.beams)),
-          configuration_.useLines ? lineExtractor_.extract(scan) : std::vector<LineSegment>()};
+PreparedScan ScanPreparation::operator()(const Scans& observed) const {
+  const LaserScans scans = toLaserScans(observed, maxRange_);
+  const BeamSelection selection(scans);
+  PreparedScan prepared{scans,
+                        ScanBeams(scans),
+                        ScanBeams(scans, selection.take(weighedBeams_)),
+                        ScanBeams(scans, selection.take(matchedBeams_)),
+                        {}};
+  if (useLines_)
+    for (const LaserScan& scan : scans)
+      for (const LineSegment& line : lineExtractor_.extract(scan)) prepared.lines.push_back(line);
+  return prepared;
 }
 
 }  // namespace hybrid_slam

@@ -1,5 +1,5 @@
 /// @file PreparedScan.h
-/// @brief One scan, prepared once for all particles.
+/// @brief The scans of one reading, prepared once for all particles.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace hybrid_slam {
 
-/// What all particles need of one scan, prepared once.
+/// What all particles need of one reading.
 struct PreparedScan {
-  LaserScan scan;
+  LaserScans scans;
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
   ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
@@ -24,10 +24,12 @@ struct PreparedScan {
 class ScanPreparation {
  public:
   explicit ScanPreparation(const FilterConfiguration& configuration);
-  PreparedScan operator()(const mrpt::obs::CObservation2DRangeScan& observation) const;
+  PreparedScan operator()(const Scans& observed) const;
 
  private:
-  FilterConfiguration configuration_;
+  double maxRange_;
+  int weighedBeams_, matchedBeams_;
+  bool useLines_;
   LineExtractor lineExtractor_;
 };
 

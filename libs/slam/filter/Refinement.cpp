@@ -14,29 +14,29 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-OccupancyGrid gridOf(const std::vector<PosedScan>& scans, const GridOptions& options) {
+OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& options) {
   OccupancyGrid grid(options.resolution);
-  for (const PosedScan& posed : scans)
+  for (const PosedScans& posed : scans)
     if (posed.isMapped)
-      grid.insert(ScanBeams(toLaserScan(*posed.scan, options.maxRange)), posed.pose, options);
+      grid.insert(ScanBeams(toLaserScans(posed.scans, options.maxRange)), posed.pose, options);
   return grid;
 }
 
 }  // namespace
 
-ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration) {
+ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration) {
   const ScanPreparation prepare(configuration);
   ScanMap map{gridOf(scans, configuration.grid), {}};
-  for (const PosedScan& posed : scans) {
+  for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
     std::vector<LineSegment> lines;
-    for (const LineSegment& line : prepare(*posed.scan).lines) lines.push_back(transformed(line, posed.pose));
+    for (const LineSegment& line : prepare(posed.scans).lines) lines.push_back(transformed(line, posed.pose));
     map.lines.update(lines, configuration.database, configuration.association);
   }
   return map;
 }
 
-void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configuration, int passes) {
+void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes) {
   const Eigen::Vector3d deviations(0.05, 0.05, M_PI / 180);
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher matcher(configuration.matcher);
@@ -46,8 +46,8 @@ void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configurat
     arena.execute([&] {
       tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
         TPose2D& pose = scans[i].pose;
-        const LaserScan scan = toLaserScan(*scans[i].scan, configuration.grid.maxRange);
-        const ScanBeams beams(scan, BeamSelection(scan).take(configuration.matcher.beams));
+        const LaserScans seen = toLaserScans(scans[i].scans, configuration.grid.maxRange);
+        const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));
         const Prior prior = [&, before = pose](const TPose2D& at) {
           return gaussianLogDensity(at, before, information);
         };

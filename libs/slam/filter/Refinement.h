@@ -4,19 +4,16 @@
 
 #include <vector>
 
+#include "base/LaserScan.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/LineDatabase.h"
 
-namespace mrpt::obs {
-class CObservation2DRangeScan;
-}
-
 namespace hybrid_slam {
 
-/// A scan of the log and where the robot was.
-struct PosedScan {
-  std::shared_ptr<const mrpt::obs::CObservation2DRangeScan> scan;
+/// The scans of a reading and where the robot was.
+struct PosedScans {
+  Scans scans;
   mrpt::math::TPose2D pose;  ///< map frame
   bool isMapped = false;     ///< it made the filter run: its beams and lines are in the map
 };
@@ -26,11 +23,11 @@ struct ScanMap {
   OccupancyGrid grid;
   LineDatabase lines;
 };
-ScanMap mapOf(const std::vector<PosedScan>& scans, const FilterConfiguration& configuration);
+ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration);
 
 /// Matches every scan, also those between two updates, against the map that all of them make, `passes` times.
 /// A pose is held to where it was by a normal distribution of 5 cm and 1 deg; a match that fits less than
 /// min_fit leaves it there. The first pose stays: it is the map's frame.
-void refine(std::vector<PosedScan>& scans, const FilterConfiguration& configuration, int passes);
+void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes);
 
 }  // namespace hybrid_slam

@@ -10,30 +10,30 @@ namespace {
 using namespace test;
 
 /// Scans of a drive around the room, each pose off by about 2 cm and 0.3 deg but the first.
-std::vector<PosedScan> driven(std::vector<TPose2D>& truth) {
-  std::vector<PosedScan> scans;
+std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
+  std::vector<PosedScans> scans;
   RandomStream random(1, 0, 0);
   for (const test::DriveStep& step : test::drive(8)) {
     truth.push_back(step.truth);
     const TPose2D off = scans.empty() ? TPose2D()
                                       : TPose2D(0.02 * random.gaussian(), 0.02 * random.gaussian(),
                                                 0.3 * test::kDegree * random.gaussian());
-    scans.push_back({std::make_shared<mrpt::obs::CObservation2DRangeScan>(step.scan),
+    scans.push_back({{std::make_shared<mrpt::obs::CObservation2DRangeScan>(step.scan)},
                      {step.truth.x + off.x, step.truth.y + off.y, step.truth.phi + off.phi},
                      scans.size() % 2 == 0});
   }
   return scans;
 }
 
-double rms(const std::vector<PosedScan>& scans, const std::vector<TPose2D>& truth) {
+double rms(const std::vector<PosedScans>& scans, const std::vector<TPose2D>& truth) {
   std::vector<TPose2D> path;
-  for (const PosedScan& s : scans) path.push_back(s.pose);
+  for (const PosedScans& s : scans) path.push_back(s.pose);
   return test::rms(path, truth);
 }
 
 TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
   std::vector<TPose2D> truth;
-  std::vector<PosedScan> scans = driven(truth);
+  std::vector<PosedScans> scans = driven(truth);
   const double before = rms(scans, truth);
   const TPose2D first = scans[0].pose;
   refine(scans, test::roomConfiguration(), 2);
@@ -43,7 +43,7 @@ TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
 
 TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
   std::vector<TPose2D> truth;
-  std::vector<PosedScan> one = driven(truth), three = one;
+  std::vector<PosedScans> one = driven(truth), three = one;
   FilterConfiguration c = test::roomConfiguration();
   refine(one, c, 1);
   c.filter.threads = 3;
@@ -53,19 +53,19 @@ TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Refinement, NoPassChangesNothing) {
   std::vector<TPose2D> truth;
-  std::vector<PosedScan> scans = driven(truth);
-  const std::vector<PosedScan> before = scans;
+  std::vector<PosedScans> scans = driven(truth);
+  const std::vector<PosedScans> before = scans;
   refine(scans, test::roomConfiguration(), 0);
   for (size_t i = 0; i < scans.size(); ++i) EXPECT_EQ(scans[i].pose, before[i].pose);
 }
 
 TEST(Refinement, TheMapIsThatOfTheMappedScans) {
   std::vector<TPose2D> truth;
-  std::vector<PosedScan> scans = driven(truth);
+  std::vector<PosedScans> scans = driven(truth);
   const FilterConfiguration c = test::roomConfiguration();
   OccupancyGrid grid(c.grid.resolution);
-  for (const PosedScan& s : scans)
-    if (s.isMapped) grid.insert(ScanBeams(toLaserScan(*s.scan, c.grid.maxRange)), s.pose, c.grid);
+  for (const PosedScans& s : scans)
+    if (s.isMapped) grid.insert(ScanBeams(toLaserScans(s.scans, c.grid.maxRange)), s.pose, c.grid);
   const ScanMap map = mapOf(scans, c);
   size_t cells = 0;
   grid.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {

@@ -17,17 +17,18 @@ constexpr size_t kPlaces = 8;        // from which the search climbs
 
 }  // namespace
 
-SlipRecovery::SlipRecovery(const FilterConfiguration& configuration)
-    : configuration_(configuration),
-      matcher_(configuration.matcher),
-      gridWeight_(configuration.gridWeight, configuration.grid.resolution) {}
+SlipRecovery::SlipRecovery(const FilterConfiguration& c)
+    : options_(c.improved),
+      motion_(c.motion),
+      exponent_(c.gridWeight.exponent),
+      matcher_(c.matcher),
+      gridWeight_(c.gridWeight, c.grid.resolution) {}
 
 StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry, const PreparedScan& scan) {
-  const ImprovedProposalOptions& options = configuration_.improved;
   const TPose2D before = best.path.back();
   StepMotion motion{odometry, odometry, false};
-  if (options.slipDistance <= 0) return motion;
-  const MotionDistribution expected = motionAfter(best, motion, configuration_);
+  if (options_.slipDistance <= 0) return motion;
+  const MotionDistribution expected = motionAfter(best, motion, motion_, options_);
   const Eigen::Matrix3d information = expected.covariance.inverse();
   const auto asExpected = [&](const TPose2D& pose) {
     return gaussianLogDensity(pose, expected.mean, information);
@@ -35,17 +36,16 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
   ScanMatch match = matcher_.match(scan.matchedBeams, expected.mean, best.grid, asExpected);
 
   if (match.fit < kPoorFit * usualFit_) {
-    const SearchWindow window{options.slipDistance, options.slipAngle};
+    const SearchWindow window{options_.slipDistance, options_.slipAngle};
     // ln of the density of a slip over that of the motion model at its mean.
     const double slip =
-        std::log(options.slipProbability / (8 * window.distance * window.distance * window.angle)) +
+        std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
         0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
     const Prior anywhere = [](const TPose2D&) { return LogDensity(); };
     // By w_grid, which lets a beam end in the unknown: the matcher's likelihood would rather have it end on
     // some wall, and pull the robot back along a corridor that it has only begun to see.
     const auto logWeight = [&](const TPose2D& pose) {
-      return configuration_.gridWeight.exponent *
-             gridWeight_.logWeight(scan.weighedBeams, scan.scan, pose, best.grid);
+      return exponent_ * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
     };
     double highest = logWeight(match.pose) + asExpected(match.pose).value;
     for (const TPose2D& place :
@@ -58,19 +58,19 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
       motion.hasSlipped = slip > modelled;
     }
   }
-  if (motion.hasSlipped || match.fit >= options.minFit) motion.start = match.pose - before;
+  if (motion.hasSlipped || match.fit >= options_.minFit) motion.start = match.pose - before;
   usualFit_ = usualFit_ == 0 ? match.fit : (1 - kForgetting) * usualFit_ + kForgetting * match.fit;
   return motion;
 }
 
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
-                               const FilterConfiguration& configuration) {
+                               const MotionModelOptions& model, const ImprovedProposalOptions& options) {
   MotionDistribution distribution =
-      motionDistribution(before.path.back(), motion.odometry, before.motion.model(configuration.motion));
+      motionDistribution(before.path.back(), motion.odometry, before.motion.model(model));
   distribution.covariance.diagonal().array() +=
       1e-8;  // (0.1 mm, 0.1 mrad)^2: without noise it has no inverse
   if (motion.hasSlipped) {
-    const double distance = configuration.improved.slipDistance, angle = configuration.improved.slipAngle;
+    const double distance = options.slipDistance, angle = options.slipAngle;
     distribution.covariance.diagonal() +=
         Eigen::Vector3d(distance * distance, distance * distance, angle * angle);
   }

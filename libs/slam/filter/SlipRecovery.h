@@ -28,7 +28,9 @@ class SlipRecovery {
   StepMotion motionOf(const Particle& best, const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
 
  private:
-  FilterConfiguration configuration_;
+  ImprovedProposalOptions options_;
+  MotionModelOptions motion_;
+  double exponent_;  ///< of w_grid
   ScanMatcher matcher_;
   GridWeight gridWeight_;
   double usualFit_ = 0;  ///< of the scans so far, the newest counting most
@@ -36,6 +38,6 @@ class SlipRecovery {
 
 /// The motion model's distribution of the pose after a step; after a slip as wide as the searched window.
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
-                               const FilterConfiguration& configuration);
+                               const MotionModelOptions& model, const ImprovedProposalOptions& options);
 
 }  // namespace hybrid_slam

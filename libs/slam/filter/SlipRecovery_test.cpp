@@ -95,10 +95,11 @@ TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
   Particle particle;
   particle.path.push(kStart);
   const MotionDistribution model = motionDistribution(kStart, kOdometry, c.motion);
-  const MotionDistribution usual = motionAfter(particle, {kOdometry, kOdometry, false}, c);
+  const MotionDistribution usual = motionAfter(particle, {kOdometry, kOdometry, false}, c.motion, c.improved);
   EXPECT_EQ(usual.mean, model.mean);
   EXPECT_LT((usual.covariance - model.covariance).norm(), 1e-7);
-  const MotionDistribution slipped = motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c);
+  const MotionDistribution slipped =
+      motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c.motion, c.improved);
   EXPECT_EQ(slipped.mean, model.mean);
   EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
   EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * test::kDegree, 2), 1e-6);

@@ -1,6 +1,7 @@
 #include "slam/filter/StockMapBuilder.h"
 
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +11,17 @@ namespace hybrid_slam {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
-StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, uint32_t seed)
-    : CMetricMapBuilderRBPF(construction), random_(seed) {}
+StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion,
+                                 uint32_t seed)
+    : CMetricMapBuilderRBPF(construction), motion_(motion), random_(seed) {}
+
+void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
+  mrpt::obs::CActionCollection action;
+  action.insert(toAction(odometry, motion_));
+  mrpt::obs::CSensoryFrame observations;
+  for (const auto& scan : scans) observations.insert(scan);
+  processActionObservation(action, observations);
+}
 
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {

@@ -5,15 +5,18 @@
 #include <mrpt/random/RandomGenerators.h>
 #include <mrpt/slam/CMetricMapBuilderRBPF.h>
 
+#include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
-#include "slam/filter/FilterView.h"
 
 namespace hybrid_slam {
 
-class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public FilterView {
+class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter {
  public:
   /// @param seed  same seed, same result, whichever thread the filter runs in and whatever runs beside it
-  StockMapBuilder(const TConstructionOptions& construction, uint32_t seed);
+  /// @param motion  of the actions that `process` makes of odometry
+  StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed);
+
+  void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
   /// Counts the updates, and has MRPT draw from this filter's own generator; all else is MRPT's.
   void processActionObservation(mrpt::obs::CActionCollection& action,
@@ -29,6 +32,7 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public FilterV
  private:
   size_t bestParticle() const;
 
+  MotionModelOptions motion_;
   mrpt::random::CRandomGenerator random_;
   size_t updates_ = 0;
   FilterStep step_;

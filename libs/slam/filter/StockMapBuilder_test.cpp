@@ -50,7 +50,7 @@ TEST(StockMapBuilder, TakesOurSettings) {
 }
 
 TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
-  const StockMapBuilder builder(stockOptions(configuration()), 1);
+  const StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
   EXPECT_EQ(builder.updates(), 0u);
   EXPECT_TRUE(builder.bestPath().empty());
   EXPECT_EQ(builder.particlePoses().size(), 5u);
@@ -58,7 +58,7 @@ TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
 }
 
 TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
-  StockMapBuilder builder(stockOptions(configuration()), 1);
+  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
   const test::Replayed replayed = feed(builder, builder, test::drive(2));
   const auto path = builder.bestPath();
   ASSERT_GT(builder.updates(), 10u);
@@ -84,9 +84,10 @@ TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
 
 TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
   const auto steps = test::drive(1);
-  StockMapBuilder alone(stockOptions(configuration()), 1);
+  StockMapBuilder alone(stockOptions(configuration()), MotionModelOptions(), 1);
   feed(alone, alone, steps);
-  StockMapBuilder builder(stockOptions(configuration()), 1), beside(stockOptions(configuration()), 2);
+  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1),
+      beside(stockOptions(configuration()), MotionModelOptions(), 2);
   for (const test::DriveStep& step : steps) {
     std::thread([&] { feed(builder, step); }).join();
     feed(beside, step);

@@ -284,22 +284,19 @@ TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.particles = 4;
   c.filter.resampling = CParticleFilter::prResidual;
+  c.filter.essThreshold = 1;
   constexpr int kRepetitions = 4000;
   double firstCopies = 0;
   for (int seed = 1; seed <= kRepetitions; ++seed) {
     c.filter.seed = seed;
     ParticleSet particles(c);
     particles.reset({});
-    const PreparedScan nothing{
-        LaserScan(), ScanBeams(LaserScan()), ScanBeams(LaserScan()), ScanBeams(LaserScan()), {}};
-    particles.beginStep(nothing);
+    particles.beginStep();
     for (size_t i = 0; i < 4; ++i) {
       particles.m_particles[i].d->path.push({static_cast<double>(i), 0, 0});
       particles.m_particles[i].log_w = std::log(i < 3 ? 0.125 : 0.625);
     }
-    CParticleFilter::TParticleFilterOptions options;
-    options.resamplingMethod = CParticleFilter::prResidual;
-    particles.performResampling(options);
+    particles.resampleIfDue();
     for (const auto& particle : particles.poses()) {
       firstCopies += particle.pose.x == 0 ? 1 : 0;
       ASSERT_EQ(particle.logWeight, 0);

@@ -29,20 +29,25 @@ size_t awayFrom(size_t i, const LaserScan& scan, const std::vector<Point>& point
 
 }  // namespace
 
-BeamSelection::BeamSelection(const LaserScan& scan) {
-  std::vector<Point> points;
-  points.reserve(scan.beams.size());
-  for (const Beam& beam : scan.beams)
-    points.push_back({beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)});
-  for (size_t i = 0; i < points.size(); ++i) {
-    if (!scan.beams[i].valid) continue;
-    const size_t before = awayFrom(i, scan, points, [](size_t j) { return j - 1; });
-    const size_t after = awayFrom(i, scan, points, [](size_t j) { return j + 1; });
-    const double direction =
-        std::atan2(points[after].y - points[before].y, points[after].x - points[before].x);
-    const double half = direction < 0 ? direction + M_PI : direction;  // a wall has no sense of direction
-    const auto group = static_cast<size_t>(half / M_PI * static_cast<double>(groups_.size()));
-    groups_[std::min(group, groups_.size() - 1)].push_back(i);
+BeamSelection::BeamSelection(const LaserScans& scans) {
+  size_t first = 0;  // index of the laser's first beam
+  for (const LaserScan& scan : scans) {
+    std::vector<Point> points;
+    points.reserve(scan.beams.size());
+    for (const Beam& beam : scan.beams)
+      points.push_back({beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)});
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (!scan.beams[i].valid) continue;
+      const size_t before = awayFrom(i, scan, points, [](size_t j) { return j - 1; });
+      const size_t after = awayFrom(i, scan, points, [](size_t j) { return j + 1; });
+      double direction = std::atan2(points[after].y - points[before].y, points[after].x - points[before].x);
+      direction += scan.sensorPose.phi - scans[0].sensorPose.phi;
+      while (direction < 0) direction += M_PI;  // a wall has no sense of direction
+      while (direction > M_PI) direction -= M_PI;
+      const auto group = static_cast<size_t>(direction / M_PI * static_cast<double>(groups_.size()));
+      groups_[std::min(group, groups_.size() - 1)].push_back(first + i);
+    }
+    first += scan.beams.size();
   }
   std::stable_sort(groups_.begin(), groups_.end(),
                    [](const auto& a, const auto& b) { return a.size() < b.size(); });

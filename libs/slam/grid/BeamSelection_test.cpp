@@ -33,7 +33,7 @@ TEST(BeamSelection, TakesAsManyBeamsFromTheEndOfACorridorAsFromItsSides) {
   for (const double phi : {0.0, 0.2, 0.7, -1.0}) {
     RandomStream random(1, 0, 0);
     const LaserScan scan = corridorScan(phi, 0.005, random);
-    const auto taken = BeamSelection(scan).take(60);
+    const auto taken = BeamSelection({scan}).take(60);
     ASSERT_EQ(taken.size(), 60u);
     const auto atEnd = [&](size_t i) { return meetsTheEnd(scan, i, phi); };
     std::vector<size_t> all(scan.beams.size());
@@ -50,7 +50,7 @@ TEST(BeamSelection, OneStraightWallIsSampledEvenly) {
     const double angle = i * M_PI / 180;
     scan.beams.push_back({angle + M_PI / 18, 2 / std::cos(angle), true});
   }
-  EXPECT_EQ(BeamSelection(scan).take(3), (std::vector<size_t>{13, 40, 67}));
+  EXPECT_EQ(BeamSelection({scan}).take(3), (std::vector<size_t>{13, 40, 67}));
 }
 
 TEST(BeamSelection, TakesAllWhereThereAreNoMore) {
@@ -61,17 +61,17 @@ TEST(BeamSelection, TakesAllWhereThereAreNoMore) {
     if (i % 3 == 0) scan.beams[i] = {scan.beams[i].angle, std::numeric_limits<double>::quiet_NaN(), false};
     if (scan.beams[i].valid) valid.push_back(i);
   }
-  const BeamSelection selection(scan);
+  const BeamSelection selection({scan});
   EXPECT_EQ(selection.take(0), valid);
   EXPECT_EQ(selection.take(541), valid);
   EXPECT_EQ(selection.take(static_cast<int>(valid.size())), valid);
 }
 
 TEST(BeamSelection, NothingOfNothing) {
-  EXPECT_THAT(BeamSelection(LaserScan()).take(10), IsEmpty());
+  EXPECT_THAT(BeamSelection(LaserScans()).take(10), IsEmpty());
   LaserScan blind;
   blind.beams.assign(100, {0, 0, false});
-  EXPECT_THAT(BeamSelection(blind).take(10), IsEmpty());
+  EXPECT_THAT(BeamSelection({blind}).take(10), IsEmpty());
 }
 
 TEST(BeamSelection, AnyScanGivesSoManyDifferentValidBeamsInOrder) {
@@ -85,7 +85,7 @@ TEST(BeamSelection, AnyScanGivesSoManyDifferentValidBeamsInOrder) {
       valid += scan.beams.back().valid;
     }
     const int wanted = 1 + static_cast<int>(300 * random.uniform());
-    const auto taken = BeamSelection(scan).take(wanted);
+    const auto taken = BeamSelection({scan}).take(wanted);
     ASSERT_EQ(taken.size(), static_cast<size_t>(std::min(wanted, valid)));
     for (size_t i = 0; i < taken.size(); ++i) {
       ASSERT_LT(taken[i], scan.beams.size());

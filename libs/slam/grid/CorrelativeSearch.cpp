@@ -84,9 +84,10 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
   for (int k = 0; k < angles; ++k) {
     const GridPose frame({centre.x, centre.y, centre.phi + (k - a) * kStepAngle}, scan, grid.resolution());
     for (size_t i = 0; i < scan.rays.size(); i += every) {
-      const double range = scan.rays[i].range / grid.resolution();
-      const CellIndex end{static_cast<int>(std::floor(frame.originX + range * frame.dirX(scan.rays[i]))),
-                          static_cast<int>(std::floor(frame.originY + range * frame.dirY(scan.rays[i])))};
+      const ScanBeams::Ray& ray = scan.rays[i];
+      const double range = ray.range / grid.resolution();
+      const CellIndex end{static_cast<int>(std::floor(frame.origin(ray).x + range * frame.dirX(ray))),
+                          static_cast<int>(std::floor(frame.origin(ray).y + range * frame.dirY(ray)))};
       ends[static_cast<size_t>(k)].push_back(end);
       box.min = {std::min(box.min.x, end.x), std::min(box.min.y, end.y)};
       box.max = {std::max(box.max.x, end.x), std::max(box.max.y, end.y)};

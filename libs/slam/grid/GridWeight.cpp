@@ -48,18 +48,20 @@ size_t decimation(size_t count, int beams) {
   return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
 }
 
-/// The cells within reach of the scan's longest beam.
+/// The cells within reach of the longest beam.
 CellBox reach(const ScanBeams& beams, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) {
-  double longest = 0;
-  for (const auto& ray : beams.rays) longest = std::max(longest, ray.range);
-  const double reach = longest + std::hypot(beams.originX, beams.originY) + 1;
+  double reach = 0;
+  for (const auto& ray : beams.rays) {
+    const auto& origin = beams.origins[ray.laser];
+    reach = std::max(reach, ray.range + std::hypot(origin.x, origin.y) + 1);
+  }
   return {grid.cellOf(robot.x - reach, robot.y - reach), grid.cellOf(robot.x + reach, robot.y + reach)};
 }
 
 }  // namespace
 
-double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, const mrpt::math::TPose2D& robot,
-                             const OccupancyGrid& grid) const {
+double GridWeight::logWeight(const ScanBeams& beams, const LaserScans& scans,
+                             const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) const {
   if (options_.method == Method::penetration) return penetration_.meanLogLikelihood(beams, robot, grid);
   if (beams.rays.empty()) return 0;
 
@@ -67,14 +69,21 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScan& scan, cons
   auto& options = local.likelihoodOptions;
   options.likelihoodMethod = mrptMethod(options_.method);
   options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
-  const size_t step = decimation(scan.beams.size(), options_.beams);
-  options.LF_decimation = static_cast<uint32_t>(step);
-  options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
-  // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
-  const double logLikelihood =
-      local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));
   const bool isMean = options_.method == Method::consensus;
-  return std::min(0.0, isMean ? logLikelihood : logLikelihood / static_cast<double>(beams.rays.size()));
+  double sum = 0;
+  for (const LaserScan& scan : scans) {
+    const auto valid =
+        std::count_if(scan.beams.begin(), scan.beams.end(), [](const Beam& b) { return b.valid; });
+    if (valid == 0) continue;
+    const size_t step = decimation(scan.beams.size(), options_.beams);
+    options.LF_decimation = static_cast<uint32_t>(step);
+    options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
+    // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
+    const double logLikelihood =
+        local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));
+    sum += isMean ? logLikelihood * static_cast<double>(valid) : logLikelihood;
+  }
+  return std::min(0.0, sum / static_cast<double>(beams.rays.size()));
 }
 
 }  // namespace hybrid_slam

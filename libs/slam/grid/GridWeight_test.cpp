@@ -59,7 +59,7 @@ class GridWeightMethods : public testing::TestWithParam<NamedMethod> {
  protected:
   double weight(const CObservation2DRangeScan& observation, const TPose2D& robot) const {
     const LaserScan scan = toLaserScan(observation, 20);
-    return GridWeight(options(), 0.05).logWeight(ScanBeams(scan), scan, robot, grid());
+    return GridWeight(options(), 0.05).logWeight(ScanBeams(scan), {scan}, robot, grid());
   }
   static const OccupancyGrid& grid() {
     static const OccupancyGrid room = roomGrid();

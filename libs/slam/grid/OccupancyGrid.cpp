@@ -25,15 +25,20 @@ class Footprint {
     const double perMetre = 1 / cellSize;
     thread_local std::vector<CellIndex> ends;
     ends.clear();
-    CellIndex low{floorOf(pose.originX), floorOf(pose.originY)};
+    CellIndex low{floorOf(pose.origins[0].x), floorOf(pose.origins[0].y)};
     CellIndex high = low;
+    const auto extend = [&](const CellIndex& cell) {
+      low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
+      high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
+    };
+    for (size_t i = 1; i < scan.origins.size(); ++i)
+      extend({floorOf(pose.origins[i].x), floorOf(pose.origins[i].y)});
     for (const auto& ray : scan.rays) {
       const double range = ray.range * perMetre;
-      const CellIndex end{floorOf(pose.originX + range * pose.dirX(ray)),
-                          floorOf(pose.originY + range * pose.dirY(ray))};
-      low = {std::min(low.x, end.x), std::min(low.y, end.y)};
-      high = {std::max(high.x, end.x), std::max(high.y, end.y)};
-      ends.push_back(end);
+      const auto& origin = pose.origin(ray);
+      ends.push_back(
+          {floorOf(origin.x + range * pose.dirX(ray)), floorOf(origin.y + range * pose.dirY(ray))});
+      extend(ends.back());
     }
     // A cell more on each side: where a beam ends on a border, rounding may take it over.
     first_ = {(low.x - 1) >> Tile::kBits, (low.y - 1) >> Tile::kBits};
@@ -41,11 +46,11 @@ class Footprint {
     width_ = static_cast<size_t>(last_.x - first_.x + 1) * Tile::kSize;
     counts_.assign(width_ * static_cast<size_t>(last_.y - first_.y + 1) * Tile::kSize, 0);
 
-    const double originX = pose.originX - first_.x * Tile::kSize,
-                 originY = pose.originY - first_.y * Tile::kSize;
+    const double firstX = first_.x * Tile::kSize, firstY = first_.y * Tile::kSize;
     const auto crossAll = [&](auto mayOverflow) {
       for (const auto& ray : scan.rays)
-        cross<mayOverflow>(originX, originY, pose.dirX(ray), pose.dirY(ray), ray.range * perMetre);
+        cross<mayOverflow>(pose.origin(ray).x - firstX, pose.origin(ray).y - firstY, pose.dirX(ray),
+                           pose.dirY(ray), ray.range * perMetre);
     };
     scan.rays.size() < kHit ? crossAll(std::false_type()) : crossAll(std::true_type());
     for (const CellIndex& end : ends) at(end.x, end.y) = kHit;

@@ -137,8 +137,8 @@ double PenetrationModel::meanLogLikelihood(const ScanBeams& scan, const mrpt::ma
   TileReader cells(grid.tiles());
   double sum = 0, product = 1;  // of so many beams that it cannot underflow: one logarithm for all
   for (const auto& ray : scan.rays) {
-    const double likelihood = beamLikelihood(pose.originX, pose.originY, pose.dirX(ray), pose.dirY(ray),
-                                             ray.range * perMetre, cells);
+    const double likelihood = beamLikelihood(pose.origin(ray).x, pose.origin(ray).y, pose.dirX(ray),
+                                             pose.dirY(ray), ray.range * perMetre, cells);
     product *= (1 - outlier_) * likelihood + outlier_;
     if (product > 1e-100) continue;
     sum += std::log(product);

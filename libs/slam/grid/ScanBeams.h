@@ -1,9 +1,11 @@
 /// @file ScanBeams.h
-/// @brief A scan prepared once for all particles: where each beam starts and which way it points.
+/// @brief The scans of one reading prepared once for all particles: where each beam starts and where it
+/// points.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,47 +13,63 @@
 
 namespace hybrid_slam {
 
-/// The valid beams of one scan in the robot frame; no trigonometry is left to do for a particle but that of
-/// its own heading.
+/// The valid beams of a robot's lasers in the robot frame; all that is left to compute for a particle is the
+/// rotation by its heading.
 struct ScanBeams {
   struct Ray {
     double dirX, dirY;  ///< unit vector, robot frame
     double range;       ///< m
+    size_t laser;       ///< index in `origins`
   };
-  double originX = 0, originY = 0;  ///< the sensor, robot frame, m
+  std::vector<mrpt::math::TPoint2D> origins;  ///< of each laser, robot frame, m
   std::vector<Ray> rays;
 
   /// All beams.
-  explicit ScanBeams(const LaserScan& scan) : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
-    for (const Beam& beam : scan.beams)
-      if (beam.valid) add(scan, beam);
+  explicit ScanBeams(const LaserScan& scan) { addAll(scan); }
+  explicit ScanBeams(const LaserScans& scans) {
+    for (const LaserScan& scan : scans) addAll(scan);
   }
-  /// Those taken by a BeamSelection.
-  ScanBeams(const LaserScan& scan, const std::vector<size_t>& taken)
-      : originX(scan.sensorPose.x), originY(scan.sensorPose.y) {
+  /// Those taken by a BeamSelection of the same scans.
+  ScanBeams(const LaserScans& scans, const std::vector<size_t>& taken) {
     rays.reserve(taken.size());
-    for (const size_t i : taken) add(scan, scan.beams[i]);
+    auto next = taken.begin();
+    size_t first = 0;  // index of the laser's first beam
+    for (const LaserScan& scan : scans) {
+      origins.emplace_back(scan.sensorPose.x, scan.sensorPose.y);
+      for (; next != taken.end() && *next < first + scan.beams.size(); ++next)
+        add(scan, scan.beams[*next - first]);
+      first += scan.beams.size();
+    }
   }
 
  private:
+  void addAll(const LaserScan& scan) {
+    origins.emplace_back(scan.sensorPose.x, scan.sensorPose.y);
+    for (const Beam& beam : scan.beams)
+      if (beam.valid) add(scan, beam);
+  }
   void add(const LaserScan& scan, const Beam& beam) {
     const double heading = scan.sensorPose.phi + beam.angle;
-    rays.push_back({std::cos(heading), std::sin(heading), beam.range});
+    rays.push_back({std::cos(heading), std::sin(heading), beam.range, origins.size() - 1});
   }
 };
 
-/// Robot poses in units of cells, with the sine and cosine taken once.
+/// A robot pose in units of cells, with its sine and cosine and the lasers' places computed once.
 struct GridPose {
   GridPose(const mrpt::math::TPose2D& robot, const ScanBeams& scan, double cellSize)
-      : cosPhi(std::cos(robot.phi)),
-        sinPhi(std::sin(robot.phi)),
-        originX((robot.x + cosPhi * scan.originX - sinPhi * scan.originY) / cellSize),
-        originY((robot.y + sinPhi * scan.originX + cosPhi * scan.originY) / cellSize) {}
+      : cosPhi(std::cos(robot.phi)), sinPhi(std::sin(robot.phi)) {
+    for (size_t i = 0; i < scan.origins.size(); ++i) {
+      const mrpt::math::TPoint2D& at = scan.origins[i];
+      origins[i] = {(robot.x + cosPhi * at.x - sinPhi * at.y) / cellSize,
+                    (robot.y + sinPhi * at.x + cosPhi * at.y) / cellSize};
+    }
+  }
+  const mrpt::math::TPoint2D& origin(const ScanBeams::Ray& ray) const { return origins[ray.laser]; }
   double dirX(const ScanBeams::Ray& ray) const { return cosPhi * ray.dirX - sinPhi * ray.dirY; }
   double dirY(const ScanBeams::Ray& ray) const { return sinPhi * ray.dirX + cosPhi * ray.dirY; }
 
   double cosPhi, sinPhi;
-  double originX, originY;  ///< the sensor in the map frame, in cells
+  std::array<mrpt::math::TPoint2D, kMaxLasers> origins;  ///< the lasers in the map frame, in cells
 };
 
 }  // namespace hybrid_slam

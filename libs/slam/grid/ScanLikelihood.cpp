@@ -91,7 +91,8 @@ void ScanLikelihood::forEachEnd(const TPose2D& pose, const Visit& visit) {
   for (size_t beam = 0; beam < scan_.rays.size(); ++beam) {
     const auto& ray = scan_.rays[beam];
     const double range = ray.range * perCell_;
-    const double x = frame.originX + range * frame.dirX(ray), y = frame.originY + range * frame.dirY(ray);
+    const auto& origin = frame.origin(ray);
+    const double x = origin.x + range * frame.dirX(ray), y = origin.y + range * frame.dirY(ray);
     // Cell (i, j) has its centre at (i + 1/2, j + 1/2).
     const double cx = x - 0.5, cy = y - 0.5;
     const int i = floorOf(cx), j = floorOf(cy);

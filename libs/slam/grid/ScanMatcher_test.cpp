@@ -64,7 +64,7 @@ Eigen::Vector3d differences(const F& f, const TPose2D& pose) {
 /// m by the definition in the header: a beam's residual is 1 - m, and the scan has one beam.
 double mapAt(const OccupancyGrid& grid, double x, double y) {
   ScanBeams point{LaserScan()};
-  point.rays.push_back({1, 0, 0});
+  point.rays.push_back({1, 0, 0, 0});
   return 1 - std::sqrt(-2 * matcher(1).likelihood(point, grid).value({x, y, 0}));
 }
 

@@ -49,7 +49,7 @@ void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, 
   const FilterStep& step = view.lastStep();
   plot_.push_back({reading.timestamp - *start_, step.stdX, step.stdY, step.stdPhi, step.ess});
   if (!useLines_) return;
-  scan_ = reading.scan;
+  scans_ = reading.scans;
   linesBefore_ = std::exchange(linesAfter_, view.bestLines());
 }
 
@@ -65,9 +65,9 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
-  if (!scan_ || out->path.empty()) return out;
+  if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
-  for (const LineSegment& line : prepare_(*scan_).lines) {
+  for (const LineSegment& line : prepare_(scans_).lines) {
     const LineSegment placed = transformed(line, out->path.back());
     out->scanLines.push_back({placed, matchDirection(placed.theta, before, lineWeight_).isMatched});
   }

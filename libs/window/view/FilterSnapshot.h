@@ -71,7 +71,7 @@ class FilterWatch {
   ScanPreparation prepare_;
   std::optional<double> start_;  ///< s
   std::vector<PlotRow> plot_;
-  mrpt::obs::CObservation2DRangeScan::Ptr scan_;        ///< of the last update
+  Scans scans_;                                         ///< of the last update
   std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update
 };
 

@@ -1,0 +1,51 @@
+/// @file ScanGrouper.h
+/// @brief Which scans of a log are used, and which of them make one reading.
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hybrid_slam::readings {
+
+/// A reading has at most one scan of each laser. It ends when all lasers seen so far have scanned, when one
+/// of them scans again, or before a scan that is more than `maxGap` later than its first. With one laser
+/// every scan is a reading.
+class ScanGrouper {
+ public:
+  /// @param lasers  labels of the lasers to use; none: the first kMaxLasers that are mounted horizontally
+  /// @param maxGap  s
+  ScanGrouper(const std::vector<std::string>& lasers, double maxGap);
+
+  enum class Use { taken, empty, tilted, unwanted, tooMany };
+  /// Whether a scan is used: it has beams, its laser is wanted and, unless named, mounted horizontally.
+  Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
+
+  /// Makes a laser known before its first scan is added; lasers of one sensory frame are known together.
+  void expect(const std::string& label) { known_.insert(label); }
+  /// Number of the reading, from 1, that a scan belongs to. Scans are added in the order of the log.
+  size_t add(const mrpt::obs::CObservation2DRangeScan& scan);
+  /// Whether the reading that the last scan went to has a scan of every known laser.
+  bool isComplete() const { return isComplete_; }
+  size_t readings() const { return readings_; }
+  const std::set<std::string>& lasers() const { return known_; }
+
+ private:
+  std::vector<std::string> wanted_;
+  double maxGap_;
+  std::set<std::string> known_, present_;  ///< in the log so far, in the current reading
+  size_t readings_ = 0;
+  bool isComplete_ = true;
+  double firstTime_ = 0;  ///< s, of the current reading
+};
+
+/// Why a laser is not used, for the user.
+std::string reasonOf(ScanGrouper::Use use);
+
+/// The labels in a list such as `FRONT, REAR`; blanks around them do not count.
+std::vector<std::string> labelsOf(const std::string& list);
+
+}  // namespace hybrid_slam::readings

@@ -1,0 +1,75 @@
+#include "slam/filter/HybridFilter.h"
+
+#include <cmath>
+
+#include "slam/grid/GridConversion.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+using mrpt::system::CTimeLoggerEntry;
+
+HybridFilter::HybridFilter(const FilterConfiguration& configuration)
+    : updateDistance_(configuration.updateDistance()),
+      updateAngle_(configuration.updateAngle()),
+      prepare_(configuration),
+      particles_(configuration, &profiler()) {
+  reset();
+}
+
+void HybridFilter::process(const TPose2D& odometry, const Scans& scans) {
+  odometry_ = odometry_ + odometry;
+  const bool isDue =
+      !hasMap_ || odometry_.norm() >= updateDistance_ || std::abs(odometry_.phi) >= updateAngle_;
+  if (!scans.empty() && isDue) update(scans);
+}
+
+// Fig. 1 from top to bottom.
+void HybridFilter::update(const Scans& scans) {
+  CTimeLoggerEntry preparing(profiler(), "2 prepare scan, extract lines");
+  const PreparedScan scan = prepare_(scans);  // line detection, Sec. III-B, eq. (2)-(6)
+  preparing.stop();
+  particles_.beginStep();
+  if (hasMap_) {
+    particles_.sampleAndWeigh(odometry_, scan);  // Sec. III-A, steps 1 and 2; w_line: III-D, eq. (9)
+    particles_.resampleIfDue();                  // step 3
+  } else {
+    particles_.appendPose(odometry_);
+  }
+  CTimeLoggerEntry mapping(profiler(), "5 update maps");
+  particles_.updateMaps(scan);  // step 4, map estimation: grids and line databases, Sec. III-C, eq. (7)-(8)
+  mapping.stop();
+
+  odometry_ = TPose2D();
+  hasMap_ = true;
+  ++updates_;
+}
+
+void HybridFilter::reset() {
+  odometry_ = TPose2D();
+  updates_ = 0;
+  hasMap_ = false;
+  particles_.reset(TPose2D());
+}
+
+void HybridFilter::insertAt(const TPose2D& pose, const Scans& scans) {
+  particles_.appendPose(pose - particles_.best().path.back());
+  particles_.beginStep();
+  particles_.updateMaps(prepare_(scans));
+  hasMap_ = true;
+}
+
+std::vector<TPose2D> HybridFilter::bestPath() const {
+  std::vector<TPose2D> poses = particles_.best().path.poses();
+  poses.erase(poses.begin());  // where the robot was before its first scan
+  return poses;
+}
+
+mrpt::maps::COccupancyGridMap2D HybridFilter::bestGrid() const { return toMrpt(particles_.best().grid); }
+
+std::vector<DatabaseLine> HybridFilter::bestLines() const {
+  const auto& lines = particles_.best().lines->lines();
+  return {lines.begin(), lines.end()};
+}
+
+}  // namespace hybrid_slam

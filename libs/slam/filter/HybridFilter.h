@@ -1,0 +1,47 @@
+/// @file HybridFilter.h
+/// @brief The paper's filter, Fig. 1: odometry and scans in, weighted particles with maps out.
+#pragma once
+
+#include "slam/filter/Filter.h"
+#include "slam/filter/FilterOptions.h"
+#include "slam/filter/ParticleSet.h"
+
+namespace hybrid_slam {
+
+class HybridFilter : public Filter {
+ public:
+  /// @throws InputError for settings that exclude each other
+  explicit HybridFilter(const FilterConfiguration& configuration);
+
+  void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
+
+  size_t updates() const override { return updates_; }
+  const FilterStep& lastStep() const override { return particles_.lastStep(); }
+  /// One pose for each update.
+  std::vector<mrpt::math::TPose2D> bestPath() const override;
+  mrpt::maps::COccupancyGridMap2D bestGrid() const override;
+  std::vector<DatabaseLine> bestLines() const override;
+  std::vector<WeightedPose> particlePoses() const override { return particles_.poses(); }
+  /// The odometry since the last update.
+  const mrpt::math::TPose2D& odometry() const { return odometry_; }
+
+ protected:
+  /// Discards the maps: all particles at the origin.
+  void reset();
+  /// Puts scans taken at a known pose into every particle's map, before the first update.
+  void insertAt(const mrpt::math::TPose2D& pose, const Scans& scans);
+  /// All particles continue from `start`, with empty paths.
+  void startPathAt(const mrpt::math::TPose2D& start) { particles_.startPathAt(start); }
+
+ private:
+  void update(const Scans& scans);
+
+  double updateDistance_, updateAngle_;  ///< m, rad
+  ScanPreparation prepare_;
+  ParticleSet particles_;
+  mrpt::math::TPose2D odometry_;
+  size_t updates_ = 0;
+  bool hasMap_ = false;
+};
+
+}  // namespace hybrid_slam

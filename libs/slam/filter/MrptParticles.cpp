@@ -1,0 +1,114 @@
+#include "slam/filter/MrptParticles.h"
+
+// PF_implementations.h of MRPT 2.5.8 needs these two before it.
+#include <mrpt/bayes/CParticleFilterCapable.h>
+#include <mrpt/obs/CSensoryFrame.h>
+namespace mrpt::slam {
+using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
+}
+#include <mrpt/slam/PF_aux_structs.h>
+#include <mrpt/slam/PF_implementations.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/Errors.h"
+#include "slam/filter/Resampling.h"
+
+namespace mrpt::slam {
+/// Where a particle falls in the bins of KLD sampling; the number of particles is fixed here, but the
+/// templates ask for it.
+template <>
+void KLF_loadBinFromParticle(detail::TPoseBin2D& bin, const TKLDParams& options,
+                             const hybrid_slam::Particle* particle, const mrpt::math::TPose3D* newPose) {
+  const mrpt::math::TPose2D pose = newPose ? mrpt::math::TPose2D(*newPose) : particle->path.back();
+  bin.x = static_cast<int>(std::lround(pose.x / options.KLD_binSize_XY));
+  bin.y = static_cast<int>(std::lround(pose.y / options.KLD_binSize_XY));
+  bin.phi = static_cast<int>(std::lround(pose.phi / options.KLD_binSize_PHI));
+}
+}  // namespace mrpt::slam
+
+namespace hybrid_slam {
+
+using mrpt::bayes::CParticleFilter;
+using mrpt::math::TPose2D;
+using mrpt::slam::detail::TPoseBin2D;
+using Proposal = ParticleFilterOptions::Proposal;
+
+namespace {
+
+CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions& options) {
+  const bool isAuxiliary =
+      options.proposal == Proposal::auxiliaryStandard || options.proposal == Proposal::auxiliaryOptimal;
+  if (isAuxiliary && options.resampling == CParticleFilter::prResidual)
+    throw InputError("residual resampling is biased in MRPT's auxiliary filters",
+                     "section [particle_filter], keys `proposal`, `resampling`",
+                     "expected another scheme or the standard proposal");
+  CParticleFilter::TParticleFilterOptions out;
+  out.PF_algorithm = options.proposal == Proposal::auxiliaryOptimal ? CParticleFilter::pfAuxiliaryPFOptimal
+                                                                    : CParticleFilter::pfAuxiliaryPFStandard;
+  out.resamplingMethod = options.resampling;
+  out.sampleSize = static_cast<unsigned int>(options.particles);
+  out.BETA = options.essThreshold;
+  out.adaptiveSampleSize = false;
+  // MRPT would give a particle of less likelihood than this the pose of another, but leave it its own map.
+  out.max_loglikelihood_dyn_range = std::numeric_limits<double>::infinity();
+  return out;
+}
+
+}  // namespace
+
+MrptParticles::MrptParticles(const ParticleFilterOptions& options) : options_(mrptOptions(options)) {}
+
+void MrptParticles::seedStep(const RandomStream& random) {
+  random_ = random;
+  hasResampled_ = false;
+  // A new generator, since seeding the old one keeps the second normal number of its last pair.
+  RandomStream seed = random;
+  mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(static_cast<uint32_t>(seed.bits()));
+}
+
+void MrptParticles::performSubstitution(const std::vector<size_t>& indices) {
+  if (options_.resamplingMethod == CParticleFilter::prResidual) {
+    std::vector<double> logWeights;
+    for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
+    RandomStream random = random_;
+    CParticleFilterDataImpl::performSubstitution(residualResampling(logWeights, random));
+  } else {
+    CParticleFilterDataImpl::performSubstitution(indices);
+  }
+  for (auto& particle : m_particles) particle.log_w = 0;
+  hasResampled_ = true;
+}
+
+void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOptions& motion,
+                                  const LogWeightAt& logWeightAt) {
+  hasResampled_ = isResamplingDue();  // by the weights of the step before
+  mrpt::obs::CActionCollection action;
+  action.insert(toAction(odometry, motion));
+  const mrpt::obs::CSensoryFrame unused;  // logWeightAt has the scan
+  logWeightAt_ = &logWeightAt;
+  if (options_.PF_algorithm == CParticleFilter::pfAuxiliaryPFOptimal)
+    PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(&action, &unused, options_, {});
+  else
+    PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(&action, &unused, options_, {});
+  logWeightAt_ = nullptr;
+}
+
+mrpt::math::TPose3D MrptParticles::getLastPose(size_t i, bool& isValid) const {
+  isValid = true;
+  return mrpt::math::TPose3D(m_particles[i].d->path.back());
+}
+
+void MrptParticles::PF_SLAM_implementation_custom_update_particle_with_new_pose(
+    Particle* particle, const mrpt::math::TPose3D& pose) const {
+  particle->path.push(TPose2D(pose));
+}
+
+double MrptParticles::PF_SLAM_computeObservationLikelihoodForParticle(
+    const CParticleFilter::TParticleFilterOptions& /*options*/, size_t particle,
+    const mrpt::obs::CSensoryFrame& /*observation*/, const mrpt::poses::CPose3D& pose) const {
+  return (*logWeightAt_)(*m_particles[particle].d, TPose2D(pose.asTPose()));
+}
+
+}  // namespace hybrid_slam

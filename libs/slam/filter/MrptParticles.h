@@ -1,0 +1,66 @@
+/// @file MrptParticles.h
+/// @brief MRPT's particle-filter scaffolding: weighted particles, resampling, and the auxiliary filters.
+#pragma once
+
+#include <mrpt/bayes/CParticleFilterData.h>
+#include <mrpt/slam/PF_implementations_data.h>
+
+#include "base/RandomStream.h"
+#include "slam/filter/FilterOptions.h"
+#include "slam/filter/Particle.h"
+
+namespace hybrid_slam {
+
+/// What we take from MRPT, and where it needs care (doc/mrpt-notes.md):
+///
+/// - `m_particles`, log-weights, ESS and four resampling schemes. MRPT leaves the weights as they were after
+///   resampling and its residual scheme is biased: performSubstitution corrects both.
+/// - MRPT draws from a generator per thread: seedStep replaces it at each step, so that a run does not depend
+/// on
+///   what else runs in the thread.
+/// - MRPT's auxiliary filters, which take the odometry as an action and draw from its Gaussian motion model.
+class MrptParticles
+    : public mrpt::bayes::CParticleFilterData<Particle>,
+      public mrpt::bayes::CParticleFilterDataImpl<MrptParticles,
+                                                  mrpt::bayes::CParticleFilterData<Particle>::CParticleList>,
+      public mrpt::slam::PF_implementation<Particle, MrptParticles,
+                                           mrpt::bayes::particle_storage_mode::POINTER> {
+ public:
+  /// @throws InputError for residual resampling with an auxiliary filter
+  explicit MrptParticles(const ParticleFilterOptions& options);
+
+  /// Resampling itself: the particles become copies of those with these indices, of equal weight. With the
+  /// residual scheme the indices are drawn here instead.
+  void performSubstitution(const std::vector<size_t>& indices) override;
+
+  /// @name What MRPT's PF_implementation asks for
+  /// @{
+  mrpt::math::TPose3D getLastPose(size_t i, bool& isValid) const override;
+  void PF_SLAM_implementation_custom_update_particle_with_new_pose(
+      Particle* particle, const mrpt::math::TPose3D& pose) const override;
+  double PF_SLAM_computeObservationLikelihoodForParticle(
+      const mrpt::bayes::CParticleFilter::TParticleFilterOptions& options, size_t particle,
+      const mrpt::obs::CSensoryFrame& observation, const mrpt::poses::CPose3D& pose) const override;
+  /// @}
+
+ protected:
+  /// ln of the tempered weight that a particle would have at a pose.
+  using LogWeightAt = std::function<double(const Particle&, const mrpt::math::TPose2D&)>;
+
+  /// Readies MRPT's random numbers for a step.
+  void seedStep(const RandomStream& random);
+  bool isResamplingDue() const { return ESS() < options_.BETA; }
+  void resample() { performResampling(options_); }
+  bool hasResampled() const { return hasResampled_; }  ///< in this step
+  /// Samples, weighs and resamples by one of MRPT's auxiliary filters.
+  void auxiliaryStep(const mrpt::math::TPose2D& odometry, const MotionModelOptions& motion,
+                     const LogWeightAt& logWeightAt);
+
+ private:
+  mrpt::bayes::CParticleFilter::TParticleFilterOptions options_;
+  RandomStream random_{0, 0, 0};  ///< of the step
+  bool hasResampled_ = false;
+  const LogWeightAt* logWeightAt_ = nullptr;  ///< during auxiliaryStep
+};
+
+}  // namespace hybrid_slam
