@@ -7,7 +7,7 @@
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/paper}
 export SEEDS=${SEEDS:-20} FIRST_SEED=${FIRST_SEED:-1}
-install_packages "${packages[@]}" gnuplot-nox librsvg2-bin
+install_packages "${packages[@]}" librsvg2-bin
 build release
 bin=build/release/bin
 source scripts/worlds.sh

@@ -9,7 +9,7 @@ source "$(dirname "$0")/lib.sh"
 out=${1:-out/particles}
 bin=build/release/bin
 source scripts/worlds.sh
-install_packages "${packages[@]}" gnuplot-nox
+install_packages "${packages[@]}"
 build release
 make_worlds "$out/worlds"
 seeds=${SEEDS:-20}

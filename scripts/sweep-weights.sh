@@ -8,7 +8,7 @@ source "$(dirname "$0")/lib.sh"
 out=${1:-out/weights}
 bin=build/release/bin
 source scripts/worlds.sh
-install_packages "${packages[@]}" gnuplot-nox
+install_packages "${packages[@]}"
 build release
 make_worlds "$out/worlds"
 read -ra worlds <<<"${WORLDS:-${simulated_worlds[*]} ${public_worlds[*]}}"

@@ -47,6 +47,13 @@ struct SlamCompare : testing::Test {
     }
     return rows;
   }
+  /// report.html, which is well-formed XML.
+  std::string report() const {
+    const test::Outcome parsed =
+        shell("python3 -c 'import xml.dom.minidom as xml; xml.parse(\"out/report.html\")'");
+    EXPECT_EQ(parsed.status, 0) << parsed.err;
+    return test::contentOf(folder.path("out/report.html"));
+  }
   /// results.csv without what a clock says.
   std::string untimedTable() const {
     std::string text;

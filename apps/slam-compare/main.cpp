@@ -91,7 +91,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
   app.add_flag("--list", line.isListOnly,
                "starts no run: prints each one's name, a tab, and its command but for the `-o FOLDER`");
-  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors");
+  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
   app.footer(
       "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
       "summary.json,\n"
@@ -323,7 +323,10 @@ int execute(const CommandLine& line, const std::string& command) {
   folder.write("summary.json", [&](std::ostream& out) {
     out << comparison::summaryJson(groups, report.summaries).dump(2) << '\n';
   });
-  folder.write("report.html", [&](std::ostream& out) { comparison::writeReport(report, out); });
+  std::string missing;
+  folder.write("report.html", [&](std::ostream& out) { missing = comparison::writeReport(report, out); });
+  if (!missing.empty())
+    std::cerr << "slam-compare: warning: report.html without plots: " << missing << std::endl;
   if (!line.isQuiet) std::cout << folder.path("report.html") << std::endl;
 
   size_t failed = 0;

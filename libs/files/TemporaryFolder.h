@@ -1,5 +1,5 @@
 /// @file TemporaryFolder.h
-/// @brief A folder of its own for each test, gone with it.
+/// @brief A folder for temporary files, gone with the object.
 #pragma once
 
 #include <stdlib.h>

@@ -9,7 +9,8 @@
 #include <stdexcept>
 
 #include "base/Numbers.h"
-#include "study/comparison/PlanView.h"
+#include "study/comparison/PlanPlots.h"
+#include "study/comparison/ReportText.h"
 #include "study/comparison/TableLine.h"
 
 namespace hybrid_slam::comparison {
@@ -69,44 +70,38 @@ const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run
   });
 }
 
-std::string plotParticles(const ParticleSnapshot& snapshot, const TPose2D& alignment,
-                          const simulation::FloorPlan* plan, double side, const std::string& title) {
-  constexpr double kPixels = 250, kTop = 24;
-  const double scale = kPixels / side;
+namespace {
+
+/// m; 1, 2 or 5 times a power of ten, so that the labels of at most four fit beside each other.
+double ticStep(double side) {
+  for (double power = std::pow(10, std::floor(std::log10(side / 4)));; power *= 10)
+    for (const double factor : {1, 2, 5})
+      if (factor * power >= side / 4) return factor * power;
+}
+
+}  // namespace
+
+Plot plotParticles(const ParticleSnapshot& snapshot, const TPose2D& alignment,
+                   const simulation::FloorPlan* plan, double side, const std::string& title) {
+  constexpr size_t kParticles = 200;
   const TPose2D robot = alignment + snapshot.best();
-  Svg svg(kPixels, kTop + kPixels + 22);
-  svg.text({0, 15}, title, Anchor::start, "font-weight:bold");
-  const PlanView view({robot.x - side / 2, robot.y + side / 2}, {0, kTop}, scale);
-  const auto isInside = [&](const Point& p) {
-    return p.x >= 0 && p.x <= kPixels && p.y >= kTop && p.y <= kTop + kPixels;
-  };
-  svg.rectangle({0, kTop}, kPixels, kPixels, "fill:#fff;stroke:#bbb;stroke-width:1");
-  if (plan)
-    for (const simulation::Wall& wall : plan->walls()) {
-      const double step = 0.02;  // m; only the steps inside of the square are drawn
-      const int pieces = static_cast<int>(std::ceil(wall.length() / step));
-      std::vector<Point> points;
-      for (int i = 0; i <= pieces; ++i) {
-        const Point p = view.pixel(wall.pointAt(static_cast<double>(i) / pieces));
-        if (isInside(p)) points.push_back(p);
-        if ((!isInside(p) || i == pieces) && !points.empty()) {
-          svg.polyline(points, "stroke:#000;stroke-width:2");
-          points.clear();
-        }
-      }
-    }
-  svg.circle(view.pixel({robot.x, robot.y}), 9,
-             "fill:#56b4e9;fill-opacity:0.6;stroke:#0072b2;stroke-width:1");
-  for (const WeightedParticle& particle : snapshot.particles) {
-    const TPose2D pose = alignment + particle.pose;
-    const Point at = view.pixel({pose.x, pose.y});
-    if (!isInside(at)) continue;
-    svg.line(at, {at.x + 14 * std::cos(pose.phi), at.y - 14 * std::sin(pose.phi)},
-             "stroke:#d00000;stroke-width:0.8;stroke-opacity:0.6");
-    svg.circle(at, 2.2, "fill:#d00000");
+  const TPoint2D half(side / 2, side / 2), low = TPoint2D(robot.x, robot.y) - half, high = low + half + half;
+  DataBlock best("robot"), particles("particles");
+  best.add({robot.x, robot.y});
+  const size_t every = (snapshot.particles.size() + kParticles - 1) / kParticles;
+  const double heading = 0.05 * side;  // m, as long as it is drawn
+  for (size_t i = 0; i < snapshot.particles.size(); i += every) {
+    const TPose2D pose = alignment + snapshot.particles[i].pose;
+    if (std::abs(pose.x - robot.x) > half.x || std::abs(pose.y - robot.y) > half.y) continue;
+    particles.add({pose.x, pose.y, heading * std::cos(pose.phi), heading * std::sin(pose.phi)});
   }
-  view.drawScaleBar(svg, {0, kTop + kPixels + 12}, kPixels / 2);
-  return svg.str("particles of " + title);
+  return {"particles of " + title, 264, 288,
+          planFrame(title, low, high) + "set tics " + shortNumber(ticStep(side)) + "\n" +
+              (plan ? wallBlock(*plan) : "") + best.script() + particles.script() + "plot " +
+              (plan ? "$walls with lines linewidth 2 linecolor rgb 'black' notitle, " : "") +
+              "$robot with points pointtype 7 pointsize 1.6 linecolor rgb '#56b4e9' notitle, "
+              "$particles with vectors nohead linecolor rgb '#66d00000' notitle, "
+              "$particles with points pointtype 7 pointsize 0.4 linecolor rgb '#d00000' notitle\n"};
 }
 
 }  // namespace hybrid_slam::comparison

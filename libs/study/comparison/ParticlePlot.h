@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "study/comparison/Gnuplot.h"
 #include "study/simulation/FloorPlan.h"
 
 namespace hybrid_slam::comparison {
@@ -36,11 +37,12 @@ std::vector<double> turningMoments(const std::vector<ParticleSnapshot>& run, siz
 /// The snapshot that is nearest in time; `run` holds at least one.
 const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run, double timestamp);
 
-/// Particles red with their headings, the robot (the best particle) light blue, walls black.
+/// Particles red with their headings, the robot (the best particle) light blue, walls black. Of more than 200
+/// particles every second, third, ... is drawn.
 /// @param alignment  the particles' frame in the plan's
 /// @param plan       may be null
 /// @param side       m, of the square that is shown, around the robot
-std::string plotParticles(const ParticleSnapshot& snapshot, const mrpt::math::TPose2D& alignment,
-                          const simulation::FloorPlan* plan, double side, const std::string& title);
+Plot plotParticles(const ParticleSnapshot& snapshot, const mrpt::math::TPose2D& alignment,
+                   const simulation::FloorPlan* plan, double side, const std::string& title);
 
 }  // namespace hybrid_slam::comparison

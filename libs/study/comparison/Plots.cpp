@@ -1,12 +1,11 @@
 #include "study/comparison/Plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
-#include "base/RandomStream.h"
-#include "study/comparison/PlanView.h"
-#include "study/comparison/Svg.h"
+#include "study/comparison/ReportText.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -15,242 +14,183 @@ std::string withUnit(const FigureName& name) {
   return std::string(name.title) + (*name.unit ? std::string(" (") + name.unit + ")" : std::string());
 }
 
-/// How a group is drawn in all plots: the colour stands for method and variant, the dashes for the particles.
-struct Look {
-  std::string colour, dash;
-  std::string stroke(double width) const {
-    return "stroke:" + colour + ";" + dash + "stroke-width:" + shortNumber(width);
-  }
-  std::string solid(double width) const { return "stroke:" + colour + ";stroke-width:" + shortNumber(width); }
-  std::string fill(double opacity) const {
-    return "fill:" + colour + ";fill-opacity:" + shortNumber(opacity);
-  }
-};
-
-std::vector<Look> looksOf(const std::vector<Group>& groups) {
-  std::vector<std::string> labels;
+/// gnuplot's number of the dashes that stand for each group's particles.
+std::vector<size_t> dashesOf(const std::vector<Group>& groups) {
   std::map<int, size_t> particles;
-  for (const Group& group : groups) {
-    if (std::find(labels.begin(), labels.end(), group.label()) == labels.end())
-      labels.push_back(group.label());
-    particles.emplace(group.particles, particles.size());
-  }
-  std::vector<Look> looks;
-  for (const Group& group : groups) {
-    const auto label = std::find(labels.begin(), labels.end(), group.label()) - labels.begin();
-    looks.push_back({plotColour(static_cast<size_t>(label)), plotDash(particles.at(group.particles))});
-  }
-  return looks;
+  for (const Group& group : groups) particles.emplace(group.particles, particles.size());
+  std::vector<size_t> dashes;
+  for (const Group& group : groups) dashes.push_back(particles.at(group.particles) % 5 + 1);
+  return dashes;
 }
 
-/// Rows of colour and name to the right of the plot.
-void drawLegend(Svg& svg, Point at, const std::vector<std::pair<std::string, std::string>>& entries) {
-  for (const auto& [style, name] : entries) {
-    svg.line(at, {at.x + 26, at.y}, style);
-    svg.text({at.x + 33, at.y + 4}, name);
-    at.y += 18;
-  }
-}
-
-double legendWidth(const std::vector<Group>& groups) {
-  size_t longest = 0;
-  for (const Group& group : groups) longest = std::max(longest, group.name().size());
-  return 48 + 7.2 * static_cast<double>(longest);
+size_t longest(const std::vector<Group>& groups, std::string (Group::*name)() const) {
+  size_t length = 0;
+  for (const Group& group : groups) length = std::max(length, (group.*name)().size());
+  return length;
 }
 
 struct Range {
   double low = INFINITY, high = -INFINITY;
   void add(double value) { low = std::min(low, value), high = std::max(high, value); }
   bool isEmpty() const { return low > high; }
-  /// Errors of runs that went well and of those that did not lie decades apart.
-  bool wantsLogarithm() const { return low > 0 && high / low > 20; }
 };
 
-/// From zero unless the values spread over decades.
-Axis verticalAxis(const Range& range, const Frame& f) {
-  const bool isLogarithmic = range.wantsLogarithm();
-  return {isLogarithmic ? range.low : std::min(0.0, range.low), range.high,
-          isLogarithmic ? Axis::Kind::logarithmic : Axis::Kind::linear, f.bottom, f.top};
+/// From zero, unless the values spread over decades: errors of runs that close the loop and of those that do
+/// not.
+std::string verticalAxis(const Range& range) {
+  if (range.low <= 0 || range.high / range.low <= 20)
+    return "set yrange [" + shortNumber(std::min(0.0, range.low)) + ":" + (range.high > 0 ? "*" : "1") +
+           "]\n";
+  return "set logscale y\nset ytics ()\n"
+         "set for [e=-9:9] for [f in '1 2 5'] ytics add (sprintf('%g', f * 10.0**e) f * 10.0**e)\n"
+         "set yrange [" +
+         shortNumber(range.low / 1.2) + ":" + shortNumber(range.high * 1.2) + "]\n";
 }
+
+std::string title(const std::string& text) { return "set title " + gnuplotText(text) + " offset 0,-0.3\n"; }
 
 }  // namespace
 
-std::string plotFigure(const FigureName& name, const std::vector<Group>& groups,
-                       const std::vector<RunResult>& results) {
+std::vector<int> plotColours(const std::vector<Group>& groups) {
+  static constexpr std::array<int, 7> kColours{0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
+                                               0xe69f00, 0x56b4e9, 0x555555};
+  std::map<std::string, size_t> labels;
+  for (const Group& group : groups) labels.emplace(group.label(), labels.size());
+  std::vector<int> colours;
+  for (const Group& group : groups) colours.push_back(kColours[labels.at(group.label()) % kColours.size()]);
+  return colours;
+}
+
+Plot plotFigure(const FigureName& name, const std::vector<Group>& groups,
+                const std::vector<RunResult>& results) {
+  const std::vector<int> colours = plotColours(groups);
   std::vector<std::vector<double>> values(groups.size());
   Range range;
+  DataBlock dots("dots"), boxes("boxes");
   for (const RunResult& r : results)
-    if (const auto& value = r[name.figure]) values[r.run.group].push_back(*value), range.add(*value);
+    if (const auto& value = r[name.figure]) {
+      const size_t g = r.run.group;
+      values[g].push_back(*value);
+      range.add(*value);
+      dots.add({static_cast<double>(g), *value, static_cast<double>(colours[g])});
+    }
   if (range.isEmpty()) return {};
 
-  size_t longest = 0;
-  for (const Group& group : groups) longest = std::max(longest, group.label().size());
-  const double column = std::max(60.0, 6.6 * static_cast<double>(longest) + 10);
-  const Frame f{64, 30, 64 + column * static_cast<double>(groups.size()), 250};
-  Svg svg(std::max(f.right + 10, 330.0), 300);
-  svg.text({f.left, 16}, withUnit(name), Anchor::start, "font-weight:bold");
-  const Axis y = verticalAxis(range, f);
-  drawYAxis(svg, f, y, *name.unit ? name.unit : "share");
-  const std::vector<Look> looks = looksOf(groups);
+  std::string tics, labels;
   for (size_t g = 0; g < groups.size(); ++g) {
-    const double centre = f.left + column * (static_cast<double>(g) + 0.5),
-                 half = std::min(column * 0.3, 34.0);
-    svg.text({centre, f.bottom + 17}, groups[g].label(), Anchor::middle);
-    svg.text({centre, f.bottom + 33}, std::to_string(groups[g].particles) + " p.", Anchor::middle,
-             "fill:#666");
+    tics += (g ? ", " : "") + gnuplotText(groups[g].label()) + ".\"\\n\"." +
+            gnuplotText(std::to_string(groups[g].particles) + " p.") + " " + std::to_string(g);
     if (values[g].empty()) {
-      svg.text({centre, (f.top + f.bottom) / 2}, "no run", Anchor::middle, "fill:#666");
+      labels += "set label 'no run' at first " + std::to_string(g) + ", graph 0.5 center\n";
       continue;
     }
     const Quartiles q = quartiles(values[g]);
-    svg.rectangle({centre - half, y.pixel(q.upper)}, 2 * half, y.pixel(q.lower) - y.pixel(q.upper),
-                  looks[g].fill(0.15) + ";" + looks[g].solid(1));
-    svg.line({centre - half, y.pixel(q.median)}, {centre + half, y.pixel(q.median)}, looks[g].solid(3));
-    for (size_t i = 0; i < values[g].size(); ++i) {
-      const double aside = (RandomStream(1, g, i).uniform() - 0.5) * half;
-      svg.circle({centre + aside, y.pixel(values[g][i])}, 2.6, looks[g].fill(0.7), shortNumber(values[g][i]));
-    }
+    boxes.add({static_cast<double>(g), q.lower, q.median, q.upper, static_cast<double>(colours[g])});
   }
-  svg.line({f.left, f.bottom}, {f.right, f.bottom}, "stroke:#888;stroke-width:1");
-  return svg.str(withUnit(name));
+  const double column = std::max(60.0, 6.6 * static_cast<double>(longest(groups, &Group::label)) + 10);
+  const auto width = static_cast<int>(90 + column * static_cast<double>(groups.size()));
+  return {withUnit(name), std::max(width, 340), 300,
+          title(withUnit(name)) + verticalAxis(range) + dots.script() + boxes.script() + labels +
+              "set xrange [-0.5:" + shortNumber(static_cast<double>(groups.size()) - 0.5) + "]\nset xtics (" +
+              tics + ") scale 0\nset bmargin 3.5\nset grid noxtics\nset ylabel " +
+              gnuplotText(*name.unit ? name.unit : "share") +
+              "\nset style fill transparent solid 0.15 border\nset jitter overlap 0.5 spread 0.4\n"
+              "plot $boxes using 1:3:($1-0.3):($1+0.3):2:4:5 with boxxyerror linecolor rgb variable notitle, "
+              "$boxes using ($1-0.3):3:(0.6):(0):5 with vectors nohead linewidth 3 linecolor rgb variable "
+              "notitle, "
+              "$dots with points pointtype 7 pointsize 0.5 linecolor rgb variable notitle\n"};
 }
 
-std::string plotSuccess(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries) {
+Plot plotSuccess(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries) {
   if (summaries.empty() || !summaries[0].successes) return {};
-  const double row = 26, names = legendWidth(groups);
-  const Frame f{names, 12, names + 480, 12 + row * static_cast<double>(groups.size())};
-  Svg svg(f.right + 110, f.bottom + 44);
-  const Axis x(0, 100, Axis::Kind::linear, f.left, f.right);
-  const std::vector<Look> looks = looksOf(groups);
-  for (const double tick : x.ticks())
-    svg.line({x.pixel(tick), f.top}, {x.pixel(tick), f.bottom}, "stroke:#ddd;stroke-width:1");
-  drawXAxis(svg, f, x, "successful runs (%), and 95 % interval");
+  const std::vector<int> colours = plotColours(groups);
+  DataBlock rates("rates");
+  std::string names, counts;
   for (size_t g = 0; g < groups.size(); ++g) {
     const GroupSummary& s = summaries[g];
-    const double y = f.top + row * (static_cast<double>(g) + 0.5);
-    svg.text({f.left - 8, y + 4}, groups[g].name(), Anchor::end);
-    if (s.ended() == 0) continue;
-    const double low = x.pixel(100 * s.successInterval.low), high = x.pixel(100 * s.successInterval.high);
-    svg.line({low, y}, {high, y}, looks[g].solid(2));
-    for (const double end : {low, high}) svg.line({end, y - 5}, {end, y + 5}, looks[g].solid(2));
-    svg.circle({x.pixel(100 * s.successRate), y}, 5, looks[g].fill(1));
-    svg.text({f.right + 10, y + 4}, std::to_string(*s.successes) + " of " + std::to_string(s.ended()));
+    const std::string separator = g ? ", " : "", at = " " + std::to_string(g);
+    names += separator + gnuplotText(groups[g].name()) + at;
+    counts += separator +
+              gnuplotText(std::to_string(s.successes.value_or(0)) + " of " + std::to_string(s.ended())) + at;
+    if (s.ended() > 0)
+      rates.add({100 * s.successRate, static_cast<double>(g), 100 * s.successInterval.low,
+                 100 * s.successInterval.high, static_cast<double>(colours[g])});
   }
-  return svg.str("success rates");
+  return {
+      "success rates", static_cast<int>(620 + 7.2 * static_cast<double>(longest(groups, &Group::name))),
+      static_cast<int>(70 + 26 * groups.size()),
+      rates.script() + "set xrange [0:100]\nset yrange [" +
+          shortNumber(static_cast<double>(groups.size()) - 0.5) + ":-0.5]\nset ytics (" + names +
+          ") scale 0\nset y2range [" + shortNumber(static_cast<double>(groups.size()) - 0.5) +
+          ":-0.5]\nset y2tics (" + counts +
+          ") scale 0\nset grid noytics\nset xlabel 'successful runs (%), and 95 % interval'\nset bars 2\n"
+          "plot $rates with xerrorbars pointtype 7 pointsize 1 linewidth 2 linecolor rgb variable notitle\n"};
 }
 
-std::string plotAgainstParticles(const FigureName& name, const std::vector<Group>& groups,
-                                 const std::vector<GroupSummary>& summaries) {
-  const auto f0 = static_cast<size_t>(name.figure);
-  Range range, particles;
-  for (size_t g = 0; g < groups.size(); ++g)
-    if (const auto& q = summaries[g].figures[f0].quartiles)
-      range.add(q->lower), range.add(q->upper), particles.add(groups[g].particles);
-  if (range.isEmpty()) return {};
-
-  const Frame f{64, 30, 380, 240};
-  Svg svg(f.right + 20 + legendWidth(groups), 285);
-  svg.text({f.left, 16}, withUnit(name), Anchor::start, "font-weight:bold");
+Plot plotAgainstParticles(const FigureName& name, const std::vector<Group>& groups,
+                          const std::vector<GroupSummary>& summaries) {
+  std::map<std::string, std::map<int, Quartiles>> lines;  // by label and particles
+  Range range;
   range.add(0);
-  const Axis y = verticalAxis(range, f), x(0, particles.high, Axis::Kind::linear, f.left, f.right);
-  drawYAxis(svg, f, y, name.unit);
-  drawXAxis(svg, f, x, "particles");
-  const std::vector<Look> looks = looksOf(groups);
-  std::vector<std::pair<std::string, std::string>> legend;
-  std::map<std::string, std::vector<Point>> lines;  // medians by colour
+  for (size_t g = 0; g < groups.size(); ++g)
+    if (const auto& q = summaries[g].figures[static_cast<size_t>(name.figure)].quartiles) {
+      range.add(q->upper);
+      lines[groups[g].label()][groups[g].particles] = *q;
+    }
+  if (lines.empty()) return {};
+
+  const std::vector<int> colours = plotColours(groups);
+  std::string blocks, curves;
   for (size_t g = 0; g < groups.size(); ++g) {
-    const std::string style = looks[g].solid(2);
-    if (lines.count(style) == 0) legend.emplace_back(style, groups[g].label());
-    auto& line = lines[style];
-    const auto& q = summaries[g].figures[f0].quartiles;
-    if (!q) continue;
-    const double px = x.pixel(groups[g].particles);
-    line.push_back({px, y.pixel(q->median)});
-    svg.line({px, y.pixel(q->lower)}, {px, y.pixel(q->upper)}, looks[g].solid(1.5));
-    svg.circle(line.back(), 4, looks[g].fill(1), groups[g].name() + ": " + shortNumber(q->median));
+    const auto line = lines.find(groups[g].label());
+    if (line == lines.end()) continue;
+    const std::string block = "line" + std::to_string(g);
+    DataBlock medians(block);
+    for (const auto& [particles, q] : line->second)
+      medians.add({static_cast<double>(particles), q.median, q.lower, q.upper});
+    blocks += medians.script();
+    const std::string look = " linewidth 2 linecolor rgb " + std::to_string(colours[g]);
+    curves += (curves.empty() ? "$" : ", $") + block + " with yerrorbars pointtype 7 pointsize 0.7" + look +
+              " notitle, $" + block + " with lines" + look + " title " + gnuplotText(groups[g].label());
+    lines.erase(line);
   }
-  for (auto& [style, line] : lines) {
-    std::sort(line.begin(), line.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
-    svg.polyline(line, style);
-  }
-  drawLegend(svg, {f.right + 20, f.top + 8}, legend);
-  return svg.str(withUnit(name) + " against particles");
+  return {withUnit(name) + " against particles",
+          static_cast<int>(440 + 7.2 * static_cast<double>(longest(groups, &Group::label))), 285,
+          title(withUnit(name)) + verticalAxis(range) + blocks +
+              "set xrange [0:*]\nset offsets 0, graph 0.05, 0, 0\nset xlabel 'particles'\nset ylabel " +
+              gnuplotText(name.unit) + "\nset key outside right top reverse Left\nplot " + curves + "\n"};
 }
 
-std::string plotSpread(size_t spread, const std::vector<Group>& groups,
-                       const std::vector<SpreadBands>& bands) {
+Plot plotSpread(size_t spread, const std::vector<Group>& groups, const std::vector<SpreadBands>& bands) {
   const char* const titles[] = {"spread along the heading (m)", "spread across the heading (m)",
                                 "spread of the heading (deg)", "spread in x (m)", "spread in y (m)"};
   const char* const units[] = {"m", "m", "deg", "m", "m"};
-  Range range, times;
-  for (const SpreadBands& band : bands) {
-    for (const double t : band.times) times.add(t);
-    for (const Quartiles& q : band.bands[spread]) range.add(q.upper);
-  }
-  if (times.isEmpty()) return {};
-  range.add(0);
-  const Frame f{64, 30, 820, 230};
-  Svg svg(f.right + 20 + legendWidth(groups), 275);
-  svg.text({f.left, 16}, titles[spread], Anchor::start, "font-weight:bold");
-  const Axis y(0, range.high, Axis::Kind::linear, f.bottom, f.top);
-  const Axis x(0, times.high, Axis::Kind::tight, f.left, f.right);
-  drawYAxis(svg, f, y, units[spread]);
-  drawXAxis(svg, f, x, "time since the first update (s)");
-  const std::vector<Look> looks = looksOf(groups);
-  std::vector<std::pair<std::string, std::string>> legend;
+  const std::vector<int> colours = plotColours(groups);
+  const std::vector<size_t> dashes = dashesOf(groups);
+  std::string blocks, areas, curves;
   for (size_t g = 0; g < groups.size(); ++g) {
-    const auto& quartilesOverTime = bands[g].bands[spread];
-    std::vector<Point> upper, lower, median;
+    if (bands[g].times.empty()) continue;
+    const std::string block = "band" + std::to_string(g);
+    DataBlock quartilesOverTime(block);
     for (size_t i = 0; i < bands[g].times.size(); ++i) {
-      const double px = x.pixel(bands[g].times[i]);
-      upper.push_back({px, y.pixel(quartilesOverTime[i].upper)});
-      lower.push_back({px, y.pixel(quartilesOverTime[i].lower)});
-      median.push_back({px, y.pixel(quartilesOverTime[i].median)});
+      const Quartiles& q = bands[g].bands[spread][i];
+      quartilesOverTime.add({bands[g].times[i], q.lower, q.median, q.upper});
     }
-    std::vector<Point> band = upper;
-    band.insert(band.end(), lower.rbegin(), lower.rend());
-    if (!band.empty()) svg.polygon(band, looks[g].fill(0.12));
-    if (!median.empty()) svg.polyline(median, looks[g].stroke(1.6));
-    legend.emplace_back(looks[g].stroke(2), groups[g].name());
+    blocks += quartilesOverTime.script();
+    const std::string colour = " linecolor rgb " + std::to_string(colours[g]);
+    areas += "$" + block + " using 1:2:4 with filledcurves" + colour + " notitle, ";
+    curves += (curves.empty() ? "$" : ", $") + block + " using 1:3 with lines linewidth 1.6 dashtype " +
+              std::to_string(dashes[g]) + colour + " title " + gnuplotText(groups[g].name());
   }
-  drawLegend(svg, {f.right + 20, f.top + 8}, legend);
-  return svg.str(titles[spread]);
-}
-
-std::string plotTrajectories(size_t group, const std::vector<Group>& groups,
-                             const std::vector<files::Trajectory>& trajectories,
-                             const files::Trajectory& reference, const simulation::FloorPlan* plan) {
-  Range xs, ys;
-  const auto take = [&](double x, double y) { xs.add(x), ys.add(y); };
-  for (const files::StampedPose& p : reference) take(p.pose.x, p.pose.y);
-  for (const files::Trajectory& trajectory : trajectories)
-    for (const files::StampedPose& p : trajectory) take(p.pose.x, p.pose.y);
-  if (plan) take(plan->lowerLeft().x, plan->lowerLeft().y), take(plan->upperRight().x, plan->upperRight().y);
-  if (xs.isEmpty()) return {};
-
-  constexpr double kSide = 380, kMargin = 24;
-  const double scale = kSide / std::max({xs.high - xs.low, ys.high - ys.low, 1.0});
-  Svg svg(std::max((xs.high - xs.low) * scale, 200.0) + 2 * kMargin,
-          (ys.high - ys.low) * scale + 2 * kMargin + 26);
-  const std::string title = groups[group].name();
-  svg.text({kMargin, 15}, title, Anchor::start, "font-weight:bold");
-  const PlanView view({xs.low, ys.high}, {kMargin, kMargin}, scale);
-  const auto draw = [&](const files::Trajectory& trajectory, const std::string& style) {
-    std::vector<Point> points;
-    for (const files::StampedPose& p : trajectory) {
-      const Point next = view.pixel({p.pose.x, p.pose.y});
-      const bool isLast = &p == &trajectory.back();
-      if (points.empty() || isLast || std::hypot(next.x - points.back().x, next.y - points.back().y) >= 1)
-        points.push_back(next);
-    }
-    svg.polyline(points, style);
-  };
-  if (plan) view.drawWalls(svg, *plan, "stroke:#bbb;stroke-width:1");
-  const std::string style = looksOf(groups)[group].solid(0.8) + ";stroke-opacity:0.6";
-  for (const files::Trajectory& trajectory : trajectories) draw(trajectory, style);
-  if (!reference.empty()) draw(reference, "stroke:#000;stroke-width:1.4;stroke-dasharray:5 3");
-  view.drawScaleBar(svg, {kMargin, svg.height() - 12}, 100);
-  return svg.str("trajectories of " + title);
+  if (curves.empty()) return {};
+  return {
+      titles[spread], static_cast<int>(880 + 7.2 * static_cast<double>(longest(groups, &Group::name))), 275,
+      title(titles[spread]) + blocks +
+          "set xrange [0:*] noextend\nset yrange [0:*]\nset xlabel 'time since the first update (s)'\nset "
+          "ylabel " +
+          gnuplotText(units[spread]) +
+          "\nset key outside right top reverse Left\nset style fill transparent solid 0.12 noborder\nplot " +
+          areas + curves + "\n"};
 }
 
 }  // namespace hybrid_slam::comparison

@@ -29,9 +29,8 @@ struct ReportInput {
 std::string runName(const Group& group, int seed);
 
 /// Writes XHTML. Trajectories, spreads and maps are read from the folders of the finished runs.
-void writeReport(const ReportInput& input, std::ostream& out);
-
-/// Bytes as base64 (RFC 4648).
-std::string base64(const std::string& bytes);
+/// @returns why the plots are missing, in one line (no gnuplot): the tables and maps are there; empty if all
+/// is
+std::string writeReport(const ReportInput& input, std::ostream& out);
 
 }  // namespace hybrid_slam::comparison

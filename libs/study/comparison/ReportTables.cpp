@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "study/comparison/Svg.h"
+#include "study/comparison/ReportText.h"
 
 namespace hybrid_slam::comparison {
 namespace {

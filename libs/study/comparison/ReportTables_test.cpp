@@ -53,5 +53,28 @@ TEST(SummaryTable, AGroupOfOneKindHasOneMedian) {
   EXPECT_THAT(table(all), Not(HasSubstr("success")));
 }
 
+TEST(PairedTable, HasTheRatiosOfTheMedians) {
+  const std::vector<Group> groups{{"hybrid", {}, 20}, {"general", {}, 20}};
+  std::vector<RunResult> results;
+  for (size_t g = 0; g < 2; ++g)
+    for (RunResult r : runs(4)) {
+      r.run.group = g;
+      if (r[Figure::ate]) *r[Figure::ate] *= g == 0 ? 1 : 3;
+      results.push_back(r);
+    }
+  const std::string paired = pairedTable(groups, summarise(2, results));
+  EXPECT_THAT(paired, HasSubstr("<td>general-20</td><td>4</td>"));
+  EXPECT_THAT(paired, HasSubstr("<td>3 <small>"));
+  EXPECT_EQ(pairedTable(kGroups, summarise(1, runs(4))), "");
+}
+
+TEST(FailureTable, NamesTheErrors) {
+  auto all = runs(4);
+  all[4].error = "a < b";
+  EXPECT_THAT(failureTable(kGroups, all), HasSubstr("a &lt; b"));
+  all.pop_back();
+  EXPECT_EQ(failureTable(kGroups, all), "");
+}
+
 }  // namespace
 }  // namespace hybrid_slam::comparison

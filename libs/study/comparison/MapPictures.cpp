@@ -1,0 +1,76 @@
+#include "study/comparison/MapPictures.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "study/comparison/RankedRuns.h"
+#include "study/comparison/ReportText.h"
+
+namespace hybrid_slam::comparison {
+namespace {
+
+std::string mapPicture(const ReportInput& input, const RunResult& r, const std::string& caption) {
+  std::ifstream in(folderOf(input, r).file("map.png"), std::ios::binary);
+  const std::string picture = reducedPicture(std::string(std::istreambuf_iterator<char>(in), {}));
+  if (picture.empty()) return {};
+  const std::string text =
+      escapeXml(input.groups[r.run.group].name() + ", seed " + std::to_string(r.run.seed) + ": " + caption);
+  return "<figure><img alt=\"map of " + text + "\" src=\"data:image/png;base64," + base64(picture) +
+         "\"/><figcaption>" + text + "</figcaption></figure>\n";
+}
+
+}  // namespace
+
+std::string base64(const std::string& bytes) {
+  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+std::string reducedPicture(const std::string& png) {
+  constexpr double kSide = 700, kLevels = 16;
+  if (png.empty()) return {};
+  cv::Mat picture = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_COLOR);
+  if (picture.empty()) return {};
+  if (const double scale = kSide / std::max(picture.cols, picture.rows); scale < 1)
+    cv::resize(picture, picture, {}, scale, scale, cv::INTER_AREA);
+  constexpr double kStep = 255 / (kLevels - 1);
+  picture.convertTo(picture, CV_8U, 1 / kStep);  // rounds to the nearest level
+  picture.convertTo(picture, CV_8U, kStep);
+  std::vector<unsigned char> reduced;
+  cv::imencode(".png", picture, reduced, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  return {reduced.begin(), reduced.end()};
+}
+
+std::string mapPictures(const ReportInput& input) {
+  const auto ranking = rankingFigure(input);
+  std::string all;
+  for (size_t g = 0; g < input.groups.size(); ++g) {
+    const auto runs = rankedRuns(input, g);
+    if (runs.empty()) continue;
+    if (!ranking) {
+      all += mapPicture(input, *runs[0], "the first");
+      continue;
+    }
+    const FigureName& name = kFigureNames[static_cast<size_t>(*ranking)];
+    const auto caption = [&](const char* which, const RunResult& r) {
+      return std::string(which) + " run, " + name.title + " " + shortNumber(r[*ranking].value_or(0), 3) +
+             " " + name.unit;
+    };
+    const RunResult& median = *medianRun(input, g);
+    all += mapPicture(input, median, caption("median", median));
+    if (runs.size() > 1) all += mapPicture(input, *runs.back(), caption("worst", *runs.back()));
+  }
+  return all;
+}
+
+}  // namespace hybrid_slam::comparison

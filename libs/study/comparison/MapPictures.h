@@ -1,0 +1,21 @@
+/// @file MapPictures.h
+/// @brief The report's pictures of whole maps.
+#pragma once
+
+#include <string>
+
+#include "study/comparison/Report.h"
+
+namespace hybrid_slam::comparison {
+
+/// The map of the median run and of the worst run of each group, as `<figure>` elements: `map.png`, reduced.
+std::string mapPictures(const ReportInput& input);
+
+/// A PNG of at most 700 pixels a side and 16 levels for each colour; a tenth of the bytes of a large one.
+/// @returns PNG; empty for what is no picture
+std::string reducedPicture(const std::string& png);
+
+/// Bytes as base64 (RFC 4648).
+std::string base64(const std::string& bytes);
+
+}  // namespace hybrid_slam::comparison

@@ -1,0 +1,51 @@
+#include "study/comparison/MapPictures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+
+namespace hybrid_slam::comparison {
+namespace {
+
+std::string encoded(const cv::Mat& picture) {
+  std::vector<unsigned char> png;
+  cv::imencode(".png", picture, png);
+  return {png.begin(), png.end()};
+}
+
+cv::Mat decoded(const std::string& png) {
+  return cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_COLOR);
+}
+
+TEST(ReducedPicture, KeepsShapeAndColours) {
+  cv::Mat map(1000, 1400, CV_8UC3, cv::Scalar(127, 127, 127));
+  map(cv::Rect(700, 0, 700, 1000)) = cv::Scalar(0, 0, 220);
+  const cv::Mat reduced = decoded(reducedPicture(encoded(map)));
+  EXPECT_EQ(reduced.cols, 700);
+  EXPECT_EQ(reduced.rows, 500);
+  EXPECT_NEAR(reduced.at<cv::Vec3b>(100, 100)[0], 127, 9);
+  EXPECT_NEAR(reduced.at<cv::Vec3b>(100, 600)[2], 220, 9);
+  EXPECT_EQ(reduced.at<cv::Vec3b>(100, 600)[0], 0);
+}
+
+TEST(ReducedPicture, SmallOnesKeepTheirSize) {
+  EXPECT_EQ(decoded(reducedPicture(encoded(cv::Mat(30, 40, CV_8UC3, cv::Scalar(255, 255, 255))))).cols, 40);
+}
+
+TEST(ReducedPicture, NoneIsMadeOfWhatIsNone) {
+  EXPECT_EQ(reducedPicture(""), "");
+  EXPECT_EQ(reducedPicture("no picture"), "");
+}
+
+TEST(Base64, OfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+}  // namespace
+}  // namespace hybrid_slam::comparison

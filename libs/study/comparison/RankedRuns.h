@@ -1,0 +1,29 @@
+/// @file RankedRuns.h
+/// @brief Which runs of a group the report shows: the median and the worst.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/comparison/Report.h"
+
+namespace hybrid_slam::comparison {
+
+RunFolder folderOf(const ReportInput& input, const RunResult& run);
+
+std::vector<const RunResult*> finishedRuns(const ReportInput& input, size_t group);
+
+/// The figure that ranks the runs; nothing without a reference and relations.
+std::optional<Figure> rankingFigure(const ReportInput& input);
+
+/// A group's finished runs from the best to the worst, or in their order where nothing ranks them.
+std::vector<const RunResult*> rankedRuns(const ReportInput& input, size_t group);
+
+/// Nothing if the group has no finished run.
+const RunResult* medianRun(const ReportInput& input, size_t group);
+
+/// Of a run's map frame in the reference's; zero without a reference.
+mrpt::math::TPose2D alignmentOf(const ReportInput& input, const files::Trajectory& trajectory);
+
+}  // namespace hybrid_slam::comparison
