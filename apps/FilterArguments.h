@@ -1,5 +1,5 @@
 /// @file FilterArguments.h
-/// @brief The options that say which filter is to run, and how.
+/// @brief Command-line options of the filter.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,8 +10,8 @@
 
 namespace hybrid_slam {
 
-/// A program adds the groups of options where its --help has them. What they say is a setting like any other,
-/// so it is checked in the same place.
+/// Each program adds these groups in the order of its --help. Values become settings and are checked with
+/// them.
 struct FilterArguments {
   std::string method, proposal;
   int particles = 0, seed = -1, threads = -1;
@@ -22,12 +22,13 @@ struct FilterArguments {
     app.add_option("-p,--proposal", proposal, "standard, improved, auxiliary_standard or auxiliary_optimal");
   }
   /// -n, -s, -j
-  void addParticles(CLI::App& app, const std::string& seedMeans = "same seed, same results to the byte") {
+  void addParticles(CLI::App& app,
+                    const std::string& seedMeans = "random seed; same seed: identical results") {
     app.add_option("-n,--particles", particles, "number of particles")->type_name("N");
     app.add_option("-s,--seed", seed, seedMeans)->type_name("N");
-    app.add_option("-j,--threads", threads, "threads over particles; 0: all cores")->type_name("N");
+    app.add_option("-j,--threads", threads, "number of threads; 0: all cores")->type_name("N");
   }
-  /// What was given, after the settings that are there.
+  /// Appends the given options to the settings.
   void addTo(std::vector<std::string>& settings, const CLI::App& app) const {
     if (!method.empty()) set(settings, "run.method", method);
     if (!proposal.empty()) set(settings, "particle_filter.proposal", proposal);

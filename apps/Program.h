@@ -1,5 +1,5 @@
 /// @file Program.h
-/// @brief What all programs do alike: command line in, exit code and one line of error out.
+/// @brief Common to all programs: command line in, exit code and a one-line error out.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,8 +14,8 @@
 
 namespace hybrid_slam {
 
-/// Says on standard error why the program ends, in one line whatever the user's words in it hold.
-/// HYBRID_SLAM_PROGRAM is its name, from CMake.
+/// Prints the error on one line of standard error, even if it quotes text with line breaks. CMake defines
+/// HYBRID_SLAM_PROGRAM, the program's name.
 /// @return the exit code
 inline int fail(int code, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -24,8 +24,8 @@ inline int fail(int code, std::string message) {
 }
 
 /// Reads the command line.
-/// @return the exit code where the program ends with that: --help, --version
-/// @throws InputError for a wrong one
+/// @return the exit code if the program ends here (--help, --version)
+/// @throws InputError for a wrong command line
 inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
@@ -37,8 +37,8 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Does a program's work: 2 is the exit code for a wrong input, 1 for every other exception.
-/// @param words  what to say of such another exception
+/// Runs a program's work. Exit code 2: wrong input; 1: any other exception.
+/// @param words  message for any other exception
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
   try {
@@ -50,7 +50,7 @@ inline int exitCodeOf(const std::function<int()>& work,
   }
 }
 
-/// What to say of a run that failed, which is known by its INI file.
+/// Message for a failed run, identified by its INI file.
 inline std::string runFailed(const std::string& config, const std::exception& error) {
   return "run failed: " + config + "; " + messageOf(error);
 }

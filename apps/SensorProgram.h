@@ -1,5 +1,5 @@
 /// @file SensorProgram.h
-/// @brief What programs that use sensors or sockets do besides: they outlive a device's faults.
+/// @brief For programs with sensors or sockets: survive device faults.
 #pragma once
 
 #include <csignal>
@@ -10,10 +10,10 @@
 
 namespace hybrid_slam {
 
-/// MRPT's sockets would end the program when a device hangs up.
+/// Without this, SIGPIPE from MRPT's sockets ends the program when a device hangs up.
 inline void ignoreHangUps() { std::signal(SIGPIPE, SIG_IGN); }
 
-/// Last of all: ends the program at once where a driver is still at work. @return the exit code, as it came
+/// Call last: exits immediately if a driver thread is still running. @return `code`
 inline int leaveDrivers(int code) {
   std::cout.flush();
   if (sensors::SensorThread::leftBehind() > 0) std::_Exit(code);

@@ -1,5 +1,5 @@
 /// @file Settings.h
-/// @brief What the command line says over the INI file: settings `SECTION.KEY=VALUE`.
+/// @brief Settings `SECTION.KEY=VALUE` that override the INI file.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,11 +10,11 @@ namespace hybrid_slam {
 
 /// Adds --set.
 inline void addSettings(CLI::App& app, std::vector<std::string>& settings,
-                        const std::string& purpose = "sets a key of the INI file; repeatable") {
+                        const std::string& purpose = "override a key of the INI file; repeatable") {
   app.add_option("--set", settings, purpose)->type_name("SECTION.KEY=VALUE")->allow_extra_args(false);
 }
 
-/// One more setting, stronger than those before.
+/// Appends a setting, which overrides earlier ones.
 inline void set(std::vector<std::string>& settings, const std::string& key, const std::string& value) {
   settings.push_back(key + "=" + value);
 }

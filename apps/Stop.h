@@ -1,5 +1,5 @@
 /// @file Stop.h
-/// @brief Ctrl-C: the first ends a program in good order, the second at once.
+/// @brief Ctrl-C: the first shuts the program down cleanly, the second kills it.
 #pragma once
 
 #include <atomic>
@@ -7,10 +7,10 @@
 
 namespace hybrid_slam {
 
-/// Whether the user has asked for the end. A handler of signals reaches nothing but a global.
+/// True once the user has asked to stop. Global because a signal handler can reach nothing else.
 inline std::atomic<bool> stop{false};
 
-/// From here on SIGINT and SIGTERM set `stop`, each once.
+/// SIGINT and SIGTERM set `stop`; each then gets its default action back.
 inline void stopOnSignals() {
   const auto onSignal = [](int signal) {
     stop = true;

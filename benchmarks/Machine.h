@@ -1,5 +1,5 @@
 /// @file Machine.h
-/// @brief What this machine can do: arithmetic and memory rates, measured.
+/// @brief Measured arithmetic and memory rates of this machine.
 #pragma once
 
 #include <emmintrin.h>
@@ -18,7 +18,7 @@ struct Machine {
                                               ///< kB, 8 MB, 192 MB
 };
 
-/// The best of so many runs: other programs only ever make one slower.
+/// The best of several runs: other programs can only slow a run down.
 template <class Work>
 double shortestNs(int runs, const Work& work) {
   double best = 1e300;

@@ -1,6 +1,5 @@
 /// @file kernels.cpp
-/// @brief The kernels of an update, timed by Google Benchmark, beside the least time that this machine could
-/// take.
+/// @brief The kernels of an update, timed by Google Benchmark, and their lower bounds on this machine.
 ///
 /// A kernel's lower bound is the greater of its arithmetic over the measured rate of additions and its bytes
 /// over the measured bandwidth of the cache that holds them. Arithmetic is counted in the source by hand:
@@ -23,7 +22,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// One run of a kernel: how many items it handles, and what each cannot do without.
+/// One run of a kernel: number of items, and the minimum work per item.
 struct Kernel {
   std::string name, item;
   double items;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The tables of doc/accuracy.md: the improved proposal on the public logs and the simulated loop, lines on and off, and
-# MRPT's own RBPF.
+# Tables of doc/accuracy.md: the improved proposal on the public logs and the simulated loop, with and without lines,
+# and MRPT's own RBPF.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
-# SEEDS=10 runs of each group. Interrupted, it goes on where it was.
+# SEEDS=10 runs per group. Resumes after an interruption.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/accuracy}
 seeds=${SEEDS:-10}
@@ -18,7 +18,7 @@ done
 [[ -f $out/csie-slip.rawlog ]] ||
   "$bin/simul-floorplan" -q config-ini/simul-csie-loop.ini --set "odometry.slips=120 30 0" -o "$out/csie-slip.rawlog"
 
-# revisits FOLDER: how far apart walls lie that runs on DP-SLAM's loop saw twice; there is no reference.
+# revisits FOLDER: revisit errors of runs on DP-SLAM's loop, which has no reference.
 revisits() {
   local run
   for run in "$1"/runs/*/; do
@@ -44,7 +44,7 @@ loop=(config-ini/csie-lms100.ini $csie/csie-loop.rawlog --reference $csie/csie-l
 "${improved[@]}" config-ini/lms-logs.ini "$out/dpslam-loop5.rawlog" -n 5,15 -o "$out/dpslam"
 revisits "$out/dpslam"
 
-# MRPT's own RBPF with its shipped ICP set-up; slow, so few seeds.
+# MRPT's own RBPF with its shipped ICP set-up; slow, hence few seeds.
 stock=("$bin/slam-compare" --seeds $((seeds < 3 ? seeds : 3)) --methods stock -n 10
   --variant "stock/shipped:@/usr/share/mrpt/config_files/rbpf-slam/gridmapping_RBPF_ICPbased_intel.ini")
 "${stock[@]}" "${intel[@]}" -o "$out/intel-stock"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Time and memory of hybrid-slam, beside MRPT's rbpf-slam on the same log in the same run, and of its kernels.
+# Time and memory of hybrid-slam and its kernels, and of MRPT's rbpf-slam on the same log in the same run.
 #   scripts/benchmark.sh [OUT]     OUT defaults to out/benchmark; the tables go to OUT/benchmark.md
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md); without it only the simulated worlds
-# are measured. FULL=1 adds what is slow: rbpf-slam's shipped ICP set-up, 5000 and 10000 particles, 5000 on the
-# CSIE loop too. COUNTS="10 30 100" chooses the numbers of particles. SKIP_KERNELS=1 leaves the
-# kernels out. Times are seconds of processor time unless they say otherwise: other programs disturb them least.
+# are measured. FULL=1 adds the slow runs: rbpf-slam's shipped ICP set-up, 5000 and 10000 particles, 5000 also on the
+# CSIE loop. COUNTS="10 30 100" sets the numbers of particles. SKIP_KERNELS=1 skips the kernels. Times are CPU seconds
+# unless stated otherwise, which other programs disturb least.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/benchmark}
 install_packages "${packages[@]}" libbenchmark-dev mrpt-apps time
@@ -15,7 +15,7 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 export OMP_NUM_THREADS=1
 
-# measure NAME COMMAND...: leaves `cpu wall megabytes` in NAME.cost.
+# measure NAME COMMAND...: writes `cpu wall megabytes` to NAME.cost.
 measure() {
   local name=$1
   shift
@@ -29,19 +29,19 @@ wall() { cut -d' ' -f2 "$out/$1.cost"; }
 memory() { cut -d' ' -f3 "$out/$1.cost"; }
 ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g", a / b }'; }
 
-# ours NAME LOG OPTION...: a run of hybrid-slam into OUT/NAME; on one core unless OPTION says otherwise. The standard
-# proposal runs every 0.3 m, not every metre as in the INI file: more work for the filter beside reading the log.
+# ours NAME LOG OPTION...: a run of hybrid-slam into OUT/NAME; on one core by default. The standard proposal updates
+# every 0.3 m, not every metre as in the INI file: more filter work relative to reading the log.
 ours() {
   local name=$1 log=$2
   shift 2
   measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/lms-logs.ini" "$log" -q -o "$out/$name" \
     --set particle_filter.update_distance=0.3 "$@"
 }
-# Milliseconds of processor time for each update of a run on one core.
+# CPU milliseconds per update of a run on one core.
 per_update() {
   awk -v t="$(cpu "$1")" -F'[:,]' '/"updates"/ { printf "%.3f", 1000 * t / $2 }' "$out/$1/metrics.json"
 }
-# Mean step_ms over the updates from share $2 to share $3 of a run.
+# Mean step_ms over the updates from fraction $2 to $3 of a run.
 mean_step() {
   awk -F, -v from="$2" -v to="$3" 'NR == 1 { while ($++column != "step_ms"); } NR > 1 { step[++n] = $column }
     END { for (i = int(from * n) + 1; i <= int(to * n); ++i) { sum += step[i]; ++count } printf "%.4f", sum / count }' \
@@ -115,13 +115,13 @@ intel_tables() {
     -v n="$n" 'BEGIN { printf "%.0f kB", 1024 * (b - a) / (n - 100) }')."
 }
 
-# A square building of SIZE m: a corridor 3 m wide along its walls, seen alike everywhere; LAPS times round it.
+# A square building of SIZE m with a uniform corridor 3 m wide along its walls; LAPS times round it.
 world() {
   local size=$1 laps=$2 name=$3 i
   {
     echo "rectangle 0 0 $size $size"
     echo "rectangle 3 3 $((size - 3)) $((size - 3))"
-    for ((i = 5; i < size - 5; i += 5)); do  # pillars, so that the corridor is not the same everywhere
+    for ((i = 5; i < size - 5; i += 5)); do  # pillars, so that the corridor is not uniform
       echo "rectangle $i 0 $i.4 0.4"
       echo "rectangle $i $((size - 1)).6 $i.4 $size"
       echo "rectangle 0 $i 0.4 $i.4"
@@ -178,7 +178,7 @@ simulated_tables() {
   if [[ -n ${HYBRID_SLAM_DATASETS:-} ]]; then
     intel_tables
   else
-    echo "HYBRID_SLAM_DATASETS is unset: the Intel log is left out (doc/datasets.md)" >&2
+    echo "HYBRID_SLAM_DATASETS is unset: the Intel log is skipped (doc/datasets.md)" >&2
   fi
   if [[ -z ${SKIP_KERNELS:-} ]]; then
     "$bin/hybrid-slam-kernels" >"$out/kernels.log" 2>&1

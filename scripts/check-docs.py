@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
-"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that makes it.
+"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that produces it.
 
-  scripts/check-docs.py                 the marks alone: takes no time
+  scripts/check-docs.py                 checks only the marks, instantly
   scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN (build/release/bin)
-  --root FOLDER                         checks the pages of another repository
+  --root FOLDER                         check the pages of another repository
 
-A mark is an HTML comment directly before the table or picture; it may be one of several:
+A mark is an HTML comment directly before the table or picture; there may be several:
 
-  <!-- made by: COMMAND -->                          remakes the table; too slow for a test
+  <!-- made by: COMMAND -->                          regenerates the table; too slow for a test
   <!-- checked by: COMMAND; tolerance 5 % -->        prints the table as Markdown within 60 s
-  <!-- checked by: COMMAND; tolerance 5 %; needs HYBRID_SLAM_DATASETS -->    is left out where that is unset
-  <!-- quoted: SOURCE -->                            figures that others have published
+  <!-- checked by: COMMAND; tolerance 5 %; needs HYBRID_SLAM_DATASETS -->    skipped if that is unset
+  <!-- quoted: SOURCE -->                            figures published by others
 
-COMMAND is run in the repository's root. It begins, after VARIABLE=VALUE, with a script of the repository, a program of
-apps/ or a hybrid_slam_*_test; its files, options, variables and --gtest_filter must exist there, and a word that follows
-a script must stand in the comment that the script begins with. A mark may also stand before an indented transcript.
+COMMAND runs in the repository's root. After optional VARIABLE=VALUE it starts with a script of the repository, a
+program of apps/ or a hybrid_slam_*_test. Its files, options, variables and --gtest_filter must exist there, and a word
+after a script must occur in the script's header comment. A mark may also precede an indented transcript.
 
-A table has figures, and needs a mark, if a cell beside its first column begins with a digit (`*`, `<` and the like are
-passed over), unless it is a reference table: its first column is headed by one of the words below and all `code`.
+A table has figures, and needs a mark, if a cell outside its first column begins with a digit (after `*`, `<` and the
+like), unless it is a reference table: its first column is all `code` and headed by one of the words below.
 
-`checked by` compares cell by cell, headings and first column included: the words must be equal, the numbers within the
-tolerance, in percent of the page's number."""
+`checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
+in percent of the page's number."""
 
 import argparse
 import fnmatch
@@ -62,7 +62,7 @@ def has_figures(rows):
 
 
 def source_of(root, word):
-    """The text of a script, a program or a test program; None if there is no such one."""
+    """The text of a script, a program or a test program; None if there is none."""
     test = re.fullmatch(r"hybrid_slam_(\w+)_test", word)
     if word.endswith((".sh", ".py")):
         files = [root / word]
@@ -106,7 +106,7 @@ def command_errors(root, command):
 
 
 def differences(page, made, tolerance):
-    """(row, what is wrong) of a page's table beside the table that its command printed."""
+    """(row, error) of each difference between a page's table and the command's."""
     if len(page) != len(made):
         return [(0, f"{len(page) - 1} rows, the command prints {len(made) - 1}")]
     found = []
@@ -128,7 +128,7 @@ class Checker:
         self.errors, self.skipped, self.marked, self.outputs = [], [], 0, {}
 
     def output_of(self, command):
-        """(tables that the command prints, "") or ([], why there are none); each command is run once."""
+        """(tables that the command prints, "") or ([], why there are none); runs each command once."""
         if command not in self.outputs:
             environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}
             run = subprocess.run(["timeout", "-k", "5", str(TIME_LIMIT), "bash", "-c", command], cwd=self.root,
@@ -140,7 +140,7 @@ class Checker:
         return self.outputs[command]
 
     def check_figures(self, place, rows, check):
-        """Compares a page's table with the one that its command prints; of several, with the one of the same headings."""
+        """Compares a page's table with its command's; of several, with the one with the same headings."""
         command, tolerance, needed = check[1], float(check[2]), check[3]
         if needed and not os.environ.get(needed):
             self.skipped.append(f"{place(0)}: skipped, {needed} is unset: {command}")

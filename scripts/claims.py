@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What the experiments say, as sentences that hold or do not.
+"""Checks the claims of the documentation against the experiments.
 
   scripts/claims.py FOLDER     FOLDER/weights of scripts/sweep-weights.sh, FOLDER/particles of scripts/sweep-particles.sh
 
-Each sentence is printed with its figures and "holds" or "DOES NOT HOLD". Ends with 1 if one does not hold, so that other
-seeds (FIRST_SEED) can be asked the same questions."""
+Prints each claim with its figures and "holds" or "DOES NOT HOLD". Exits with 1 if one does not hold, for checks with
+other seeds (FIRST_SEED)."""
 import importlib.util
 import sys
 from pathlib import Path
@@ -13,7 +13,7 @@ spec = importlib.util.spec_from_file_location("tables", Path(__file__).with_name
 tables = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(tables)
 
-SIGNIFICANT = 0.01  # about 20 comparisons are made: one in five such sets would have one below it by chance
+SIGNIFICANT = 0.01  # about 20 comparisons: in one of five such sets, one is below it by chance
 
 
 def by_name(folder):

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and maps the Malaga loop that Debian's mrpt-common package brings.
+# Installs the dependencies, builds, and maps the Malaga loop of Debian's mrpt-common package.
 source "$(dirname "$0")/lib.sh"
 install_packages "${packages[@]}"
 build release hybrid-slam
@@ -8,4 +8,4 @@ build/release/bin/hybrid-slam config-ini/malaga.ini -o "$out"
 echo
 echo "The map, with the path in red, the line database in green and the robot in light blue:"
 echo "  $(realpath "$out")/map.png"
-echo "What the other files are: doc/results.md"
+echo "The other files: doc/results.md"

@@ -6,7 +6,7 @@
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
-The tables go to standard output, too. Needs gnuplot for the figures."""
+Also prints the tables. Needs gnuplot for the figures."""
 import json
 import math
 import subprocess
@@ -16,7 +16,7 @@ from pathlib import Path
 WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
           "sheared-6": "CSIE, sheared 6 deg", "wing": "wing at 30 deg", "intel": "Intel", "csail": "MIT CSAIL",
           "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
-ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first that a world has
+ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first available in a world
 
 
 class Group:
@@ -38,7 +38,7 @@ class Group:
         return self.successes / self.runs
 
     def is_better(self, p):
-        """Than the first group, over the seeds of both: more successes (McNemar) or smaller errors (Wilcoxon)."""
+        """Better than the first group over common seeds: more successes (McNemar) or smaller errors (Wilcoxon)."""
         fewer_fail = self.success_p < p and self.rate > self.first.rate
         ratio = self.against.get("median_ratio")
         return fewer_fail or (ratio is not None and ratio < 1 and self.against["wilcoxon_p"] < p)
@@ -115,7 +115,7 @@ set key off
 
 
 def legend(lines, levels):
-    """A panel of its own, which leaves the plots their room."""
+    """The legend in a separate panel, to save space in the plots."""
     entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
     entries += [f"NaN with lines dt 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in levels]
     return f"unset border\nunset tics\nunset xlabel\nunset ylabel\nset title ''\nset key center\nplot {', '.join(entries)}\n"
@@ -139,7 +139,7 @@ def search(folder):
     rows = []
     for name in by_world[worlds[0]]:
         of_name = [by_world[w][name] for w in worlds]
-        # Successes first; among equals the geometric mean of the errors, each at most 5 m.
+        # Successes first; ties: geometric mean of the errors, each capped at 5 m.
         errors = [min(g.median or 5, 5) for g in of_name]
         rank = (-sum(g.successes for g in of_name), math.prod(errors))
         rows.append((rank, [name, str(-rank[0]), *(g.cell() for g in of_name)]))

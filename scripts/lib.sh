@@ -9,7 +9,7 @@ packages=(
   gnuplot-nox
 )
 
-# Installs the Debian packages that are missing, as root or by sudo.
+# Installs missing Debian packages, as root or with sudo.
 install_packages() {
   local missing=() package
   for package in "$@"; do

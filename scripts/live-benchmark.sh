@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # How well hybrid-slam-live keeps up on the simulated CSIE building: 541 beams, 50 particles, 5 cm, two threads.
 #   scripts/live-benchmark.sh [MINUTES [RATE...]]
-# A log of MINUTES (10) at each RATE in cycles a second; 0 is its own pace of 5 (0 10 20 40 80). Prints latency, skipped
-# and lost cycles, and whether the recording's replay gives the same bytes.
+# Replays a log of MINUTES (10) at each RATE in cycles per second; 0: real time, 5 (0 10 20 40 80). Prints latency,
+# skipped and lost cycles, and whether replaying the recording gives identical results.
 source "$(dirname "$0")/lib.sh"
 minutes=${1:-10}
 shift || true
@@ -15,12 +15,12 @@ trap '[[ -n $server ]] && kill "$server" 2>/dev/null; rm -rf "$work"' EXIT
 
 "$bin/simul-floorplan" config-ini/simul-csie.ini -q -o "$work/csie.rawlog" --set simulation.scans=$((minutes * 300))
 
-# run RATE: 0 is the log's own pace. Only one observation-server and one hybrid-slam-live run at a time.
+# run RATE: 0: real time. Runs only one observation-server and one hybrid-slam-live at a time.
 run() {
   local rate=$1 out=$work/out-$1
   printf '[server]\nport = 0\nrawlog = %s\nreplay_rate = %s\nwait_for_clients = 1\n' "$work/csie.rawlog" "$rate" \
     >"$work/server.ini"
-  rm -f "$work/server.out"  # that of the rate before names another port
+  rm -f "$work/server.out"  # the previous run's file names another port
   "$bin/observation-server" "$work/server.ini" >"$work/server.out" 2>"$work/server.err" &
   server=$!
   local address=

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Remakes the simulated CSIE logs, byte for byte: rawlog, ground truth, picture of each of the three routes.
+# Regenerates the simulated CSIE logs, byte for byte: rawlog, ground truth and picture of each of the three routes.
 # usage: scripts/make-csie.sh [FOLDER [SIMUL_FLOORPLAN]]
-#   FOLDER           where to write (default: datasets/csie)
+#   FOLDER           output folder (default: datasets/csie)
 #   SIMUL_FLOORPLAN  the program (default: build/release/bin/simul-floorplan)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)

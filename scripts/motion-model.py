@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The tables of doc/motion-model.md, as Markdown.
+"""Tables of doc/motion-model.md, as Markdown.
 
   HYBRID_SLAM_DATASETS=FOLDER scripts/motion-model.py beliefs [OUT]   particles that learn the means on the way
   HYBRID_SLAM_DATASETS=FOLDER scripts/motion-model.py learnt [OUT]    models that motion-model-learn has learnt
 
 OUT defaults to out/motion-model. SEEDS sets the runs of each group (beliefs: 20, learnt: 10). The programs are those of
-build/release/bin. Interrupted, it goes on where it was."""
+build/release/bin. Resumes after an interruption."""
 
 import csv
 import os
@@ -31,7 +31,7 @@ def run(program, *arguments):
 
 
 def compare(name, ini, log, figure, *options):
-    """The figure of each run, by variant; "" is the INI file as it is."""
+    """The figure of each run by variant; "": the plain INI file."""
     run("slam-compare", ini, log, "--methods", "hybrid", *options, "-o", OUT / name)
     values = {}
     with open(OUT / name / "results.csv") as file:
@@ -74,7 +74,7 @@ def beliefs():
 
 
 def learn(name, ini, log, *options):
-    """`ini` with the model that was learnt."""
+    """`ini` with the learnt model."""
     learnt, motion = OUT / f"{name}.ini", OUT / f"{name}-motion.ini"
     if not learnt.exists():
         run("motion-model-learn", ini, log, "-o", motion, *options)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The table of doc/performance.md by hybrid-slam --profile: where an update's time goes, Intel log, one core.
+# The table of doc/performance.md from hybrid-slam --profile: time per stage of an update, Intel log, one core.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/profile-table.sh [OUT]     OUT defaults to out/profile
-# The programs are those of build/release/bin.
+# Uses the programs in build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=build/release/bin
@@ -10,7 +10,7 @@ logs=${HYBRID_SLAM_DATASETS:?the folder of the public logs, see doc/datasets.md}
 mkdir -p "$out"
 "$bin/log2rawlog" "$logs/intel-lab.clf.gz" "$out/intel.rawlog" >&2
 
-# profile NAME OPTION...: OUT/NAME.txt has a row `STAGE<tab>SECONDS` for each stage, the last is of the whole run.
+# profile NAME OPTION...: writes a row `STAGE<tab>SECONDS` per stage to OUT/NAME.txt; the last row is the whole run.
 profile() {
   local name=$1
   shift

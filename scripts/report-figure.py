@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plots of reports of slam-compare as one picture.
+"""Combines plots of slam-compare reports into one picture.
 
   scripts/report-figure.py OUT.png COLUMNS REPORT.html LABEL... [REPORT.html LABEL...]
 

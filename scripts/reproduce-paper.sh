@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The paper's experiments on the simulated CSIE building and the same questions on other buildings and public logs:
+# The paper's experiments on the simulated CSIE building, and the same on other buildings and public logs:
 #   scripts/reproduce-paper.sh [OUT]     OUT defaults to out/paper
-# SEEDS=20 runs of each group from FIRST_SEED=1 on (other seeds, other runs). Ends with the sentences that the
-# documentation states and whether they hold with these seeds. Interrupted, it goes on where it was. About 4 hours on
-# two cores; the public logs need HYBRID_SLAM_DATASETS (doc/datasets.md).
+# SEEDS=20 runs per group from FIRST_SEED=1 on. Finally checks the claims of the documentation with these seeds.
+# Resumes after an interruption. Takes about 4 hours on two cores; the public logs need HYBRID_SLAM_DATASETS
+# (doc/datasets.md).
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/paper}
 export SEEDS=${SEEDS:-20} FIRST_SEED=${FIRST_SEED:-1}
@@ -13,7 +13,7 @@ bin=build/release/bin
 source scripts/worlds.sh
 csie=datasets/csie
 
-# slam-compare ends with 1 if a run failed; the report says which, and the other experiments go on.
+# slam-compare exits with 1 if a run failed; the report names it, and the other experiments continue.
 failed=0
 experiment() {
   echo "== $1: $(date -u +%H:%M)"
@@ -24,14 +24,14 @@ experiment() {
 experiment "Line weights over their parameters" scripts/sweep-weights.sh "$out/weights"
 experiment "Fig. 4 and Fig. 6: the loop; success against particles" scripts/sweep-particles.sh "$out/particles"
 
-# `general` with its own best settings; eq. (9) as printed beside the default.
+# `general` with its own best settings; eq. (9) as printed and the default.
 compare=("$bin/slam-compare" -q --seeds "$SEEDS" --first-seed "$FIRST_SEED" --methods hybrid,general --particles 20
   --variant "general/best:$general_best" --variant hybrid/eq9:line_weight.method=paper config-ini/csie-lms100.ini)
 experiment "Fig. 3: doorways and sudden turns" \
   "${compare[@]}" $csie/csie-doorways.rawlog --set run.particles_every=1 --reference $csie/csie-doorways.tum \
   --floorplan $csie/csie.plan -o "$out/fig3"
-# How much the lines narrow the spread depends on how much the weight of the grid has left of it: a report for each
-# exponent, which both filters have. A group stands against the first of its report.
+# The effect of lines on the spread depends on the strength of the grid weight: one report per exponent, equal for both
+# filters. Groups are compared with the first of their report.
 few=("$bin/slam-compare" -q --seeds "$SEEDS" --first-seed "$FIRST_SEED" --methods hybrid,general --particles 20
   config-ini/csie-lms100.ini)
 for exponent in 25 6 2 1; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The tables of doc/slam-eval.md: slam-eval revisits on good and bad maps of logs that have no reference.
+# Tables of doc/slam-eval.md: slam-eval revisits on good and bad maps of logs without a reference.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/revisits-table.sh [OUT]     OUT defaults to out/revisits
-# The programs are those of build/release/bin.
+# Uses the programs in build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=build/release/bin
@@ -38,7 +38,7 @@ row "$loop" 8 stock "${dpslam[@]}" 10 1 -m stock
 row "$malaga" 3 "hybrid, improved" config-ini/malaga.ini 10 1 -p improved
 row "$malaga" 3 hybrid config-ini/malaga.ini 10 1
 
-# The last tenth of the first of these trajectories moved aside: what a wall that is drawn twice gives.
+# The last tenth of the first of these trajectories, shifted: the result for a doubled wall.
 closed=$out/hybridimproved-lms-logs-15-1/trajectory.tum
 scans=$(wc -l <"$closed")
 head="| moved aside by (m) |" rule="|---|" cells="| \`median_m\` |"

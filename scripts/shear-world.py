@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shears a floor plan or a route (doc/simulation.md): walls along y lean by DEG, walls along x stay.
+"""Shears a floor plan or a route (doc/simulation.md): walls along y are tilted by DEG, walls along x unchanged.
 
 usage: shear-world.py DEG < in.plan > out.plan        (the same for a route)
 

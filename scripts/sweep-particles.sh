@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Success against the number of particles: with lines, with eq. (9) as printed, without lines, and MRPT's own filter.
-# Table and figure of doc/experiments.md and README.md.
+# Tables and figure of doc/experiments.md and README.md.
 #   scripts/sweep-particles.sh [OUT]     OUT defaults to out/particles
-# SEEDS=20 runs of each group from FIRST_SEED=1 on, half of them on Killian Court, a fifth for MRPT's filter and above
-# 200 particles, which are run where 200 do not always succeed; WORLDS="csie" chooses some.
-# Interrupted, it goes on where it was. About 1 hour on two cores. Intel and Killian need HYBRID_SLAM_DATASETS.
+# SEEDS=20 runs per group from FIRST_SEED=1 on; half as many on Killian Court, a fifth for MRPT's filter and above 200
+# particles, which run only if 200 do not always succeed. WORLDS="csie" selects worlds. Resumes after an interruption.
+# Takes about 1 hour on two cores. Intel and Killian need HYBRID_SLAM_DATASETS.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/particles}
 bin=build/release/bin
@@ -28,7 +28,7 @@ sweep() {
     compare "$1" "$out/worlds" "${options[@]}" --seeds "$few" --methods general "${best[@]}" -n 500,2000 \
       -o "$out/$1-many"
 }
-# MRPT's filter takes several gigabytes for 200 particles, and tens of them on Killian Court.
+# MRPT's filter needs several gigabytes for 200 particles, and tens of gigabytes on Killian Court.
 stock() {
   echo "== $1, MRPT's filter: $(date -u +%H:%M)"
   compare "$1" "$out/worlds" "${options[@]}" --seeds "$few" --methods stock -n 5,20,50,200 -o "$out/$1-stock"

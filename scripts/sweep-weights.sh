@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The line weight over its free parameters, on every world and with both proposals: eq. (9) over its threshold, the
-# graded weights over sigma, no lines. Tables and figure of doc/experiments.md.
+# Sweeps the free parameters of the line weights in every world with both proposals: threshold of eq. (9), sigma of the
+# graded weights, no lines. Tables and figure of doc/experiments.md.
 #   scripts/sweep-weights.sh [OUT]     OUT defaults to out/weights
-# SEEDS=20 runs of each group from FIRST_SEED=1 on; WORLDS="csie intel" chooses some. Interrupted, it goes on where it
-# was. About 1.5 hours on two cores. The public logs need HYBRID_SLAM_DATASETS.
+# SEEDS=20 runs per group from FIRST_SEED=1 on; WORLDS="csie intel" selects worlds. Resumes after an interruption.
+# Takes about 1.5 hours on two cores. The public logs need HYBRID_SLAM_DATASETS.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/weights}
 bin=build/release/bin

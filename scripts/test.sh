@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test. Extra arguments go to ctest (-R NAME, ...).
-# HYBRID_SLAM_PRESET chooses the build: release (default), debug or sanitize.
+# Installs the dependencies, builds and runs all tests. Extra arguments go to ctest (-R NAME, ...). HYBRID_SLAM_PRESET
+# selects the build: release (default), debug or sanitize.
 source "$(dirname "$0")/lib.sh"
 preset=${HYBRID_SLAM_PRESET:-release}
 install_packages "${packages[@]}"

@@ -1,16 +1,16 @@
-# The worlds of the experiments; sourced by the scripts that compare on them (after lib.sh, with `bin` set).
-# Simulated ones are made, public logs converted, from HYBRID_SLAM_DATASETS (doc/datasets.md).
+# The worlds of the experiments; sourced by the scripts that use them (after lib.sh, with `bin` set). Simulates logs
+# and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md).
 
 simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)
 public_worlds=()
 [[ -z ${HYBRID_SLAM_DATASETS:-} ]] || public_worlds=(intel csail killian fr079 dpslam)
 
-# What `general` does best with: standard proposal, found by scripts/search-settings.sh on seeds from 101 on; improved
-# proposal, without learning the odometry's systematic error (doc/experiments.md).
+# Best settings of `general`: standard proposal, from scripts/search-settings.sh with seeds from 101 on; improved
+# proposal, without learning the systematic odometry error (doc/experiments.md).
 general_best=grid_weight.exponent=120,grid_weight.sigma=0.2,grid_weight.beams=90
 general_best_improved=motion_model.distance_mean_std=0,motion_model.drift_mean_std=0,motion_model.turn_mean_std=0
 
-# make_worlds FOLDER: plans, routes and logs of all worlds; those that are there are kept.
+# make_worlds FOLDER: plans, routes and logs of all worlds; keeps existing ones.
 make_worlds() {
   local folder=$1 csie=$PWD/datasets/csie world log
   mkdir -p "$folder"
@@ -44,9 +44,9 @@ log_of() {
   esac
 }
 
-# compare WORLD FOLDER OPTION...: slam-compare on a world of FOLDER with what is known of its truth. A run on a public
-# log succeeds below 0.1 m of mean translation error; Killian Court, 1.9 km with stamps that are good to 0.02 m, below
-# 0.3 m; DP-SLAM's loop, which has no reference, by the walls seen again.
+# compare WORLD FOLDER OPTION...: slam-compare on a world of FOLDER with its ground truth. A run on a public log
+# succeeds if the mean translation error is below 0.1 m (Killian Court, 1.9 km with timestamps accurate to 0.02 m: 0.3
+# m); on DP-SLAM's loop, which has no reference, by the revisit error.
 compare() {
   local world=$1 folder=$2 log truth
   shift 2
@@ -62,6 +62,6 @@ compare() {
         --floorplan "$folder/$world.plan")
       ;;
   esac
-  # slam-compare ends with 1 if a run failed; the report says which, and the other comparisons go on.
+  # slam-compare exits with 1 if a run failed; the report names it, and the other comparisons continue.
   "$bin/slam-compare" "${truth[@]}" "$@" || [[ $? -eq 1 ]]
 }

@@ -12,7 +12,7 @@
 
 namespace hybrid_slam::test {
 
-/// The locale of the whole program, C's and C++'s, while it lives. Made here: German is not installed
+/// Sets the program's C and C++ locale for its lifetime. Compiles the locale itself: German is not installed
 /// everywhere.
 class CommaLocale {
  public:
@@ -20,7 +20,7 @@ class CommaLocale {
     folder_ = ::mkdtemp(folder_.string().data());
     std::ofstream(folder_ / "source") << "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\n"
                                          "grouping 3;3\nEND LC_NUMERIC\n";
-    // It warns of the categories that are not there.
+    // It warns about missing categories.
     const std::string command = "localedef -c -i '" + (folder_ / "source").string() + "' '" +
                                 (folder_ / "xx_XX").string() + "' >/dev/null 2>&1 || true";
     if (std::system(command.c_str()) != 0) std::abort();

@@ -1,5 +1,5 @@
 /// @file Happens.h
-/// @brief For the tests: waiting for what other threads and programs do.
+/// @brief For the tests: waits for other threads and programs.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::test {
 
-/// Waits for a condition; a minute is for machines that are busy, not for what is being waited for.
+/// Waits up to a minute for a condition; the margin is for busy machines.
 inline bool happens(const std::function<bool()>& condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!condition()) {

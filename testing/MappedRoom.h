@@ -1,5 +1,5 @@
 /// @file MappedRoom.h
-/// @brief For the tests: a particle that has mapped what is around it, and scans of that.
+/// @brief For the tests: a particle that has mapped its surroundings, and scans of them.
 #pragma once
 
 #include <mrpt/math/wrap2pi.h>
@@ -22,7 +22,7 @@ inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStr
           LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan[0])};
 }
 
-/// A particle at `start` that has mapped the walls around.
+/// A particle at `start` that has mapped the surrounding walls.
 inline Particle particleAt(const Walls& walls, const TPose2D& start) {
   RandomStream random(1, 0, 0);
   Particle particle;

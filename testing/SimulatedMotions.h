@@ -1,5 +1,5 @@
 /// @file SimulatedMotions.h
-/// @brief For the tests: odometry of a made drive, and how well a log of it tells the parameters.
+/// @brief For the tests: odometry of a simulated drive, and how well its log determines the parameters.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::test {
 
-/// A model that every parameter of which differs from the default's.
+/// A model in which every parameter differs from the default.
 inline MotionModelOptions trueModel() {
   MotionModelOptions o;
   o.distance = {0.97, 0.02, 0.004, 0.0009};
@@ -18,7 +18,7 @@ inline MotionModelOptions trueModel() {
   return o;
 }
 
-/// What the odometry says of steps of 0 to 0.6 m and up to 40 deg to either side.
+/// Odometry of steps of 0 to 0.6 m and up to 40 deg to either side.
 inline std::vector<mrpt::math::TPose2D> randomOdometry(size_t steps, RandomStream& random) {
   std::vector<mrpt::math::TPose2D> all;
   for (size_t i = 0; i < steps; ++i) {
@@ -28,7 +28,7 @@ inline std::vector<mrpt::math::TPose2D> randomOdometry(size_t steps, RandomStrea
   return all;
 }
 
-/// What really happened in such steps.
+/// True motions for such steps.
 inline std::vector<MotionSample> simulate(const MotionModelOptions& model,
                                           const std::vector<mrpt::math::TPose2D>& odometry,
                                           RandomStream& random) {
@@ -44,8 +44,8 @@ inline Parameters parametersOf(const MotionTerm& term) {
   return {term.meanD, term.meanT, term.varianceD, term.varianceT};
 }
 
-/// The least standard errors (Cramer-Rao) with which the steps tell a term's parameters, where its values are
-/// seen with a further variance `noise`.
+/// Cramer-Rao bounds on the standard errors of a term's parameters, with additional observation variance
+/// `noise`.
 inline Parameters standardErrors(const MotionTerm& term, double minStd,
                                  const std::vector<mrpt::math::TPose2D>& odometry, double noise = 0) {
   Eigen::Matrix2d means = Eigen::Matrix2d::Zero(), variances = Eigen::Matrix2d::Zero();

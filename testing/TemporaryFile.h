@@ -1,5 +1,5 @@
 /// @file TemporaryFile.h
-/// @brief For the tests: a text file that is gone afterwards.
+/// @brief For the tests: a temporary text file.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /// @file TestEvents.h
-/// @brief For the tests: events that can be looked at.
+/// @brief For the tests: captured events.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 /// @file TestLogs.h
-/// @brief For the tests: observations of a robot in a rectangular room, and logs made of them.
+/// @brief For the tests: observations of a robot in a rectangular room, and logs of them.
 #pragma once
 
 #include <mrpt/core/Clock.h>
@@ -46,7 +46,7 @@ inline double rangeInRoom(double x, double y, double heading) {
   return std::min(alongX, alongY);
 }
 
-/// What a laser of 180 deg at the robot's centre sees of the room.
+/// Scan of the room by a 180 deg laser at the robot's centre.
 inline CObservation2DRangeScan::Ptr scan(double time, const TPose2D& pose = {}, size_t beams = 181,
                                          const std::string& label = "LASER") {
   auto out = CObservation2DRangeScan::Create();
@@ -94,8 +94,8 @@ inline TPose2D poseOnLap(size_t step, size_t stepsPerLap) {
   return {2 * std::cos(a), std::sin(a), std::atan2(std::cos(a), -2 * std::sin(a))};
 }
 
-/// Laps in the room as observations only: an odometry reading and a scan at the same time, 5 of them a second
-/// from 1000 s on.
+/// Laps in the room as observations only: an odometry reading and a scan at the same time, 5 per second from
+/// 1000 s on.
 inline Log laps(size_t steps, size_t stepsPerLap = 80, size_t beams = 181) {
   Log log;
   for (size_t i = 0; i < steps; ++i) {
@@ -112,7 +112,7 @@ inline std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Writes a gzipped rawlog; gives its path.
+/// Writes a gzipped rawlog; returns its path.
 inline std::string writeGzipped(const std::string& path, const Log& log) {
   files::RawlogWriter writer(path);
   for (const auto& object : log) writer.write(*object);
@@ -120,7 +120,7 @@ inline std::string writeGzipped(const std::string& path, const Log& log) {
   return path;
 }
 
-/// The same without compression; `ends` takes the number of bytes up to the end of each object.
+/// Likewise without compression; `ends` receives the end offset of each object.
 inline std::string writePlain(const std::string& path, const Log& log, std::vector<size_t>* ends = nullptr) {
   mrpt::io::CFileOutputStream out(path);
   auto archive = mrpt::serialization::archiveFrom(out);

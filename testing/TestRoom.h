@@ -1,5 +1,5 @@
 /// @file TestRoom.h
-/// @brief For the tests: a robot that drives squares in a made room, with a laser and bad odometry.
+/// @brief For the tests: a robot that drives squares in a simulated room, with a laser and poor odometry.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>
@@ -42,8 +42,8 @@ struct DriveStep {
   mrpt::obs::CObservation2DRangeScan scan;
 };
 
-/// `sides` sides of a square of 4 m in steps of 0.25 m and 15 deg; the odometry is 3 % long and turns 4 % too
-/// little, and wavers by 1 cm and 0.3 deg in each step.
+/// `sides` sides of a square of 4 m in steps of 0.25 m and 15 deg; odometry distances are 3 % too long and
+/// turns 4 % too small, with noise of 1 cm and 0.3 deg per step.
 inline std::vector<DriveStep> drive(int sides, uint64_t seed = 1) {
   RandomStream random(seed, 0, 0);
   std::vector<DriveStep> steps = {{{}, {}, roomScan({}, random)}};
@@ -73,7 +73,7 @@ inline void feed(mrpt::slam::CMetricMapBuilder& builder, const DriveStep& step) 
   builder.processActionObservation(action, observations);
 }
 
-/// Poses of the robot whenever the filter ran.
+/// Poses of the robot at the filter updates.
 struct Replayed {
   std::vector<TPose2D> truth, odometry;
 };
@@ -101,7 +101,7 @@ inline double rms(const std::vector<TPose2D>& path, const std::vector<TPose2D>& 
   return std::sqrt(sum / static_cast<double>(path.size()));
 }
 
-/// The motion model that the drive's odometry deserves, 20 particles.
+/// The motion model that fits the drive's odometry, 20 particles.
 inline FilterConfiguration roomConfiguration() {
   FilterConfiguration c;
   c.filter.particles = 20;

@@ -1,5 +1,5 @@
 /// @file TestRoomGrid.h
-/// @brief For the tests: a made room or a corridor, its map, and scans of it.
+/// @brief For the tests: a simulated room or corridor, its map, and scans of it.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -20,10 +20,10 @@ struct Box {
 };
 
 inline constexpr Box kRoom{-3, -2.5, 5, 3.5};
-inline constexpr Box kCorridor{-1000, -1.2, 1000, 1.2};  ///< its ends are beyond the reach of the laser
+inline constexpr Box kCorridor{-1000, -1.2, 1000, 1.2};  ///< its ends are out of range
 inline constexpr Box kPillar{2, 0.5, 2.6, 1.2};          ///< breaks the room's symmetry
 
-/// Distance to the walls around (and of the pillar before) the robot.
+/// Distance from the robot to the walls or the pillar.
 inline double castRay(const Box& room, double x, double y, double heading) {
   const double dx = std::cos(heading), dy = std::sin(heading);
   const auto reach = [](double from, double low, double high, double direction) {
@@ -59,7 +59,7 @@ inline ScanBeams beamsAt(const Box& room, const mrpt::math::TPose2D& robot, Rand
   return ScanBeams(scanAt(room, robot, random));
 }
 
-/// The map that 60 scans from all over the robot's place make.
+/// Map of 60 scans from all over the robot's area.
 inline OccupancyGrid gridOf(const Box& room, uint64_t seed = 1) {
   RandomStream random(seed, 0, 0);
   OccupancyGrid grid(0.05);

@@ -35,7 +35,7 @@ inline Walls polygon(const std::vector<TPoint2D>& corners) {
   return walls;
 }
 
-/// Distance from `origin` to the nearest wall along `heading`; infinite where there is none.
+/// Distance from `origin` to the nearest wall along `heading`; infinite if there is none.
 inline double castRay(const Walls& walls, const TPoint2D& origin, double heading) {
   const double dx = std::cos(heading), dy = std::sin(heading);
   double nearest = std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ inline double castRay(const Walls& walls, const TPoint2D& origin, double heading
   return nearest;
 }
 
-/// What a laser of `aperture` rad at `sensor` on a robot at `robot` (map frame) sees of the walls.
+/// Scan of a laser with `aperture` rad at `sensor` on a robot at `robot` (map frame).
 inline LaserScan scanOf(const Walls& walls, const TPose2D& robot, const TPose2D& sensor, size_t beams,
                         double aperture, double noise, RandomStream& random) {
   LaserScan scan;
@@ -79,8 +79,8 @@ inline LineSegment randomSegment(RandomStream& random, double reach) {
                      TPoint2D(uniform(random, -reach, reach), uniform(random, -reach, reach)));
 }
 
-/// `n` points on x cos(theta) + y sin(theta) = rho, evenly from `from` to `to` m beside the foot of the
-/// origin's perpendicular, each moved off the line by `noise` m (1 sigma).
+/// `n` points on x cos(theta) + y sin(theta) = rho, evenly from `from` to `to` m from the foot of the
+/// perpendicular, each with `noise` m (1 sigma) across the line.
 inline std::vector<TPoint2D> pointsOnLine(double rho, double theta, double from, double to, int n,
                                           double noise, RandomStream& random) {
   std::vector<TPoint2D> points;
@@ -97,7 +97,7 @@ inline double angleBetween(double theta1, double theta2) {
   return std::abs(std::remainder(theta1 - theta2, M_PI));
 }
 
-/// Both describe one line: equal in the representation whose normals agree.
+/// Distance between two lines, compared in the representation with agreeing normals.
 inline double lineDistance(double rho1, double theta1, double rho2, double theta2) {
   const double sign = std::cos(theta1 - theta2) < 0 ? -1 : 1;
   return std::max(std::abs(rho1 - sign * rho2), angleBetween(theta1, theta2));

@@ -1,5 +1,5 @@
 /// @file ChildProgram.h
-/// @brief For the tests: a program that runs beside the test.
+/// @brief For the tests: a program in a separate process.
 #pragma once
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 
 namespace hybrid_slam::test {
 
-/// Started without a shell between; it does not outlive the object.
+/// Started without a shell; does not outlive the object.
 class ChildProgram {
  public:
   /// @param name  of the files in the folder that take its output: NAME.out and NAME.err

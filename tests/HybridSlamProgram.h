@@ -1,5 +1,5 @@
 /// @file HybridSlamProgram.h
-/// @brief For the tests: hybrid-slam as a user sees it: exit code, messages, files.
+/// @brief For the tests: runs hybrid-slam; exit code, messages, files.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ class HybridSlam : public testing::Test {
     err = outcome.err;
     return outcome.status;
   }
-  /// Replays a log with the made INI into `output`.
+  /// Replays a log with the test's INI file into `output`.
   int replay(const std::string& log, const std::string& options = "", const std::string& before = "") {
     return run("'" + ini + "' '" + log + "' -o '" + output + "' " + options, before);
   }
@@ -35,7 +35,7 @@ class HybridSlam : public testing::Test {
   }
   std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
   std::vector<std::string> results() const { return test::namesIn(output); }
-  /// Exit 2, one line that says so, and no file.
+  /// Exit 2, one error line, no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "hybrid-slam", text);
     EXPECT_THAT(results(), testing::IsEmpty());

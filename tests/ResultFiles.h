@@ -1,5 +1,5 @@
 /// @file ResultFiles.h
-/// @brief For the tests: what a run leaves in its folder.
+/// @brief For the tests: result files of a run.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ inline const std::vector<std::string> kResults{"trajectory.tum", "map.png",     
                                                "map.gridmap.gz", "map.simplemap.gz", "lines.csv", "steps.csv",
                                                "metrics.json",   "config.ini"};
 
-/// What is in a folder; nothing is where there is none.
+/// Contents of a folder; empty if there is none.
 inline std::vector<std::string> namesIn(const std::string& folder) {
   std::vector<std::string> names;
   if (std::filesystem::is_directory(folder))

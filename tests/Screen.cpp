@@ -1,4 +1,4 @@
-// Apart from the test, as Xlib's macros are not to be seen by GoogleTest.
+// Separate from the test, because Xlib's macros clash with GoogleTest.
 #include "Screen.h"
 
 #include <X11/Xlib.h>

@@ -1,5 +1,5 @@
 /// @file Screen.h
-/// @brief What the X server shows. (wxScreenDC would give the first picture again and again: cairo keeps it.)
+/// @brief Reads the X server's screen. (wxScreenDC would always return the first picture, cached by cairo.)
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 /// @file Shell.h
-/// @brief For the tests: programs as their users call them, from a shell.
+/// @brief For the tests: runs programs from a shell, like users.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ inline Outcome shell(const files::TemporaryFolder& folder, const std::string& co
           test::contentOf(folder.path(".err"))};
 }
 
-/// What standard error looks like after an error, as a regular expression: what, where, what was expected.
+/// Standard error after an error, as a regular expression: what, where, what was expected.
 inline std::string errorLineOf(const std::string& program) {
   return program + ": error: [^\n]*: [^\n]*; [^\n]*\n";
 }
@@ -41,7 +41,7 @@ inline void expectInputError(const Outcome& outcome, const std::string& program,
   EXPECT_THAT(outcome.err, testing::HasSubstr(part));
 }
 
-/// A run of more than ten seconds, on a busy machine, says how far it is.
+/// A run of more than ten seconds, on a busy machine, prints progress.
 inline std::string withoutProgress(const std::string& err) {
   return std::regex_replace(err, std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"), "");
 }

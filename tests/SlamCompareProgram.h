@@ -1,5 +1,5 @@
 /// @file SlamCompareProgram.h
-/// @brief For the tests: slam-compare called in a folder of its own.
+/// @brief For the tests: runs slam-compare in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

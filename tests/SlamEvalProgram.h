@@ -1,5 +1,5 @@
 /// @file SlamEvalProgram.h
-/// @brief For the tests: slam-eval called in a folder of its own.
+/// @brief For the tests: runs slam-eval in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

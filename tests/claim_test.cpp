@@ -1,5 +1,5 @@
-// What the project is for: with line directions in the weight few particles close a loop that the same filter
-// without lines does not close. Both have the settings that serve them best (scripts/search-settings.sh).
+// The project's claim: with line directions in the weight, few particles close a loop that the same filter
+// without lines does not close. Both have their best settings (scripts/search-settings.sh).
 
 #include <gtest/gtest.h>
 

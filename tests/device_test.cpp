@@ -1,4 +1,4 @@
-/// MRPT's CLMS100Eth and our PioneerOdometry against devices that only look real, up to the map.
+/// MRPT's CLMS100Eth and our PioneerOdometry with simulated devices, up to the map.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,8 +41,8 @@ std::string pioneerSection(uint16_t port) {
          std::to_string(port) + "\n";
 }
 
-/// The sensors of an INI text, and what they gave. Cycles are made of it only for a sink: their grouping
-/// would hold back odometry without scans for a second.
+/// The sensors of an INI text and their observations. They are grouped into cycles only for a sink: grouping
+/// delays odometry without scans by a second.
 class Sensors {
  public:
   Sensors(const std::string& ini, test::Events& events, double timeout = 0.5, live::CycleSink sink = {}) {
@@ -219,7 +219,7 @@ TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
   EXPECT_EQ(trajectory, test::contentOf(folder.path("offline/trajectory.tum")));
   EXPECT_EQ(test::contentOf(folder.path("live/map.pgm")), test::contentOf(folder.path("offline/map.pgm")));
 
-  // The robot's way, as far as it had come when the last scan was grouped.
+  // The robot's path until the last scan was grouped.
   const auto poses = files::loadTum(folder.path("live/trajectory.tum"));
   ASSERT_GE(poses.size(), 25u);
   const double way =
@@ -264,7 +264,7 @@ TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
     pioneer.set(fault);
     ASSERT_TRUE(test::happens([&] { return events.count("sensor PIONEER: fault") > faults; }))
         << events.text();
-    for (int i = 0; i < 10; ++i) robot.scan();  // it drives meanwhile: not known to anybody
+    for (int i = 0; i < 10; ++i) robot.scan();  // unobserved motion
     pioneer.set(Fault::none);
     const size_t before = sensors.odometry().size();
     ASSERT_TRUE(test::happens([&] { return sensors.odometry().size() > before; })) << events.text();
@@ -288,7 +288,7 @@ TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
   for (const auto& pose : sensors.odometry())
     EXPECT_EQ(pose, mrpt::math::TPose2D(0, 0, 0)) << "it stands still";
   EXPECT_EQ(events.count("fault"), 0u) << events.text();
-  EXPECT_GE(events.count("damaged packets left out"), 1u);
+  EXPECT_GE(events.count("damaged packets skipped"), 1u);
 }
 
 TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
@@ -308,8 +308,9 @@ TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
   EXPECT_THAT(errorOf("[A]\ndriver = CHokuyoURG\nCOM_port_LIN = x\n"), HasSubstr("section [A]"));
   const std::string pioneer = "[P]\ndriver = PioneerOdometry\n";
   EXPECT_EQ(errorOf(pioneer + "host = robot\n"), "no error");
-  EXPECT_THAT(errorOf(pioneer), HasSubstr("expected one of them"));
-  EXPECT_THAT(errorOf(pioneer + "host = robot\nserial_port = ttyS0\n"), HasSubstr("expected one of them"));
+  EXPECT_THAT(errorOf(pioneer), HasSubstr("expected exactly one of the two"));
+  EXPECT_THAT(errorOf(pioneer + "host = robot\nserial_port = ttyS0\n"),
+              HasSubstr("expected exactly one of the two"));
   EXPECT_THAT(errorOf(pioneer + "hots = robot\n"), HasSubstr("nearest known key is `host`"));
   EXPECT_THAT(errorOf(pioneer + "host = robot\ntcp_port = 0\n"), HasSubstr("1..65535"));
   EXPECT_THAT(errorOf(pioneer + "host = robot\nprocess_rate = 0\n"), HasSubstr("process_rate"));

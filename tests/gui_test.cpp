@@ -1,4 +1,4 @@
-/// The window on a screen of its own, driven by the events of its menus, and looked at pixel by pixel.
+/// The window on a virtual screen, driven by menu events and checked pixel by pixel.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <wx/app.h>
@@ -27,7 +27,7 @@ namespace {
 using State = window::ReplaySnapshot::State;
 using testing::HasSubstr;
 
-/// Answers dialogs in the user's place.
+/// Answers dialogs instead of the user.
 class Dialogs : public wxModalDialogHook {
  public:
   std::vector<std::string> messages;  ///< of message boxes
@@ -56,7 +56,7 @@ class GuiTest : public testing::Test {
     delete frame;
     dialogs.Unregister();
   }
-  /// The window goes on until something has happened. @return whether it has, within a minute
+  /// Runs the window until a condition holds. @return whether it did within a minute
   bool happens(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (!condition()) {
@@ -91,12 +91,12 @@ class GuiTest : public testing::Test {
     }
     return image;
   }
-  /// Pixels of the screen, which are smaller than the window's units where the screen is dense.
+  /// Screen pixels, which are smaller than window units on a high-DPI screen.
   wxRect onScreen(const wxRect& r) const {
     const int scale = wxRound(frame->GetContentScaleFactor());
     return {scale * r.x, scale * r.y, scale * r.width, scale * r.height};
   }
-  /// How many pixels of a window on the screen have a colour.
+  /// Number of pixels of a window with a colour.
   size_t count(const wxImage& screen, const wxWindow& window, int red, int green, int blue) const {
     const wxRect area = onScreen({window.ClientToScreen(wxPoint(0, 0)), window.GetClientSize()});
     size_t found = 0;
@@ -299,7 +299,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
 }  // namespace
 }  // namespace hybrid_slam
 
-/// wxWidgets without a main loop of its own: the tests turn it.
+/// wxWidgets without its main loop: the tests run it.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   wxApp::SetInstance(new wxApp);

@@ -1,4 +1,4 @@
-/// INI files and logs that are wrong, or only strange: one clear line, or the results all the same.
+/// Wrong or unusual INI files and logs: one clear error line, or complete results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -145,7 +145,7 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
 TEST_F(HybridSlam, ScansWithoutBeamsAreLeftOut) {
   test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
-  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; left out");
+  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; skipped");
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 9u);
 }
 
@@ -192,7 +192,7 @@ TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
   expectDone(replay(withTimes({0, 1, test::kNoTime, 3})), "1 scans without timestamp: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
   expectDone(replay(withTimes({0, 1, 1, 3})),
-             "1 timestamps repeat that of the scan before: first at entry 6");
+             "1 timestamps equal that of the previous scan: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
   expectDone(replay(withTimes({0, 2, 1, 3})), "1 timestamps step back: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 2, 1, 3));

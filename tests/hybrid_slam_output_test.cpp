@@ -1,4 +1,4 @@
-/// Results that cannot be written; the program beside others: its terminal, its signals, its memory.
+/// Results that cannot be written; terminal, signals and memory of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -53,13 +53,12 @@ TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPart) {
     fs::remove_all(output);
     fs::create_directories(output + "/" + name);
     EXPECT_EQ(replay(log), 2);
-    EXPECT_EQ(err,
-              "hybrid-slam: error: cannot write: " + output + "/" + name + "; expected the name of a file\n");
+    EXPECT_EQ(err, "hybrid-slam: error: cannot write: " + output + "/" + name + "; expected a file name\n");
     for (const std::string& left : results()) EXPECT_THAT(kResults, testing::Contains(left));
   }
 }
 
-/// A limit on the size of files stands in for a full disk: writing fails in the middle of a result.
+/// A file size limit simulates a full disk: writing fails in the middle of a result.
 TEST_F(HybridSlam, DiskFull) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
   ASSERT_EQ(replay(log), 0);
@@ -72,7 +71,7 @@ TEST_F(HybridSlam, DiskFull) {
     EXPECT_EQ(replay(log, "", "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; "), 2);
     EXPECT_THAT(err, MatchesRegex(kErrorLine));
     EXPECT_THAT(err, AllOf(StartsWith("hybrid-slam: error: cannot write: " + output + "/"),
-                           HasSubstr("room on its disk")));
+                           HasSubstr("free disk space")));
     failures.insert(err);
     EXPECT_THAT(results(), testing::AnyOf(IsEmpty(), testing::ElementsAre("trajectory.tum")));
     if (!results().empty()) {
@@ -91,7 +90,7 @@ std::vector<char*> pointersTo(const std::vector<std::string>& arguments) {
   return argv;
 }
 
-/// What the program writes on a terminal, and its exit code.
+/// The program's output on a terminal, and its exit code.
 std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments) {
   int terminal = 0;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);

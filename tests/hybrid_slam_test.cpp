@@ -1,4 +1,4 @@
-/// What a replay gives its user, and what the command line says of itself.
+/// Results of a replay, and the command line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/maps/CSimpleMap.h>
@@ -35,9 +35,8 @@ const char* const kMalagaStockIni =
 TEST_F(HybridSlam, WritesAllResultsAndSumsUp) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(80));
   expectDone(replay(log, "--seed 7 --threads 2"));
-  EXPECT_THAT(out,
-              MatchesRegex("80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ times the log's pace\\): " +
-                           output + "/map.png\n"));
+  EXPECT_THAT(out, MatchesRegex("80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ x real time\\): " +
+                                output + "/map.png\n"));
 
   const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 80u);
@@ -158,7 +157,7 @@ TEST_F(HybridSlam, AllMethodsAndProposals) {
     expectDone(replay(log, options));
     const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(trajectory.size(), 24u);
-    // The odometry is exact; MRPT's weights pull its few particles farther off than ours.
+    // The odometry is exact; MRPT's weights displace its few particles more than ours.
     EXPECT_LT((trajectory.back().pose - (test::poseOnLap(23, 80) - test::poseOnLap(0, 80))).norm(),
               options == "-m stock" ? 1 : 0.3);
     const auto metrics = nlohmann::json::parse(result("metrics.json"));

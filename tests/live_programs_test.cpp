@@ -1,4 +1,4 @@
-/// observation-server and hybrid-slam-live as their users call them.
+/// observation-server and hybrid-slam-live from the command line.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -140,7 +140,7 @@ TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
   ASSERT_TRUE(test::happens([&] { return map->err().find("trying again") != std::string::npos; }));
   robot = replaying(50, "500", port);
   EXPECT_EQ(map->wait(), 0) << map->err();
-  EXPECT_THAT(map->err(), HasSubstr("another server: it goes on from the last pose"));
+  EXPECT_THAT(map->err(), HasSubstr("new server: odometry continues from the last pose"));
   const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
   EXPECT_GT(scans, 50u) << "both servers'";
   EXPECT_EQ(recorded(), scans);
@@ -153,7 +153,7 @@ TEST_F(LivePrograms, WithoutAServerThereAreNoResultsButNoHarm) {
   ASSERT_TRUE(test::happens([&] { return map->err().find("refused") != std::string::npos; })) << map->err();
   map->signal(SIGTERM);
   EXPECT_EQ(map->wait(), 1);
-  EXPECT_THAT(map->err(), HasSubstr("no scan came"));
+  EXPECT_THAT(map->err(), HasSubstr("no scan with odometry"));
   EXPECT_THAT(results(), testing::ElementsAre("recording.rawlog"));
 }
 

@@ -1,4 +1,4 @@
-/// What a user of the program sees: exit code, messages, files.
+/// Exit code, messages and files of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CRawlog.h>
@@ -38,7 +38,7 @@ class Log2Rawlog : public testing::Test {
   int convert(const std::string& input, const std::string& options = "", const std::string& before = "") {
     return run(options + " '" + input + "' '" + rawlog + "'", before);
   }
-  /// Exit 2, one line that says so, and no file.
+  /// Exit 2, one error line, no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "log2rawlog", text);
     EXPECT_FALSE(fs::exists(rawlog));
@@ -59,7 +59,7 @@ TEST_F(Log2Rawlog, ConvertsAndSumsUp) {
   EXPECT_EQ(convert(log), 0);
   EXPECT_EQ(out, rawlog +
                      ": CARMEN log, 2 scans, 2 odometry readings, 2.5 s, path 2.5 m, 0 broken lines; "
-                     "passed over: 1 SYNC\n");
+                     "skipped: 1 SYNC\n");
   EXPECT_THAT(err, IsEmpty());
   EXPECT_EQ(entries(), 4u);
 }
@@ -155,7 +155,7 @@ TEST_F(Log2Rawlog, CutGzip) {
   gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
   gzclose(file);
   const std::string bytes = test::contentOf(folder.path("whole.gz"));
-  // The last line that could still be read may be a broken one, which is reported before.
+  // The last readable line may be broken and is then reported first.
   EXPECT_EQ(convert(folder.write("cut.gz", bytes.substr(0, bytes.size() / 2))), 2);
   EXPECT_THAT(err,
               HasSubstr("log2rawlog: error: gzip file cut off: " + folder.path("cut.gz") + ", after line "));
@@ -175,13 +175,13 @@ TEST_F(Log2Rawlog, OutputThatCannotBeWritten) {
   rawlog = folder.path("none/out.rawlog");
   expectError(convert(log), "cannot write: " + rawlog);
   EXPECT_EQ(run("'" + log + "' '" + folder.path("") + "'"), 2);
-  EXPECT_THAT(err, HasSubstr("expected the name of a file"));
+  EXPECT_THAT(err, HasSubstr("expected a file name"));
   EXPECT_EQ(run("'" + log + "' '" + log + "'"), 2);
   EXPECT_THAT(err, HasSubstr("the output is the input"));
   EXPECT_EQ(test::contentOf(log), scanRow("10"));
 }
 
-/// A limit on the size of files stands in for a full disk: writing fails in the middle.
+/// A file size limit simulates a full disk: writing fails in the middle.
 TEST_F(Log2Rawlog, DiskFull) {
   std::string log;
   for (int i = 0; i < 3000; ++i) {

@@ -1,4 +1,4 @@
-// The demo's log end to end, against what was recorded of it.
+// The demo's log end to end, against recorded figures.
 
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
@@ -66,7 +66,7 @@ TEST_F(Malaga, EndsWhereItWasRecordedToEnd) {
   }
 }
 
-/// A filter that never runs again follows the odometry: the figures above would catch it.
+/// A filter without further updates follows the odometry, which the figures above would detect.
 TEST_F(Malaga, OdometryAloneEndsElsewhere) {
   const auto end =
       run("--set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360").back();

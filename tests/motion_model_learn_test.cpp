@@ -1,4 +1,4 @@
-/// What a user of the program sees: exit code, messages, the learnt section.
+/// Exit code, messages and learnt section of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ class MotionModelLearn : public testing::Test {
   }
   int learn(const std::string& log, const std::string& options = "") { return run(arguments(log, options)); }
   std::string logOf(size_t steps) { return test::writeGzipped(folder.path("log.rawlog"), test::laps(steps)); }
-  /// Exit 2, one line that says so, and no file.
+  /// Exit 2, one error line, no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "motion-model-learn", text);
     EXPECT_FALSE(fs::exists(output));
@@ -76,7 +76,7 @@ class MotionModelLearn : public testing::Test {
   std::string out, err;
 };
 
-/// From the true poses, as EM's M-step would learn it if nothing were hidden.
+/// From the true poses, as EM's M-step would learn without hidden variables.
 std::vector<MotionSample> trueMotions(const std::string& log, const std::string& truth) {
   constexpr double kUpdateDistance = 0.3, kUpdateAngle = 15 * M_PI / 180;  // as in the INI file
   const files::Trajectory poses = files::loadTum(truth);
@@ -99,8 +99,8 @@ std::vector<mrpt::math::TPose2D> odometryOf(const std::vector<MotionSample>& mot
   return all;
 }
 
-/// Prints a table of doc/motion-model.md: the fit of the loop's true poses, the simulator's own parameters
-/// for such steps, and how well the steps tell them.
+/// Prints a table of doc/motion-model.md: the fit of the loop's true poses, the simulator's parameters for
+/// such steps, and how well the steps determine them.
 TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
   const std::string loop = SOURCE_DIR "/datasets/csie/csie-loop";
   const auto motions = trueMotions(loop + ".rawlog", loop + ".tum");
@@ -113,7 +113,7 @@ TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
     turns += std::abs(step.turn), squaredTurns += step.turn * step.turn;
   }
   const double length = squaredWay / way, turn = squaredTurns / turns;
-  // The inverse of what the simulated wheels do; its variances grow with the way, the model's with its
+  // The inverse of the simulated wheel errors; their variances grow with the distance, the model's with its
   // square.
   const simulation::OdometryOptions wheels;
   const auto variance = [](double sigma, double step, double minStd) {
@@ -155,7 +155,8 @@ TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
   const auto motions = trueMotions(kDoorways, SOURCE_DIR "/datasets/csie/csie-doorways.tum");
   const MotionModelOptions expected = fitMotionModel(motions, prior, determine(motions));
   const auto odometry = odometryOf(motions);
-  // The poses are hidden, but the scans tell them well: less is lost than the log leaves open anyway.
+  // The poses are hidden but well determined by the scans: the additional error is below the log's own
+  // uncertainty.
   const auto expectNear = [&](const MotionTerm& term, const MotionTerm& truth, double minStd) {
     const test::Parameters errors = test::standardErrors(truth, minStd, odometry);
     for (size_t i = 0; i < 4; ++i)
@@ -178,7 +179,7 @@ TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
   EXPECT_EQ(table[0][2], 0.95);
   EXPECT_GT(table[1][1], table[0][1]);
   EXPECT_NEAR(table[best][2], model.distance.meanD, 1e-4) << "the file holds the best iteration";
-  EXPECT_THAT(out, HasSubstr("iteration " + std::to_string(best) + " is in " + output + "\n"));
+  EXPECT_THAT(out, HasSubstr("iteration " + std::to_string(best) + " written to " + output + "\n"));
 }
 
 TEST_F(MotionModelLearn, SaysWhatTheLogDoesNotDetermineAndKeepsThePrior) {
@@ -186,7 +187,7 @@ TEST_F(MotionModelLearn, SaysWhatTheLogDoesNotDetermineAndKeepsThePrior) {
   const std::string keys = "mean_t, var_t of distance, drift and turn",
                     why = "the robot turned 2.9 deg or more";
   EXPECT_THAT(err, MatchesRegex("motion-model-learn: warning: prior kept for " + keys + ": [^\n]*; " + why +
-                                " in [0-9]+ updates, it takes 20\n"));
+                                " in [0-9]+ updates; at least 20 needed\n"));
   EXPECT_THAT(test::contentOf(output),
               HasSubstr("# Not learnt but kept from " + ini + ": " + keys + ": " + why));
   EXPECT_EQ(learnt().turn.meanT, 1.05);
@@ -214,9 +215,8 @@ TEST_F(MotionModelLearn, ALogThatIsCutOffIsLearntFromUpToThere) {
   const std::string log = test::writePlain(folder.path("log.rawlog"), test::laps(100), &ends);
   fs::resize_file(log, ends.at(160) + 7);
   EXPECT_EQ(learn(log, "--iterations 1 --set improved_proposal.update_angle_deg=5"), 1);
-  EXPECT_THAT(err,
-              MatchesRegex("motion-model-learn: error: log cut off[^\n]*: entry 162 of [^\n]*; learnt from "
-                           "the log up to there\n"));
+  EXPECT_THAT(err, MatchesRegex("motion-model-learn: error: log cut off[^\n]*: entry 162 of [^\n]*; learnt "
+                                "from the log up to this point\n"));
   EXPECT_TRUE(fs::exists(output));
 }
 

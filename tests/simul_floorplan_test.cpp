@@ -1,4 +1,4 @@
-// simul-floorplan as a user meets it: command line in, files and one-line errors out.
+// simul-floorplan from the command line: files and one-line errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/io/zip.h>
@@ -26,7 +26,7 @@ using test::Outcome;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A folder of its own for each test, with a small room, a short route and their INI file in it.
+/// A temporary folder per test, with a small room, a short route and their INI file.
 class SimulFloorplan : public testing::Test {
  protected:
   SimulFloorplan() {
@@ -122,7 +122,8 @@ TEST_F(SimulFloorplan, WrongCommandLines) {
 TEST_F(SimulFloorplan, WrongIniFiles) {
   expectInputError(std::string(kRun) + " --set laser.sensor=LMS-300",
                    "wrong value `LMS-300`: section [laser], key `sensor`; expected one of LMS-100 | LMS-200");
-  expectInputError(std::string(kRun) + " --set laser.resolution_deg=1", "the LMS-100 has no such resolution");
+  expectInputError(std::string(kRun) + " --set laser.resolution_deg=1",
+                   "the LMS-100 does not have this resolution");
   expectInputError(std::string(kRun) + " --set laser.rat=4", "the nearest known key is `rate`");
   expectInputError(std::string(kRun) + " --set lasers.rate=4", "unknown section: section [lasers]");
   expectInputError(std::string(kRun) + " --set odometry.slips=12", "wrong slip `12`");
@@ -168,7 +169,7 @@ TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNothingBehind) {
     EXPECT_NE(entry.path().stem().string().substr(0, 3), "out") << entry.path();
 }
 
-/// Where bytes differ: which file, how large each, and whether only the compression is another.
+/// For different bytes: file, sizes, and whether only the compression differs.
 std::string differenceOf(const fs::path& made, const fs::path& committed) {
   const std::string a = test::contentOf(made), b = test::contentOf(committed);
   if (a == b) return "none";

@@ -1,4 +1,4 @@
-/// slam-compare without true poses: relations and revisits as slam-eval has them, and what success asks for.
+/// slam-compare without true poses: relations and revisits as in slam-eval, and the success criterion.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
     EXPECT_EQ(table("results.csv").at(0).at("success"), share == "1.01" ? "1" : "0");
   }
   EXPECT_THAT(test::contentOf(folder.path("out/report.html")),
-              HasSubstr("relations' mean translation error is"));
+              HasSubstr("mean translation error of the relations is"));
 }
 
 TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndSaysWhatSucceeds) {

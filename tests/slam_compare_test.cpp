@@ -1,4 +1,4 @@
-/// slam-compare as its users call it: a whole comparison, interrupted and resumed, failing runs, every bad
+/// slam-compare from the command line: a whole comparison, interrupted and resumed, failing runs, every bad
 /// input.
 
 #include <gmock/gmock.h>
@@ -75,9 +75,8 @@ TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
   for (const char* part :
        {"--methods hybrid,general --particles 4 --seeds 2", "Success rates",
         "absolute trajectory error, rmse (m)", "heading error at the return (deg)", "share of doubled wall",
-        "Each group against the first", "spread of the heading (deg)", "processor time (s)",
-        "peak memory (MB)", "trajectories of general-4", "median run", "worst run",
-        "data:image/png;base64,iVBORw0KGgo"})
+        "Each group against the first", "spread of the heading (deg)", "CPU time (s)", "peak memory (MB)",
+        "trajectories of general-4", "median run", "worst run", "data:image/png;base64,iVBORw0KGgo"})
     EXPECT_THAT(report, HasSubstr(part));
   EXPECT_THAT(report, Not(HasSubstr("<script")));
   const std::regex address("(src|href)=\"(?!data:)");
@@ -173,7 +172,7 @@ TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
   stopped.signal(SIGINT);
   EXPECT_EQ(stopped.wait(), 1);
   EXPECT_THAT(stopped.err(), HasSubstr("slam-compare: error: interrupted: "));
-  EXPECT_THAT(stopped.err(), HasSubstr("of 4 runs are finished; the same call goes on"));
+  EXPECT_THAT(stopped.err(), HasSubstr("of 4 runs are finished; the same command continues"));
   EXPECT_FALSE(fs::exists(folder.path("out/report.html")));
   const auto left = runs();
   EXPECT_GE(left.size(), 1u);
@@ -264,7 +263,7 @@ TEST_F(SlamCompare, OptionsMayStandBeforeTheFiles) {
 TEST_F(SlamCompare, TwoAtOnceInOneFolderIsAnError) {
   fs::create_directories(folder.path("out"));
   EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),
-              HasSubstr("another slam-compare is at work"));
+              HasSubstr("another slam-compare is running"));
 }
 
 TEST_F(SlamCompare, EveryBadInputIsOneLineAndStartsNoRun) {

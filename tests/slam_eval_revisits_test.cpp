@@ -57,7 +57,7 @@ TEST_F(Revisits, OptionsAreTheDefinitions) {
   EXPECT_EQ(figures(call + "--distance 3 --path 20").at("revisits"), revisits);
   EXPECT_LT(figures(call + "--distance 0.1").at("revisits"), revisits);
   EXPECT_GT(figures(call + "--path 10").at("revisits"), revisits);
-  EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is so near
+  EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is this close
 }
 
 TEST_F(Revisits, NoneIsAFinding) {

@@ -1,4 +1,4 @@
-/// slam-eval as its users call it: figures, agreement with the reference evaluator, every bad input.
+/// slam-eval from the command line: figures, agreement with the reference evaluator, every bad input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -157,7 +157,7 @@ TEST_F(SlamEval, BadCommandLines) {
     EXPECT_EQ(errorLine("rpe" + pair + "--delta='" + delta + "'"),
               std::string("slam-eval: error: wrong value `") + delta +
                   "`: option --delta; expected a positive number with its unit, as in `1s` or `0.5m`");
-  EXPECT_THAT(errorLine("rpe" + pair + "--delta 50m"), HasSubstr("no stretch of 50 m"));
+  EXPECT_THAT(errorLine("rpe" + pair + "--delta 50m"), HasSubstr("no pose pairs 50 m apart"));
 }
 
 TEST_F(SlamEval, FailedWriteIsNotTakenForSuccess) {
@@ -169,7 +169,7 @@ TEST_F(SlamEval, FailedWriteIsNotTakenForSuccess) {
   EXPECT_EQ(o.err, "slam-eval: error: cannot write to standard output\n");
 }
 
-/// The Intel log's odometry as a trajectory: no good one, but with everything that makes the metric hard.
+/// The Intel log's odometry as a trajectory: inaccurate, but with all difficulties for the metric.
 struct ReferenceEvaluator : SlamEval {
   fs::path datasets, evaluator;
   files::Trajectory odometry;

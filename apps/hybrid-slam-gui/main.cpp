@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief hybrid-slam-gui: replays rawlogs and follows robots in a window.
+/// @brief hybrid-slam-gui: replays rawlogs and maps live robot data in a window.
 
 #include <wx/app.h>
 #include <wx/glcanvas.h>
@@ -20,7 +20,7 @@ std::string config, rawlog;
 class GuiApp : public wxApp {
  public:
   bool OnInit() override {
-    wxDisableAsserts();  // wxWidgets would stop with a question where there is no OpenGL
+    wxDisableAsserts();  // without OpenGL wxWidgets would open an assert dialog
     wxGLAttributes attributes;
     attributes.PlatformDefaults().RGBA().DoubleBuffer().Depth(24).EndList();
     if (!wxGLCanvas::IsDisplaySupported(attributes)) {
@@ -42,22 +42,24 @@ wxIMPLEMENT_APP_NO_MAIN(GuiApp);
 
 int main(int argc, char** argv) {
   const auto parseAndShow = [&] {
-    CLI::App app{"Replays rawlogs through the hybrid and the general filter, and follows robots, in a window",
-                 "hybrid-slam-gui"};
+    CLI::App app{
+        "Replays rawlogs and maps live robot data in a window, with the hybrid and the general filter",
+        "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
     app.add_option("config", config, "INI file (doc/configuration.md)");
-    app.add_option("dataset", rawlog, "rawlog, plain or gzipped; else [run] rawlog of the INI file");
+    app.add_option("dataset", rawlog, "rawlog, plain or gzipped (default: [run] rawlog)");
     app.footer(
-        "Keys are in the menus; more in doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 wrong "
+        "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 "
+        "wrong "
         "command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
-    // Debian's wxWidgets has its OpenGL from GLX: a Wayland desktop serves it by XWayland.
+    // Debian's wxWidgets uses GLX for OpenGL; on Wayland, XWayland provides it.
     if (!std::getenv("DISPLAY"))
       return hybrid_slam::fail(
           1, "no display: DISPLAY is unset; expected an X11 or XWayland desktop, or xvfb-run");
     setenv("GDK_BACKEND", "x11", 0);
-    std::signal(SIGPIPE, SIG_IGN);  // a server that hangs up is an event of the live page
-    int none = 1;                   // the arguments are ours, not wxWidgets's
+    std::signal(SIGPIPE, SIG_IGN);  // the live page handles a server that hangs up
+    int none = 1;                   // wxWidgets gets no arguments
     return wxEntry(none, argv) == 0 ? 0 : 1;
   };
   return hybrid_slam::exitCodeOf(parseAndShow);

@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief hybrid-slam-live: the filter fed by sensors or by an observation-server.
+/// @brief hybrid-slam-live: the filter on live data from sensors or an observation-server.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -26,19 +26,20 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam-live " HYBRID_SLAM_VERSION);
-  app.add_option("config", line.config, "INI file: doc/configuration.md, [live] and sensors: doc/live.md");
-  app.add_option("--server", line.server, "an observation-server, instead of the INI file's sensors")
+  app.add_option("config", line.config, "INI file (doc/configuration.md; [live] and sensors: doc/live.md)");
+  app.add_option("--server", line.server,
+                 "read from this observation-server, not from the INI file's sensors")
       ->type_name("HOST:PORT");
-  app.add_option("-o,--output", line.output, "folder for the results and the recording")->type_name("DIR");
+  app.add_option("-o,--output", line.output, "folder for results and recording")->type_name("DIR");
   line.filter.addMethod(app);
-  line.filter.addParticles(app, "same seed, same recording: same results to the byte");
+  line.filter.addParticles(app, "random seed; same seed and recording: identical results");
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "no state every 10 s and no summary");
-  app.add_flag("--help-config", line.wantsManual, "prints every key of section [live]");
+  app.add_flag("-q,--quiet", line.isQuiet, "no status every 10 s, no summary");
+  app.add_flag("--help-config", line.wantsManual, "print every key of section [live]");
   app.footer(
       "Results: those of hybrid-slam (doc/results.md) and recording.rawlog, which hybrid-slam replays. "
       "Ctrl-C\n"
-      "ends the run and writes them. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
+      "ends the run and writes the results. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
 }
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {
@@ -49,7 +50,7 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   return settings;
 }
 
-/// Runs until Ctrl-C, or the end of the log that the server replays. @return the summary
+/// Runs until Ctrl-C or the end of the log that the server replays. @return the summary
 std::string runLive(run::Configuration& configuration, const live::LiveOptions& options, bool isQuiet) {
   const auto log = std::make_shared<live::EventLog>("hybrid-slam-live");
   std::unique_ptr<live::CycleSource> source;
@@ -91,8 +92,9 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
 int main(int argc, char** argv) {
   CommandLine line;
   const auto parseAndRun = [&] {
-    CLI::App app{"Maps while the robot drives: hybrid-slam fed by sensors or by an observation-server",
-                 "hybrid-slam-live"};
+    CLI::App app{
+        "Maps while the robot drives: hybrid-slam on live data from sensors or an observation-server",
+        "hybrid-slam-live"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
     return execute(line, settingsOf(line, app));

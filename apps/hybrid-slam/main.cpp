@@ -25,21 +25,20 @@ struct CommandLine {
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
   app.add_option("config", line.config, "INI file (doc/configuration.md)");
-  app.add_option("dataset", line.rawlog, "rawlog, plain or gzipped; else [run] rawlog of the INI file");
-  app.add_option("-o,--output", line.output, "folder for the results, made if it is missing")
-      ->type_name("DIR");
+  app.add_option("dataset", line.rawlog, "rawlog, plain or gzipped (default: [run] rawlog)");
+  app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
   line.filter.addMethod(app);
   line.filter.addParticles(app);
-  app.add_option("--refine", line.refine, "afterwards: matches each scan against the final map, N times")
+  app.add_option("--refine", line.refine,
+                 "after the run, match every scan to the final map and rebuild the map, N times")
       ->type_name("N");
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "no progress and no summary");
-  app.add_flag("--profile", line.wantsProfile,
-               "prints how long each stage of the run took, and how often it ran");
-  app.add_flag("--help-config", line.wantsManual, "prints every section and key of the INI file");
+  app.add_flag("-q,--quiet", line.isQuiet, "no progress, no summary");
+  app.add_flag("--profile", line.wantsProfile, "print time and call count of each stage");
+  app.add_flag("--help-config", line.wantsManual, "print every section and key of the INI file");
   app.footer(
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
-      "steps.csv, metrics.json, config.ini (doc/results.md). Ctrl-C ends the run and writes them.\n"
+      "steps.csv, metrics.json, config.ini (doc/results.md). Ctrl-C ends the run and writes the results.\n"
       "Exit: 0 done, 1 the run failed or covers only part of the log, 2 wrong command line or input.");
 }
 
@@ -77,7 +76,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
 int main(int argc, char** argv) {
   CommandLine line;
   const auto parseAndRun = [&] {
-    CLI::App app{"Replays a rawlog through the hybrid RBPF: grid maps with line directions"};
+    CLI::App app{"Maps a rawlog with the hybrid particle filter: occupancy grids and line directions"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
     return execute(line, settingsOf(line, app));

@@ -16,7 +16,7 @@ namespace {
 
 using namespace hybrid_slam;
 
-/// CLI::Range lets `nan` pass.
+/// CLI::Range accepts `nan`.
 CLI::Validator within(double low, double high) {
   std::ostringstream range;
   range << low << ".." << high;
@@ -43,7 +43,7 @@ void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("%s: %s log, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken lines",
               output.c_str(), formatName(s.format), s.scans, s.odometryReadings, s.latest - s.earliest,
               s.pathLength, s.brokenLines);
-  const char* separator = "; passed over: ";
+  const char* separator = "; skipped: ";
   for (const auto& [name, count] : s.otherRecords) {
     std::printf("%s%zu %s", separator, count, name.c_str());
     separator = ", ";
@@ -51,12 +51,12 @@ void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("\n");
 }
 
-/// A SICK laser says "no return" by the numbers 8183 to 8191 in its unit: cm in the 80 m mode, mm in the 8 m
-/// mode, where they pass for walls.
+/// A SICK laser reports "no return" as 8183 to 8191 units: cm in the 80 m mode, mm in the 8 m mode, where
+/// they look like walls.
 void warnOfShortMode(const std::string& input, float longestRange) {
   if (longestRange < 8.1829f || longestRange > 8.1911f) return;
   std::cerr << "log2rawlog: warning: the longest readings are " << longestRange
-            << " m, by which a SICK laser in its 8 m mode means no return: " << input
+            << " m, which a SICK laser in 8 m mode reports for no return: " << input
             << "; --max-range 8.18 drops them\n";
 }
 
@@ -71,32 +71,33 @@ int convert(int argc, char** argv) {
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
   app.add_option("input", input, "the log")->required()->type_name("in.clf[.gz]");
   app.add_option("output", output, "the rawlog to write")->required()->type_name("out.rawlog");
-  app.add_option("--format", format, "what the log is; told from its content unless given")
+  app.add_option("--format", format, "log format (default: detected from the content)")
       ->check(CLI::IsMember({"carmen", "gfs", "dpslam"}));
-  app.add_option("--time", time, "CARMEN: the message's own time, or that of its arrival at the logger")
+  app.add_option("--time", time,
+                 "CARMEN: use the message's own timestamp (ipc) or its arrival at the logger (logger)")
       ->capture_default_str()
       ->check(CLI::IsMember({"ipc", "logger"}));
-  app.add_option("--period", options.period, "DP-SLAM, whose logs have no times: time between two scans, s")
+  app.add_option("--period", options.period, "DP-SLAM, whose logs have no timestamps: time between scans, s")
       ->capture_default_str()
       ->type_name("S")
       ->check(within(1e-6, 1e4));
   app.add_option("--max-range", options.maxRange,
-                 "a reading from here on is no return, m (default: 80, which covers the 81.83 and 81.91 of "
-                 "CARMEN logs; DP-SLAM: 8.18)")
+                 "readings at or beyond this are no returns, m (default: 80, which covers the 81.83 and "
+                 "81.91 of CARMEN logs; DP-SLAM: 8.18)")
       ->type_name("M")
       ->check(within(0.01, 1e4));
   app.add_option("--angular-step", angularStepDeg,
-                 "between two beams, deg (default: by the number of beams: 1 for 180 and 181, 0.5 for 360 "
-                 "and 361, ...); ROBOTLASER1 rows carry their own")
+                 "angle between beams, deg (default: from the number of beams: 1 for 180 and 181, 0.5 for "
+                 "360 and 361, ...); ROBOTLASER1 rows state their own")
       ->type_name("DEG")
       ->check(within(1e-3, 90.));
-  app.add_option("--laser-x", options.laserX,
-                 "the front laser ahead of the robot's centre, m (default: what PARAM "
-                 "robot_frontlaser_offset says, else 0)")
+  app.add_option(
+         "--laser-x", options.laserX,
+         "front laser ahead of the robot's centre, m (default: PARAM robot_frontlaser_offset, else 0)")
       ->type_name("M")
       ->check(within(-100., 100.));
   app.add_flag("--action-observation", options.actionObservation,
-               "write (action, sensory frame) pairs instead of one observation for each row");
+               "write (action, sensory frame) pairs instead of one observation per row");
   app.add_flag("--strict", options.strict, "stop at the first broken line");
 
   if (const auto code = parse(app, argc, argv)) return *code;

@@ -32,20 +32,22 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("config", line.config, "INI file, as for hybrid-slam; its [motion_model] is the prior")
       ->required();
   app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
-  app.add_option("-o,--output", line.output, "INI file for the section [motion_model] that was learnt")
+  app.add_option("-o,--output", line.output, "INI file to write, with the learnt [motion_model]")
       ->required()
       ->type_name("FILE");
-  app.add_option("--iterations", line.iterations, "ends after so many, if the likelihood still rises")
+  app.add_option("--iterations", line.iterations,
+                 "stop after this many iterations even if the likelihood still rises")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()
       ->type_name("N");
   line.filter.addParticles(app);
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
+  app.add_flag("-q,--quiet", line.isQuiet, "print only errors and warnings");
   app.footer(
-      "Learn with the proposal and the update_distance and update_angle_deg that you will run with, then\n"
+      "Learn with the proposal, update_distance and update_angle_deg you will run with, then\n"
       "  cat config.ini motion.ini > learnt.ini\n"
-      "is config.ini with the learnt model. Exit: 0 done, 1 the run failed or covers only part of the log,\n"
+      "gives config.ini with the learnt model. Exit: 0 done, 1 the run failed or covers only part of the "
+      "log,\n"
       "2 wrong command line or input.");
 }
 
@@ -56,7 +58,7 @@ run::Configuration configurationOf(const CommandLine& line, const CLI::App& app)
   return run::Configuration(line.config, settings);
 }
 
-/// What the learnt section says of its origin.
+/// Comments on the origin of the learnt section.
 std::vector<std::string> comments(const CommandLine& line, const run::Configuration& configuration,
                                   const EmIteration& prior, const LearntMotionModel& learnt) {
   const auto text = [](const auto&... parts) {
@@ -69,7 +71,7 @@ std::vector<std::string> comments(const CommandLine& line, const run::Configurat
       text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.log, " with ", line.config,
            "."),
       text("For updates every ", filter.updateDistance(), " m or ", filter.updateAngle() * 180 / M_PI,
-           " deg: the variances are those of such steps."),
+           " deg: the variances hold for steps of this size."),
       text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
            " (the prior's: ", prior.logLikelihood, ")."),
       text("Use: cat ", line.config, " ", line.output, " > learnt.ini")};
@@ -86,7 +88,7 @@ int learn(const CommandLine& line, run::Configuration configuration) {
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
   const readings::RawlogSummary log = summarise(line.log, configuration.input);
-  files::GrowingFile output(line.output);  // now, so that the run is not for nothing
+  files::GrowingFile output(line.output);  // opened now: a wrong name fails before the run
 
   int iteration = 0;
   const auto eStep = [&](const MotionModelOptions& model) {
@@ -109,12 +111,11 @@ int learn(const CommandLine& line, run::Configuration configuration) {
   output.stream() << run::motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
   output.finish();
   if (!line.isQuiet)
-    std::cout << (learnt.isConverged ? "the likelihood has stopped rising"
-                                     : "the likelihood has not stopped rising; --iterations takes more")
-              << ": iteration " << learnt.best.number << " is in " << line.output << "\n";
+    std::cout << (learnt.isConverged ? "converged" : "not converged; raise --iterations") << ": iteration "
+              << learnt.best.number << " written to " << line.output << "\n";
   if (!log.defect.empty())
     return fail(1, "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + line.log +
-                       "; learnt from the log up to there");
+                       "; learnt from the log up to this point");
   return 0;
 }
 

@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief observation-server: the robot's side; sensors or a rawlog to TCP clients.
+/// @brief observation-server: the robot's side; serves sensors or a rawlog to TCP clients.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -25,13 +25,13 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "observation-server " HYBRID_SLAM_VERSION);
-  app.add_option("config", line.config, "INI file: [server] and a section for each sensor (doc/live.md)");
+  app.add_option("config", line.config, "INI file: [server] and one section per sensor (doc/live.md)");
   addSettings(app, line.settings);
   app.add_flag("-q,--quiet", line.isQuiet, "no summary");
-  app.add_flag("--help-config", line.wantsManual, "prints every key of [server] and of a Pioneer's section");
+  app.add_flag("--help-config", line.wantsManual, "print every key of [server] and of a Pioneer's section");
   app.footer(
-      "It says on standard output at which port it listens, and on standard error what happens to sensors\n"
-      "and clients. Ctrl-C ends it. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
+      "The port is printed on standard output, events of sensors and clients on standard error.\n"
+      "Ctrl-C ends the server. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
 }
 
 int run(const CommandLine& line) {
@@ -64,7 +64,7 @@ int run(const CommandLine& line) {
 int main(int argc, char** argv) {
   CommandLine line;
   const auto parseAndRun = [&] {
-    CLI::App app{"Serves the observations of sensors, or of a rawlog, to TCP clients", "observation-server"};
+    CLI::App app{"Serves observations from sensors or a rawlog to TCP clients", "observation-server"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
     return run(line);

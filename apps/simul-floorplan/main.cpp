@@ -1,5 +1,6 @@
 /// @file main.cpp
-/// @brief simul-floorplan: a floor plan, a robot and its sensors into a rawlog with ground truth.
+/// @brief simul-floorplan: simulates a robot and its sensors in a floor plan; writes a rawlog and ground
+/// truth.
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
@@ -62,7 +63,7 @@ std::string besideConfig(const CommandLine& line, const std::string& file, const
   return (fs::path(line.config).parent_path() / file).lexically_normal().string();
 }
 
-/// Writes all files under other names first, so that nothing half-written stands under a final name.
+/// Writes all files under temporary names first, so that no half-written file has a final name.
 void writeTogether(
     const std::vector<std::pair<fs::path, std::function<void(const std::string&)>>>& filesAndWriters) {
   const auto partial = [](fs::path file) {
@@ -123,14 +124,12 @@ int parseAndRun(int argc, char** argv) {
       "Simulates a robot with a laser in a floor plan: rawlog, ground truth (.tum) and picture (.png).",
       "simul-floorplan");
   CommandLine line;
-  app.add_option("config", line.config, "INI file, see doc/simulation.md")->required();
-  app.add_option("-o,--output", line.output, "OUT.rawlog; OUT.tum and OUT.png are written beside it")
-      ->required();
-  app.add_option("-s,--seed", line.seed, "seed of all noise, instead of the INI file's")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--set", line.settings, "SECTION.KEY=VALUE over the INI file's; repeatable")
+  app.add_option("config", line.config, "INI file (doc/simulation.md)")->required();
+  app.add_option("-o,--output", line.output, "OUT.rawlog; also writes OUT.tum and OUT.png")->required();
+  app.add_option("-s,--seed", line.seed, "noise seed, overrides the INI file")->check(CLI::NonNegativeNumber);
+  app.add_option("--set", line.settings, "override a key of the INI file, SECTION.KEY=VALUE; repeatable")
       ->allow_extra_args(false);
-  app.add_flag("-q,--quiet", line.quiet, "print nothing but errors");
+  app.add_flag("-q,--quiet", line.quiet, "print only errors");
   app.set_version_flag("--version", HYBRID_SLAM_VERSION);
   if (const auto code = parse(app, argc, argv)) return *code;
   run(line);

@@ -1,5 +1,6 @@
 /// @file main.cpp
-/// @brief slam-compare: methods side by side over seeds, tables, plots, report (doc/slam-compare.md).
+/// @brief slam-compare: runs methods side by side over many seeds; tables, plots, report
+/// (doc/slam-compare.md).
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -42,60 +43,59 @@ void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
   app.add_option("config", line.config, "INI file, as for hybrid-slam")->required();
   app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
-  app.add_option("-o,--output", line.output, "folder for runs, tables and report; made if it is missing")
+  app.add_option("-o,--output", line.output, "folder for runs, tables and report, created if missing")
       ->required()
       ->type_name("DIR");
   app.add_option("-m,--methods", line.methods,
-                 "of hybrid, general, stock; the first is what others are tested against")
+                 "list of hybrid, general, stock; the others are tested against the first")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
   app.add_option("-n,--particles", line.particles,
-                 "particle counts, for all methods or for one (default: the INI file's)")
+                 "particle counts for all methods or one (default: the INI file's)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("[METHOD:]N");
-  app.add_option("--seeds", line.seeds, "runs of each group")->capture_default_str();
-  app.add_option("--first-seed", line.firstSeed, "the seeds count up from here")->capture_default_str();
+  app.add_option("--seeds", line.seeds, "runs per group")->capture_default_str();
+  app.add_option("--first-seed", line.firstSeed, "first seed; the others count up from it")
+      ->capture_default_str();
   app.add_option("--variant", line.variants,
-                 "named settings on top of the INI file, run beside it; only with METHOD if one is named; "
-                 "@FILE takes "
+                 "extra group with these settings on top of the INI file, for METHOD or all methods; @FILE: "
                  "another INI file; repeatable")
       ->type_name("[METHOD/]NAME:SECTION.KEY=VALUE[,...]")
       ->allow_extra_args(false);
-  addSettings(app, line.settings, "sets a key of the INI file for all runs; repeatable");
-  app.add_option("-j,--jobs", line.jobs, "runs at a time; 0: one for each core")->capture_default_str();
-  app.add_option("--reference", line.reference, "true poses, TUM file: ATE, return error, success");
-  app.add_option("--relations", line.relations, "relations file: relations metric, success");
+  addSettings(app, line.settings, "override a key of the INI file for all runs; repeatable");
+  app.add_option("-j,--jobs", line.jobs, "parallel runs; 0: one per core")->capture_default_str();
+  app.add_option("--reference", line.reference, "TUM file of true poses, for ATE, return error, success");
+  app.add_option("--relations", line.relations, "relations file, for the relations metric, success");
   app.add_option("--odometry", line.odometry,
-                 "file `t x y theta` that carries poses to the relations' times");
+                 "file `t x y theta` to extrapolate poses to the relations' times");
   app.add_option("--floorplan", line.floorplan,
-                 "walls in the reference's frame: occupied cells against them, doubled walls");
-  app.add_option(
-         "--revisits", line.revisits,
-         "do the maps close: walls seen again from poses up to so far apart, m, as slam-eval revisits")
+                 "floor plan in the reference's frame, for map errors and doubled walls");
+  app.add_option("--revisits", line.revisits,
+                 "revisit error between scans up to DISTANCE apart, m (slam-eval revisits)")
       ->type_name("DISTANCE");
   app.add_option("--success-trans", line.criterion.returnTrans,
-                 "success: position error at the return below, m")
+                 "success bound: position error at the return, m")
       ->capture_default_str();
-  app.add_option("--success-rot", line.criterion.returnRot, "success: heading error at the return below, deg")
+  app.add_option("--success-rot", line.criterion.returnRot, "success bound: heading error at the return, deg")
       ->capture_default_str();
-  app.add_option("--success-doubled", line.criterion.doubledShare, "success: share of doubled wall below")
+  app.add_option("--success-doubled", line.criterion.doubledShare, "success bound: share of doubled wall")
       ->capture_default_str();
   app.add_option("--success-relations", line.criterion.relations,
-                 "success: mean translation error of the relations below, m")
+                 "success bound: mean translation error of the relations, m")
       ->capture_default_str();
   app.add_option("--success-revisit", line.criterion.revisits,
-                 "success: median error of at least one revisit below, m")
+                 "success bound: median revisit error, m; needs at least one revisit")
       ->capture_default_str();
-  app.add_flag("--report-only", line.isReportOnly, "starts no run: tables and report of what is finished");
+  app.add_flag("--report-only", line.isReportOnly, "start no runs; tables and report of the finished ones");
   app.add_flag("--list", line.isListOnly,
                "starts no run: prints each one's name, a tab, and its command but for the `-o FOLDER`");
   app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
   app.footer(
       "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
       "summary.json,\n"
-      "report.html. Finished runs are not run again: after Ctrl-C the same call goes on.\n"
+      "report.html. Finished runs are kept: after Ctrl-C the same command continues.\n"
       "Exit: 0 done, 1 interrupted or a run failed, 2 wrong command line or input.");
 }
 
@@ -114,10 +114,10 @@ void check(const CommandLine& line) {
   expect(line.revisits.value_or(1) > 0, "--revisits", "expected a number of metres above 0");
   for (const std::string& setting : line.settings) comparison::checkSetting(setting, "option --set");
   if (!line.odometry.empty() && line.relations.empty())
-    throw InputError("odometry without relations", "option --odometry", "expected --relations beside it");
+    throw InputError("odometry without relations", "option --odometry", "expected --relations as well");
   if (!line.floorplan.empty() && line.reference.empty())
     throw InputError("floor plan without reference", "option --floorplan",
-                     "expected --reference beside it, which places the maps in the plan");
+                     "expected --reference as well, which places the maps in the plan");
 }
 
 comparison::GroundTruth loadTruth(const CommandLine& line) {
@@ -134,7 +134,7 @@ comparison::GroundTruth loadTruth(const CommandLine& line) {
   return truth;
 }
 
-/// The INI file that a group's runs read, and what is set on top of it.
+/// A group's INI file and the settings on top of it.
 struct Setup {
   std::string config;
   std::vector<std::string> settings;
@@ -150,14 +150,14 @@ Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed)
   set(settings, "particle_filter.particles", particles);
   set(settings, "particle_filter.seed", std::to_string(seed));
   set(settings, "particle_filter.threads", "1");
-  // MRPT's own filter reads its own section where there is one, with its own name for the particles.
+  // MRPT's filter reads its own section, if there is one, with its own key for the number of particles.
   if (group.method == "stock" &&
       run::Configuration(setup.config, settings).source.sectionExists(run::kStockSection))
     set(settings, std::string(run::kStockSection) + ".sampleSize", particles);
   return setup;
 }
 
-/// MRPT's sections, which are not in config.ini.
+/// MRPT's sections, which config.ini does not hold.
 std::string otherSections(run::Configuration& configuration) {
   std::vector<std::string> sections, keys;
   configuration.source.getAllSections(sections);
@@ -204,7 +204,7 @@ struct LogSpan {
   double duration = 0;  ///< s
 };
 
-/// One pass over the log, which finds what is wrong with it before any run starts.
+/// One pass over the log, which finds errors before any run starts.
 LogSpan readLog(const CommandLine& line, const Setup& setup) {
   const readings::InputOptions input = run::Configuration(setup.config, setup.settings).input;
   const readings::RawlogSummary summary = summarise(line.log, input);
@@ -214,14 +214,14 @@ LogSpan readLog(const CommandLine& line, const Setup& setup) {
   return {recorder.trajectory({}), summary.duration};
 }
 
-/// One comparison at a time works in a folder.
+/// Allows one comparison at a time in a folder.
 class FolderLock {
  public:
   explicit FolderLock(const files::OutputFolder& folder)
       : file_(open(folder.path(".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
-      throw InputError("another slam-compare is at work", "folder " + folder.path(""),
-                       "expected a folder of its own");
+      throw InputError("another slam-compare is running", "folder " + folder.path(""),
+                       "expected a separate folder");
   }
   ~FolderLock() {
     if (file_ >= 0) close(file_);
@@ -233,7 +233,7 @@ class FolderLock {
   int file_;
 };
 
-/// A command as a shell takes it.
+/// A command quoted for the shell.
 std::string quoted(const std::vector<std::string>& arguments) {
   std::string command;
   for (std::string argument : arguments) {
@@ -298,7 +298,8 @@ int execute(const CommandLine& line, const std::string& command) {
   }
   if (outcome.isInterrupted)
     return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
-                       " of " + std::to_string(sweep.size()) + " runs are finished; the same call goes on");
+                       " of " + std::to_string(sweep.size()) +
+                       " runs are finished; the same command continues");
 
   comparison::ReportInput report{command,
                                  HYBRID_SLAM_VERSION,
@@ -338,13 +339,13 @@ int execute(const CommandLine& line, const std::string& command) {
   return 0;
 }
 
-/// Also the second only asks: the runs that are at work have to be ended first.
+/// Unlike Stop.h, a second signal does not kill: running children must be ended first.
 void onSignal(int) { stop = true; }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Methods side by side over seeds: tables, plots, report. Documentation: doc/slam-compare.md.",
+  CLI::App app("Compares methods over many seeds: tables, plots, report. Manual: doc/slam-compare.md.",
                "slam-compare");
   CommandLine line;
   describe(app, line);

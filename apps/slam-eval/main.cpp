@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief slam-eval: a trajectory against a reference or against itself, JSON on standard output
+/// @brief slam-eval: evaluates a trajectory against a reference or itself, JSON on standard output
 /// (doc/slam-eval.md).
 
 #include <CLI/CLI.hpp>
@@ -117,38 +117,43 @@ Json revisitsJson(const CommandLine& line) {
 
 int run(int argc, char** argv) {
   CommandLine line;
-  CLI::App app("A trajectory against a reference or against itself; prints JSON. Files: doc/slam-eval.md.",
+  CLI::App app("Evaluates a trajectory against a reference or itself; prints JSON. Manual: doc/slam-eval.md.",
                "slam-eval");
   app.set_version_flag("--version", "slam-eval " HYBRID_SLAM_VERSION);
   app.require_subcommand(1);
 
   auto* relations = app.add_subcommand("relations", "relations metric of Kuemmerle et al. 2009");
   auto* ate = app.add_subcommand("ate", "absolute trajectory error after rigid alignment");
-  auto* rpe = app.add_subcommand("rpe", "relative pose error over a stretch of time or way");
+  auto* rpe = app.add_subcommand("rpe", "relative pose error over a fixed time or distance");
   auto* revisits =
-      app.add_subcommand("revisits", "does the map close: walls seen again, without a reference");
+      app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
   for (CLI::App* command : {relations, ate, rpe, revisits})
-    command->add_option("--trajectory", line.trajectory, "what is judged, TUM file")->required();
+    command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
   relations->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
-  relations->add_option(
-      "--odometry", line.odometry,
-      "file `t x y theta`, in log order, that carries poses between those of the trajectory");
+  relations->add_option("--odometry", line.odometry,
+                        "file `t x y theta`, in log order, to interpolate between the trajectory's poses");
   relations
       ->add_option("--tolerance", line.relationTolerance,
-                   "between a relation's time and a pose, s; with odometry at most 0.006")
+                   "largest time difference between a relation and a pose, s; with odometry at most 0.006")
       ->capture_default_str();
   for (CLI::App* command : {ate, rpe}) {
-    command->add_option("--reference", line.reference, "the truth, TUM file")->required();
-    command->add_option("--tolerance", line.referenceTolerance, "between a pose and its reference pose, s")
+    command->add_option("--reference", line.reference, "reference trajectory, TUM file")->required();
+    command
+        ->add_option("--tolerance", line.referenceTolerance,
+                     "largest time difference between a pose and its reference pose, s")
         ->capture_default_str();
   }
-  rpe->add_option("--delta", line.delta, "length of the stretch, `1s` or `0.5m`")->capture_default_str();
-  revisits->add_option("--rawlog", line.rawlog, "the log that the trajectory was made from")->required();
-  revisits
-      ->add_option("--distance", line.revisits.distance, "between the poses of scans that see the same, m")
+  rpe->add_option("--delta", line.delta, "time or distance between the poses, `1s` or `0.5m`")
       ->capture_default_str();
-  revisits->add_option("--path", line.revisits.path, "way driven between the two, m")->capture_default_str();
-  revisits->add_option("--max-range", line.maxRange, "of the beams, m; default: the log's own");
+  revisits->add_option("--rawlog", line.rawlog, "log the trajectory was estimated from")->required();
+  revisits
+      ->add_option("--distance", line.revisits.distance,
+                   "largest distance between the poses of two scans at one place, m")
+      ->capture_default_str();
+  revisits->add_option("--path", line.revisits.path, "least distance driven between the two scans, m")
+      ->capture_default_str();
+  revisits->add_option("--max-range", line.maxRange,
+                       "largest range of the beams used, m (default: the log's)");
 
   if (const auto code = parse(app, argc, argv)) return *code;
 

@@ -1,5 +1,5 @@
 /// @file Errors.h
-/// @brief The one kind of error that is the user's to mend.
+/// @brief Errors the user can fix.
 #pragma once
 
 #include <exception>
@@ -8,8 +8,8 @@
 
 namespace hybrid_slam {
 
-/// A wrong command line, INI file or input file: programs print it as one line and exit with 2.
-/// Every other exception means that the run failed (exit 1).
+/// A wrong command line, INI file or input file. Programs print it on one line and exit with 2; any other
+/// exception means a failed run (exit 1).
 class InputError : public std::runtime_error {
  public:
   /// @param what      what is wrong: "unknown key `gap_absolut`"
@@ -19,7 +19,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(what + ": " + where + "; " + expected) {}
 };
 
-/// The message of an exception in one line. MRPT's tell their place in the code and their call stack too.
+/// The message of an exception on one line, without the code location and call stack that MRPT adds.
 std::string messageOf(const std::exception& exception);
 
 }  // namespace hybrid_slam

@@ -23,7 +23,7 @@ LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, dou
 
   LaserScan scan;
   scan.timestamp = observation.timestamp;
-  // The heading of the sensor's own x axis, which stays in the plane also where the sensor is upside down.
+  // Heading of the sensor's x axis, which stays in the plane even if the sensor is upside down.
   scan.sensorPose = {observation.sensorPose.x(), observation.sensorPose.y(),
                      std::atan2(rotation(1, 0), rotation(0, 0))};
   scan.maxRange = observation.maxRange > 0 ? std::min<double>(maxRange, observation.maxRange) : maxRange;
@@ -31,7 +31,7 @@ LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, dou
   const size_t n = observation.getScanSize();
   const double aperture = observation.aperture;
   const double step = n > 1 ? aperture / static_cast<double>(n - 1) : 0;
-  const bool reversed = observation.rightToLeft == upsideDown;  // angles fall with the beam's number
+  const bool reversed = observation.rightToLeft == upsideDown;  // angles decrease with the beam index
   scan.beams.resize(n);
   for (size_t i = 0; i < n; ++i) {
     Beam& beam = scan.beams[reversed ? n - 1 - i : i];

@@ -22,14 +22,14 @@ struct Beam {
   bool valid = false;  ///< finite, positive, below the maximum range, and marked valid by the sensor
 };
 
-/// The beams of one planar scan in the order of growing angle, and where the sensor sits on the robot.
+/// The beams of one planar scan by ascending angle, and the sensor pose on the robot.
 ///
-/// A laser mounted upside down, or one that counts its beams clockwise (`rightToLeft == false`), is
-/// mirrored here once, so that nobody after this has to know.
+/// Scans of a laser mounted upside down, or with clockwise beams (`rightToLeft == false`), are already
+/// mirrored.
 struct LaserScan {
   mrpt::Clock::time_point timestamp;
   mrpt::math::TPose2D sensorPose;  ///< in the robot frame (m, rad)
-  double maxRange = 0;             ///< m; readings at or beyond it are not valid
+  double maxRange = 0;             ///< m; readings at or beyond it are invalid
   std::vector<Beam> beams;
 };
 

@@ -63,7 +63,7 @@ TEST(LaserScan, UpsideDownByPitchLooksBackwards) {
   EXPECT_NEAR(std::abs(scan.sensorPose.phi), M_PI, 1e-12);
 }
 
-/// Whatever the mounting, a beam's end must be where MRPT's full 3D geometry puts it.
+/// For any mounting, a beam's end point must agree with MRPT's full 3D geometry.
 TEST(LaserScan, BeamEndsAgreeWithTheSensorsThreeDimensionalPose) {
   for (const double roll : {0.0, M_PI})
     for (const double pitch : {0.0, M_PI})

@@ -18,7 +18,7 @@ std::optional<double> parseFinite(std::string_view text) {
 }
 
 std::string numberText(double value, std::chars_format format, int precision) {
-  char text[400];  // the largest double has 309 digits before its point
+  char text[400];  // the largest double has 309 digits before the decimal point
   const auto [end, error] = std::to_chars(text, text + sizeof text, value, format, precision);
   return {text, end};
 }

@@ -1,5 +1,5 @@
 /// @file Numbers.h
-/// @brief Numbers as text, the same in every locale: a decimal point and no separators.
+/// @brief Locale-independent number formatting and parsing: decimal point, no separators.
 #pragma once
 
 #include <charconv>
@@ -9,16 +9,16 @@
 
 namespace hybrid_slam {
 
-/// The number that the whole text is, `nan` and `inf` among them; a `+` may lead it.
+/// Parses the whole text as a number; accepts `nan`, `inf` and a leading `+`.
 std::optional<double> parseNumber(std::string_view text);
-/// The same without `nan` and `inf`.
+/// Likewise, but rejects `nan` and `inf`.
 std::optional<double> parseFinite(std::string_view text);
 
 /// printf's %.Nf, %.Ne or %.Ng.
 std::string numberText(double value, std::chars_format format, int precision);
 /// printf's %.Nf.
 std::string fixedText(double value, int decimals);
-/// Decimal text of at least 6 significant digits that reads back to the same number.
+/// Decimal text with at least 6 significant digits that parses back to the same number.
 std::string numberText(double value);
 
 }  // namespace hybrid_slam

@@ -41,7 +41,7 @@ void OptionTable::addAngle(const std::string& key, double& radians, double lowDe
                            const std::string& why) {
   const std::string expected = "expected a number in " + rangeText(lowDeg, highDeg) + " deg";
   options_.push_back({key, "deg", rangeText(lowDeg, highDeg), why,
-                      // Rounded at 1e-9 deg, so that 0.5 deg reads back as 0.5.
+                      // Rounded to 1e-9 deg, so that 0.5 deg reads back as 0.5.
                       [&radians] { return numberText(std::round(radians / kDegree * 1e9) / 1e9); },
                       [&radians, lowDeg, highDeg, expected](const std::string& text) -> std::string {
                         const auto number = parseFinite(text);
@@ -97,7 +97,7 @@ void OptionTable::addName(const std::string& key, const std::vector<std::string>
 
 std::vector<Option> Options::table() const {
   OptionTable table;
-  const_cast<Options*>(this)->describe(table);  // binds the members; reading them changes nothing
+  const_cast<Options*>(this)->describe(table);  // binds the members, reads only
   return table.options();
 }
 

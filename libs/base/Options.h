@@ -1,6 +1,6 @@
 /// @file Options.h
-/// @brief Checked options: each setting is described once, and from that one description it is loaded,
-/// range-checked, saved and documented.
+/// @brief Checked options: one description per setting serves loading, range checks, saving and
+/// documentation.
 #pragma once
 
 #include <mrpt/config/CLoadableOptions.h>
@@ -17,14 +17,14 @@ namespace hybrid_slam {
 struct Option {
   std::string key;
   std::string unit;   ///< "m", "deg", ...; empty for counts, names and switches
-  std::string range;  ///< what is accepted, in words: "0..10", "true or false", "a | b"
+  std::string range;  ///< accepted values: "0..10", "true or false", "a | b"
   std::string why;    ///< one line
   std::function<std::string()> get;
-  /// Takes a value as text; returns an empty text or what was expected.
+  /// Parses and stores a value; returns an empty text, or what was expected.
   std::function<std::string(const std::string&)> set;
 };
 
-/// The list of settings that an options struct fills in `describe`.
+/// The settings of an options struct, filled by its `describe`.
 class OptionTable {
  public:
   /// A real number in [low, high].
@@ -37,7 +37,7 @@ class OptionTable {
   void add(const std::string& key, int& value, int low, int high, const std::string& why);
   void add(const std::string& key, bool& value, const std::string& why);
   void add(const std::string& key, std::string& value, const std::string& why);
-  /// One of a list of names, one for each enumerator.
+  /// An enumerator by its name.
   template <class Enum>
   void add(const std::string& key, Enum& value, const std::vector<std::pair<Enum, std::string>>& names,
            const std::string& why);
@@ -52,20 +52,20 @@ class OptionTable {
 
 /// Base of every options struct of the project.
 struct Options : mrpt::config::CLoadableOptions {
-  /// Lists every member once: key, bounds, unit, why.
+  /// Describes every member: key, bounds, unit, meaning.
   virtual void describe(OptionTable& table) = 0;
 
-  /// Reads the keys that the section holds, keeps the others' present values.
+  /// Reads the keys present in the section; the others keep their values.
   /// @throws InputError for an unknown key (naming the nearest), a wrong type, a value out of range.
   void loadFromConfigFile(const mrpt::config::CConfigFileBase& source, const std::string& section) final;
-  /// Writes every key with its present value.
+  /// Writes every key with its current value.
   void saveToConfigFile(mrpt::config::CConfigFileBase& target, const std::string& section) const final;
 
   /// The settings, bound to this object's members.
   std::vector<Option> table() const;
 };
 
-/// The name nearest to `name` by edit distance, for "did you mean"; empty if there are no names.
+/// The closest name by edit distance, for "did you mean"; empty if there are no names.
 std::string nearestName(const std::string& name, const std::vector<std::string>& names);
 /// Levenshtein distance.
 size_t editDistance(const std::string& a, const std::string& b);

@@ -7,11 +7,11 @@
 
 namespace hybrid_slam {
 
-/// A stream of its own for each (seed, step, particle), so that a run draws the same numbers whatever
-/// the number of threads or the order in which particles are visited.
+/// A separate stream for each (seed, step, particle): a run draws the same numbers for any number of threads
+/// and any order of particles.
 ///
-/// The generator is SplitMix64 (Steele, Lea, Flood 2014): a counter through a mixing function, which costs
-/// nothing to start and is free of correlations between streams started from mixed keys.
+/// The generator is SplitMix64 (Steele, Lea, Flood 2014), a counter with a mixing function. It needs no
+/// warm-up, and streams with mixed keys are uncorrelated.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, uint64_t step, uint64_t particle)

@@ -9,7 +9,7 @@ namespace hybrid_slam {
 namespace {
 
 constexpr int kDraws = 100000;
-// Five standard errors: a right generator fails one check in two million.
+// Five standard errors: a correct generator fails one check in two million.
 constexpr double kErrors = 5;
 
 std::vector<double> draw(const std::function<double(int)>& next) {

@@ -30,7 +30,7 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-/// What MRPT's parser makes of the text, its @define and ${...} done.
+/// The text after MRPT's parser has expanded @define and ${...}.
 std::string parsed(const std::string& text, const std::string& file) {
   try {
     return mrpt::config::config_parser(text);
@@ -39,14 +39,13 @@ std::string parsed(const std::string& text, const std::string& file) {
   }
 }
 
-/// The parser passes over a line that it does not understand, and nobody reads a key before the first
-/// section.
+/// Rejects malformed lines and keys before the first section, which the parser ignores.
 void checkLines(const std::string& text, const std::string& file, const std::vector<std::string>& sections) {
   std::istringstream in(text);
   std::optional<std::string> section;
   for (std::string line; std::getline(in, line);) {
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
-    if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // the mark that some editors put at the start
+    if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // byte order mark of some editors
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
     const auto end = line.find(']'), equals = line.find('=');
     if (line.front() == '[' && end != std::string::npos)
@@ -56,7 +55,7 @@ void checkLines(const std::string& text, const std::string& file, const std::vec
   }
 }
 
-/// An InputError about a section that says where the section is from.
+/// An InputError about a section, with its origin.
 [[noreturn]] void rethrowIn(const std::string& where, const InputError& error) {
   const std::string text = error.what();
   const auto section = text.find(": section ["), end = text.rfind("; ");
@@ -111,7 +110,7 @@ void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
 
 void writeManual(const Sections& sections, std::ostream& out) {
   for (const auto& [name, options] : sections) {
-    out << "\n## [" << name << "]\n\n| key | default | unit | range | what for |\n|---|---|---|---|---|\n";
+    out << "\n## [" << name << "]\n\n| key | default | unit | range | meaning |\n|---|---|---|---|---|\n";
     for (const Option& option : options->table()) {
       std::string range = option.range;
       for (size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 4)

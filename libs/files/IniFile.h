@@ -1,5 +1,5 @@
 /// @file IniFile.h
-/// @brief INI files: read, checked, loaded into options, documented.
+/// @brief Reads, checks and documents INI files.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -13,22 +13,20 @@
 
 namespace hybrid_slam::files {
 
-/// (name, options) of each section of ours.
+/// (name, options) of each of our sections.
 using Sections = std::vector<std::pair<std::string, Options*>>;
 
-/// Reads a file and the command line's settings into `source`, and from there into the sections.
-/// @param settings   `SECTION.KEY=VALUE` each, stronger than the file
-/// @param otherwise  a section that will do where the file has none of ours; empty: none
-/// @param expected   what to tell the user who gives a file without any of these
-/// @throws InputError for a missing file, a file without any section of ours, a section that is ours but for
-/// a
-///         slip of the pen, a line that is none, a setting of a section that is neither ours nor in the file,
-///         and for all that Options::loadFromConfigFile finds
+/// Reads a file and the command-line settings into `source`, and from there into the sections.
+/// @param settings   `SECTION.KEY=VALUE` each; override the file
+/// @param otherwise  a section that suffices if the file has none of ours; empty: none
+/// @param expected   error text for a file without any of these
+/// @throws InputError for a missing file, a file without any of our sections, a misspelt section, a malformed
+///         line, a setting of a section neither ours nor in the file, and as Options::loadFromConfigFile
 void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
              const std::vector<std::string>& settings, const Sections& sections, const std::string& otherwise,
              const std::string& expected);
 
-/// Every key with its default, unit, range and reason: a Markdown table for each section.
+/// Every key with default, unit, range and meaning: a Markdown table per section.
 void writeManual(const Sections& sections, std::ostream& out);
 
 }  // namespace hybrid_slam::files

@@ -18,7 +18,7 @@ gzFile_s* openForReading(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw InputError("no such file", path, "expected a log, plain or gzipped");
-  // zlib opens a folder without complaint and fails at the first read.
+  // zlib opens a folder without an error and fails at the first read.
   if (std::filesystem::is_directory(path, ignored))
     throw InputError("a folder, not a file", path, "expected a log, plain or gzipped");
   errno = 0;
@@ -59,7 +59,7 @@ bool LineReader::next(std::string& line) {
   return true;
 }
 
-/// Refills the empty buffer; false at the end of a whole file.
+/// Refills the empty buffer; false at the end of the file.
 bool LineReader::fill() {
   errno = 0;
   const int got = gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));

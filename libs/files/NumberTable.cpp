@@ -18,7 +18,7 @@ std::vector<std::string> words(const std::string& line) {
   return result;
 }
 
-/// zlib reads plain files as they are, so that one way serves both.
+/// zlib also reads plain files.
 std::string readWhole(const std::string& file, const std::string& expected) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> input(gzopen(file.c_str(), "rb"), gzclose);
   if (!input) throw InputError("cannot open the file", "file `" + file + "`", expected);
@@ -28,7 +28,7 @@ std::string readWhole(const std::string& file, const std::string& expected) {
   while ((count = gzread(input.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0)
     text.append(buffer.data(), static_cast<size_t>(count));
   int state = Z_OK;
-  gzerror(input.get(), &state);  // a gzip file that was cut off ends without an error from gzread
+  gzerror(input.get(), &state);  // gzread reports no error for a truncated gzip file
   if (count < 0 || state != Z_OK) throw InputError("cannot read the file", "file `" + file + "`", expected);
   return text;
 }

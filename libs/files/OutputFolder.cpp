@@ -9,11 +9,11 @@
 namespace hybrid_slam::files {
 
 OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
-  const std::string expected = "expected a folder that can be made and written to";
+  const std::string expected = "expected a folder that can be created and written to";
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (!std::filesystem::is_directory(folder_, error))
-    throw InputError("no such folder, and it cannot be made", folder, expected);
+    throw InputError("no such folder, and it cannot be created", folder, expected);
   const PartialFile probe(path("probe"));
   if (!std::ofstream(probe.path())) throw InputError("output folder not writable", folder, expected);
 }

@@ -1,5 +1,5 @@
 /// @file OutputFolder.h
-/// @brief Result files that are there whole or not at all.
+/// @brief Result files that are written completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,12 @@ namespace hybrid_slam::files {
 /// A folder of results.
 class OutputFolder {
  public:
-  /// Makes the folder if it is missing.
-  /// @throws InputError if it cannot be made or written to
+  /// Creates the folder if missing.
+  /// @throws InputError if it cannot be created or written to
   explicit OutputFolder(const std::string& folder);
 
-  /// Writes a file by `fill`.
-  /// @throws InputError if it cannot be written whole (a full disk); nothing is left then
+  /// Writes a file with `fill`.
+  /// @throws InputError if it cannot be written completely (a full disk); no file is then left
   void write(const std::string& name, const std::function<void(std::ostream&)>& fill) const;
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -28,14 +28,14 @@ class OutputFolder {
   std::filesystem::path folder_;
 };
 
-/// A file that grows during a run and gets its name at the end; without `finish` it vanishes.
+/// A file that grows during a run and gets its final name at the end; without `finish` it is removed.
 class GrowingFile {
  public:
   /// @throws InputError if it cannot be opened
   explicit GrowingFile(const std::string& path);
 
   std::ostream& stream() { return out_; }
-  /// @throws InputError if it could not be written whole
+  /// @throws InputError if it could not be written completely
   void finish();
 
  private:

@@ -70,7 +70,7 @@ TEST(OutputFolder, AFileOrADeviceInItsPlace) {
   const TemporaryFolder root;
   const std::string file = root.write("file", "content");
   EXPECT_THAT(errorOf([&] { OutputFolder{file}; }), HasSubstr(file));
-  EXPECT_THAT(errorOf([&] { OutputFolder{file + "/below"}; }), HasSubstr("cannot be made"));
+  EXPECT_THAT(errorOf([&] { OutputFolder{file + "/below"}; }), HasSubstr("cannot be created"));
   EXPECT_THAT(errorOf([&] { OutputFolder{"/dev/null"}; }), HasSubstr("/dev/null"));
   EXPECT_EQ(test::contentOf(file), "content");
 }
@@ -79,8 +79,7 @@ TEST(OutputFolder, AFolderInPlaceOfAResult) {
   const TemporaryFolder root;
   const OutputFolder folder(root.path("out"));
   fs::create_directory(folder.path("x"));
-  EXPECT_THAT(errorOf([&] { folder.write("x", [](std::ostream&) {}); }),
-              HasSubstr("expected the name of a file"));
+  EXPECT_THAT(errorOf([&] { folder.write("x", [](std::ostream&) {}); }), HasSubstr("expected a file name"));
   EXPECT_THAT(namesIn(root.path("out")), UnorderedElementsAre("x"));
 }
 

@@ -14,7 +14,7 @@ PartialFile::PartialFile(const std::string& path)
       partial_((fs::path(path).parent_path() / (".partial." + fs::path(path).filename().string())).string()) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
-    throw InputError("cannot write", path, "expected the name of a file");
+    throw InputError("cannot write", path, "expected a file name");
 }
 
 PartialFile::~PartialFile() {
@@ -30,7 +30,7 @@ void PartialFile::commit() {
 
 void PartialFile::fail(int error) const {
   throw InputError("cannot write", final_,
-                   std::string("expected a writable folder with room on its disk") +
+                   std::string("expected a writable folder with free disk space") +
                        (error ? std::string(": ") + std::strerror(error) : std::string()));
 }
 

@@ -11,14 +11,13 @@
 namespace hybrid_slam::files {
 namespace {
 
-/// What CArchive reads from. It gives all the bytes that are asked for or throws: MRPT goes on with what it
-/// has after a short read, such as half of the length of a text. MRPT's own gzip stream does not tell a
-/// damaged or cut file from its end.
+/// Input stream for CArchive. Returns all requested bytes or throws: MRPT ignores short reads, even within a
+/// string length. MRPT's own gzip stream does not distinguish a damaged or truncated file from its end.
 struct GzipStream {
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file;
-  bool isAtStart = true;  ///< nothing of the present object has been read
+  bool isAtStart = true;  ///< nothing of the current object has been read
   bool isAtEnd = false;   ///< the file ended between two objects
-  std::string problem{};  ///< why it cannot be read on elsewhere
+  std::string problem{};  ///< other reason for the end of reading
 
   size_t Read(void* buffer, size_t count) {
     const size_t n = gzfread(buffer, 1, count, file.get());
@@ -31,7 +30,7 @@ struct GzipStream {
     isAtEnd = isAtStart && n == 0 && error == Z_OK;
     if (!isAtEnd)
       problem = error == Z_OK ? "cut off in the middle of an object" : "gzip file damaged or cut off";
-    throw std::runtime_error("no more bytes");
+    throw std::runtime_error("end of file");
   }
   size_t Write(const void*, size_t) { return 0; }
   std::string getStreamDescription() const { return "rawlog"; }
@@ -61,7 +60,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     try {
       const auto object = stream_->archive.ReadObject();
       ++entry_;
-      if (object) return object;  // else an empty entry
+      if (object) return object;  // otherwise an empty entry
     } catch (const std::exception& e) {
       if (entry_ == 0)
         throw InputError(in.isAtEnd ? "empty file" : "not a rawlog", file_,

@@ -1,5 +1,5 @@
 /// @file RawlogReader.h
-/// @brief The objects of a rawlog one by one, with its end told from its being cut off.
+/// @brief Reads the objects of a rawlog one by one and detects truncation.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::files {
 
-/// Reads a rawlog, plain or gzipped, as a stream: memory does not grow with the log.
+/// Reads a rawlog, plain or gzipped, as a stream with constant memory.
 class RawlogReader {
  public:
   /// @throws InputError if the file is missing or unreadable
@@ -18,12 +18,12 @@ class RawlogReader {
   RawlogReader(const RawlogReader&) = delete;
   RawlogReader& operator=(const RawlogReader&) = delete;
 
-  /// The next object; null at the end, or where the log is cut off or broken (then `defect` says how).
-  /// @throws InputError if the very first object is none that a rawlog holds
+  /// The next object; null at the end, or where the log is truncated or broken (see `defect`).
+  /// @throws InputError if the first object is not a rawlog object
   mrpt::serialization::CSerializable::Ptr next();
 
   size_t entry() const { return entry_; }                ///< objects read so far
-  const std::string& defect() const { return defect_; }  ///< empty for a log that ended as it should
+  const std::string& defect() const { return defect_; }  ///< empty for an intact log
 
  private:
   struct Stream;

@@ -9,8 +9,7 @@
 namespace hybrid_slam::files {
 namespace {
 
-/// What CArchive writes to. MRPT's own gzip stream would not do: it does not say whether the bytes reached
-/// the disk.
+/// Output stream for CArchive. MRPT's own gzip stream does not report whether the bytes reached the disk.
 struct GzipSink {
   gzFile_s* file;
   bool isWhole = true;

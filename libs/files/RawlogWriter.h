@@ -1,5 +1,5 @@
 /// @file RawlogWriter.h
-/// @brief Serialised objects on disk, whole or not at all: rawlogs, and MRPT's maps.
+/// @brief Writes serialised objects, completely or not at all: rawlogs and MRPT's maps.
 #pragma once
 
 #include <memory>
@@ -15,22 +15,21 @@ class CSerializable;
 
 namespace hybrid_slam::files {
 
-/// Writes objects one after another into a gzip stream, the form that mrpt::obs::CRawlog reads (and, for a
-/// single object, that of MRPT's .gridmap.gz and .simplemap.gz). Only `finish` gives the file its name;
-/// without it nothing is left.
+/// Writes objects into a gzip stream, the format of mrpt::obs::CRawlog (and, for a single object, of MRPT's
+/// .gridmap.gz and .simplemap.gz). Only `finish` gives the file its name; without it no file is left.
 class RawlogWriter {
  public:
-  /// @throws InputError where the folder cannot be written to, or `path` is something else than a file
+  /// @throws InputError if the folder is not writable, or `path` is not a file
   explicit RawlogWriter(const std::string& path);
 
-  /// @throws InputError where the disk takes no more
+  /// @throws InputError if the disk is full
   void write(const mrpt::serialization::CSerializable& object);
-  /// What was written so far is on disk after this, for a recording whose program may be killed.
-  /// @throws InputError where the disk takes no more
+  /// Syncs to disk, for a recording whose program may be killed.
+  /// @throws InputError if the disk is full
   void flush();
-  /// @throws InputError where the disk takes no more, or the file cannot be given its name
+  /// @throws InputError if the disk is full, or the file cannot be renamed
   void finish();
-  /// Gives the file its name although the disk took no more: RawlogReader reads it up to where it is cut.
+  /// Gives the file its name although the disk is full: RawlogReader can read it up to the cut.
   void finishCut();
 
  private:

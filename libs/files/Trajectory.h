@@ -1,5 +1,5 @@
 /// @file Trajectory.h
-/// @brief Timed planar poses, and the files that hold them.
+/// @brief Timed planar poses and their files.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,14 +15,14 @@ struct StampedPose {
   mrpt::math::TPose2D pose{};  ///< of the robot, in the frame of the trajectory; m, rad
 };
 
-/// In file order: that is the order in which the robot was at the poses; timestamps may repeat and step back.
+/// In file order, the order of driving; timestamps may repeat and step back.
 using Trajectory = std::vector<StampedPose>;
 
-/// Reads `timestamp x y z qx qy qz qw` (s, m, unit quaternion): x, y and the yaw, without height and tilt.
-/// @throws InputError for an unreadable or empty file, a broken line, a quaternion that is not of length 1.
+/// Reads `timestamp x y z qx qy qz qw` (s, m, unit quaternion): keeps x, y and yaw.
+/// @throws InputError for an unreadable or empty file, a broken line or a quaternion not of unit length.
 Trajectory loadTum(const std::string& file);
 
-/// Writes the TUM form: 1e-6 s, 1e-9 m, 1e-9 in the quaternion.
+/// Writes the TUM format, rounded to 1e-6 s, 1e-9 m and 1e-9 in the quaternion.
 void saveTum(const Trajectory& trajectory, std::ostream& out);
 
 /// Reads raw odometry, `t x y theta` (s, m, rad).

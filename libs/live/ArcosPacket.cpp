@@ -5,7 +5,7 @@ namespace {
 
 constexpr char kFirst = '\xFA', kSecond = '\xFB';
 constexpr size_t kHead = 3, kChecksum = 2;
-constexpr size_t kShortest = kChecksum + 1, kLongest = 204;  // counts: 207 bytes are the most a packet has
+constexpr size_t kShortest = kChecksum + 1, kLongest = 204;  // counts: a packet has at most 207 bytes
 
 uint8_t byteAt(const std::string& bytes, size_t i) { return static_cast<uint8_t>(bytes[i]); }
 
@@ -54,7 +54,7 @@ std::optional<Payload> Decoder::next() {
       buffer_.erase(0, kHead + count);
       return payload;
     }
-    // A whole packet may lie in what a wrong count took for this one.
+    // After a wrong count, a complete packet may be inside this one.
     ++damaged_;
     buffer_.erase(0, 2);
   }

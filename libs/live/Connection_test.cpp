@@ -26,7 +26,7 @@ mrpt::obs::CSensoryFrame cycle(double time, double x = 0, size_t beams = 181) {
   return frame;
 }
 
-/// A client in a thread of its own, and what it got.
+/// A client in a separate thread, with its received cycles.
 class Listener {
  public:
   Listener(uint16_t port, test::Events& events, double timeout = 30)
@@ -66,7 +66,7 @@ class Listener {
 const std::string kAnywhere = "127.0.0.1";
 ObservationServer::Limits limits(size_t queue = 1000, size_t clients = 250) { return {queue, clients}; }
 
-/// Answers each connection by the bytes of the next script, then leaves, or says nothing more.
+/// Answers each connection with the bytes of the next script, then closes it or falls silent.
 class FakeServer {
  public:
   explicit FakeServer(std::vector<std::string> scripts, bool leaves = true)
@@ -142,7 +142,7 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   Listener busy(server.port(), events);
   ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   size_t sent = 0;
-  // The system's own buffers take some megabytes first.
+  // The system's buffers take some megabytes first.
   while (server.dropped() < 50 && sent < 20000) {
     server.publish(cycle(10, static_cast<double>(sent++), 10000));
     ASSERT_TRUE(test::happens([&] { return busy.count() == sent; })) << "the other client gets all";
@@ -245,7 +245,7 @@ TEST(Connection, AfterAnotherServersStartTheOdometryGoesOn) {
   server->publish(cycle(4, 1));
   ASSERT_TRUE(test::happens([&] { return listener.count() == 4; }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(5, 6, 6, 7));
-  EXPECT_EQ(events.count("goes on from the last pose"), 1u);
+  EXPECT_EQ(events.count("continues from the last pose"), 1u);
 }
 
 TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
@@ -270,8 +270,8 @@ void expectSurvived(const std::string& wrong, const std::string& report) {
 }
 
 TEST(Connection, WrongBytesEndTheConnectionAndNothingElse) {
-  expectSurvived("garbage", "bytes that are no message");
-  expectSurvived(std::string(100000, '\0'), "bytes that are no message");
+  expectSurvived("garbage", "bytes that are not a message");
+  expectSurvived(std::string(100000, '\0'), "bytes that are not a message");
   expectSurvived(bytesOf(7, 2, 2).substr(0, 100), "closed the connection");
 
   std::string checksum = bytesOf(7, 2, 9);
@@ -286,7 +286,7 @@ TEST(Connection, WrongBytesEndTheConnectionAndNothingElse) {
   const std::string pair =
       test::contentOf(test::writePlain(folder.path("object"), {test::action({1, 0, 0})}));
   expectSurvived(encode({MessageKind::cycle, 7, 2, pair}), "CActionCollection");
-  expectSurvived(encode({MessageKind::cycle, 7, 2, "nonsense"}), "cannot be read");
+  expectSurvived(encode({MessageKind::cycle, 7, 2, "nonsense"}), "unreadable");
 }
 
 TEST(Connection, AHalfOpenConnectionIsGivenUp) {

@@ -27,7 +27,7 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
   }
   insert(time, observation);
 
-  // The last scan that need not wait ends the cycle, with the first odometry at or after it.
+  // The cycle ends with the last ready scan and the first odometry at or after it.
   for (size_t i = waiting_.size(); i-- > 0;) {
     if (!std::dynamic_pointer_cast<CObservation2DRangeScan>(waiting_[i].observation)) continue;
     const double scanTime = waiting_[i].time;
@@ -50,7 +50,7 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
   if (*newest_ - waiting_.front().time > kLongestWait) give(waiting_.size());
 }
 
-/// Scans of a laser at about the cycles' rate all pass, however they jitter; faster ones are thinned out.
+/// Scans at about the cycle rate all pass despite jitter; faster ones are thinned out.
 bool CycleGrouper::isDue(const CObservation2DRangeScan& scan, double time) {
   const auto due = due_.try_emplace(scan.sensorLabel, time).first;
   if (time < due->second - period_ / 2) return false;

@@ -1,5 +1,5 @@
 /// @file CycleGrouper.h
-/// @brief Observations as they come from sensors into cycles: a scan and the odometry around it.
+/// @brief Groups sensor observations into cycles: a scan and the odometry around it.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
@@ -15,21 +15,21 @@
 
 namespace hybrid_slam::live {
 
-/// Sorts observations by time, thins scans out to the cycles' rate and closes a cycle as soon as odometry at
-/// or after its scan has come, so that whoever gets the cycle can interpolate at once. All times are the
-/// observations' own: what is given in the same order gives the same cycles.
+/// Sorts observations by time, reduces scans to the cycle rate, and closes a cycle once odometry at or after
+/// its scan has arrived, so that the receiver can interpolate immediately. Only observation timestamps are
+/// used: the same observations in the same order give the same cycles.
 class CycleGrouper {
  public:
-  /// @param rate  cycles/s; each laser gives at most one scan a cycle. 0: every scan is a cycle
+  /// @param rate  cycles/s; each laser gives at most one scan per cycle. 0: one cycle per scan
   CycleGrouper(double rate, CycleSink sink) : period_(rate > 0 ? 1 / rate : 0), sink_(std::move(sink)) {}
 
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// No more come: gives away what waits.
+  /// End of input: delivers the pending observations.
   void finish();
 
  private:
   struct Entry {
-    double time;  ///< s; that of the newest before it where the observation has none
+    double time;  ///< s; the previous newest time if the observation has none
     mrpt::obs::CObservation::Ptr observation;
   };
 
@@ -44,8 +44,8 @@ class CycleGrouper {
   std::optional<double> newest_, lastOdometry_;  ///< s
 };
 
-/// s; an observation waits no longer than this for others, and one that is older than the newest by more than
-/// this shows that the clock was set back, or that another log begins.
+/// s; the longest time an observation waits for others. An observation older than the newest by more than
+/// this means that the clock was set back or another log begins.
 constexpr double kLongestWait = 1;
 
 }  // namespace hybrid_slam::live

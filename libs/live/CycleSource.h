@@ -1,5 +1,5 @@
 /// @file CycleSource.h
-/// @brief Where the observations of one cycle after the other come from: sensors, a rawlog, a server.
+/// @brief Source of observation cycles: sensors, a rawlog or a server.
 #pragma once
 
 #include <mrpt/obs/CSensoryFrame.h>
@@ -8,15 +8,15 @@
 
 namespace hybrid_slam::live {
 
-/// Takes the observations of a cycle, in order of time.
+/// Receives the observations of a cycle, in order of time.
 using CycleSink = std::function<void(const mrpt::obs::CSensoryFrame::Ptr&)>;
-/// Asked at least every 0.1 s; true ends the source.
+/// Called at least every 0.1 s; true stops the source.
 using StopCheck = std::function<bool()>;
 
 class CycleSource {
  public:
   virtual ~CycleSource() = default;
-  /// Gives cycles until there are no more, or it is to stop. Faults are reported, waited for and mended.
+  /// Delivers cycles until the end or a stop. Reports faults and retries.
   virtual void run(const CycleSink& sink, const StopCheck& stop) = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file EventLog.h
-/// @brief What happens to sensors and connections, one line for each event.
+/// @brief Log of sensor and connection events, one line each.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@
 
 namespace hybrid_slam::live {
 
-/// Takes events from any thread. A subject (a sensor, the server) that reports the same state again and
-/// again, such as a refused connection at each attempt, is heard once; its next other state is heard anew.
+/// Thread-safe. Repeated identical events of a subject (a sensor, the server), such as a refused connection
+/// at each attempt, are logged once, until another event of that subject.
 class EventLog {
  public:
   using Write = std::function<void(const std::string& line)>;
 
-  /// Lines `PROGRAM: SUBJECT: EVENT` to standard error.
+  /// Writes lines `PROGRAM: SUBJECT: EVENT` to standard error.
   explicit EventLog(const std::string& program);
-  /// The same to anywhere, for tests; called from one thread at a time.
+  /// Likewise with a custom writer, for tests; called from one thread at a time.
   EventLog(const std::string& program, Write write) : program_(program), write_(std::move(write)) {}
 
   void report(const std::string& subject, const std::string& event);
@@ -26,7 +26,7 @@ class EventLog {
   std::string program_;
   Write write_;
   std::mutex mutex_;
-  std::map<std::string, std::string> last_;  ///< event of each subject
+  std::map<std::string, std::string> last_;  ///< event per subject
 };
 
 }  // namespace hybrid_slam::live

@@ -7,16 +7,16 @@
 namespace hybrid_slam::live {
 
 void LiveOptions::describe(OptionTable& t) {
-  t.add(
-      "server", server,
-      "HOST:PORT of an observation-server, an IPv6 address in brackets; empty: use the sensors of this file");
+  t.add("server", server,
+        "HOST:PORT of an observation-server, IPv6 address in brackets; empty: use the sensors of this file");
   t.add("timeout", timeout, 1.5, 3600, "s",
         "reconnect after this long without data; the server sends a heartbeat every second");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "cycle rate of this file's sensors; 0: one cycle per scan");
   t.add("sensor_timeout", sensorTimeout, 0.1, 3600, "s",
         "restart a sensor of this file after this long without data");
   t.add("max_waiting", maxWaiting, 1, 1000000,
-        "when more scans wait for the filter, all but the newest are skipped; their motion is kept");
+        "largest number of scans waiting for the filter; beyond it all but the newest are skipped, their "
+        "motion is kept");
   t.add("recording", recording, "file name of the rawlog of raw observations, in the results folder");
 }
 
@@ -37,7 +37,7 @@ void ServerOptions::describe(OptionTable& t) {
 }
 
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where) {
-  static const std::regex form(R"((?:\[([^\]]+)\]|([^:\[\]]+)):(\d{1,5}))");  // an IPv6 address in brackets
+  static const std::regex form(R"((?:\[([^\]]+)\]|([^:\[\]]+)):(\d{1,5}))");  // IPv6 address in brackets
   std::smatch parts;
   const int port = std::regex_match(text, parts, form) ? std::stoi(parts[3]) : 0;
   if (port < 1 || port > 65535)

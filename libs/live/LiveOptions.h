@@ -35,7 +35,7 @@ struct ServerOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// "HOST:PORT" apart. @throws InputError for anything else
+/// Splits "HOST:PORT". @throws InputError for anything else
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where);
 
 }  // namespace hybrid_slam::live

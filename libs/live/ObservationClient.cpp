@@ -31,7 +31,7 @@ void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
     } catch (const WireError& e) {
       fault = std::string("sent ") + e.what();
     } catch (const InputError&) {
-      throw;  // the sink's
+      throw;  // from the sink
     } catch (const std::runtime_error& e) {
       fault = e.what();
     }
@@ -74,7 +74,7 @@ void ObservationClient::take(const Message& message, const CycleSink& sink) {
   const auto cycle = message.kind == MessageKind::cycle ? deserialise(message.payload) : nullptr;
   if (hasSession_ && message.session != session_) {
     odometry_.restart();
-    log_.report("odometry", "another server: it goes on from the last pose");
+    log_.report("odometry", "new server: odometry continues from the last pose");
   } else if (hasSession_) {
     const uint64_t expected = number_ + (cycle ? 1 : 0);
     if (message.number > expected) lost_ += message.number - expected;

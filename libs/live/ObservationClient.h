@@ -1,5 +1,5 @@
 /// @file ObservationClient.h
-/// @brief The cycles of an observation-server, whatever happens to the connection.
+/// @brief Receives cycles from an observation-server and reconnects after faults.
 #pragma once
 
 #include <atomic>
@@ -18,19 +18,19 @@ class ObservationClient : public CycleSource {
   struct Settings {
     std::string host = "127.0.0.1";
     uint16_t port = 0;
-    double timeout = 5;  ///< s; a server that has nothing to say beats every second
+    double timeout = 5;  ///< s; an idle server sends a heartbeat every second
   };
 
   ObservationClient(const Settings& settings, EventLog& log) : settings_(settings), log_(log) {}
 
-  /// Connects again, with pauses of 0.1 s growing to 2 s, when the connection breaks, falls silent or brings
-  /// bytes that are not the protocol's. Ends when the server says that its log has ended. Where another
-  /// server answers, whose odometry starts anew, it goes on from the last pose.
+  /// Reconnects, with pauses of 0.1 s growing to 2 s, if the connection breaks, falls silent or violates the
+  /// protocol. Ends when the server reports the end of its log. If a new server answers, whose odometry
+  /// restarts, odometry continues from the last pose.
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
-  size_t lost() const { return lost_; }                ///< cycles that the server made but that did not come
+  size_t lost() const { return lost_; }                ///< cycles sent by the server but not received
   size_t connections() const { return connections_; }  ///< so far
-  bool hasEnded() const { return hasEnded_; }          ///< the server said so
+  bool hasEnded() const { return hasEnded_; }          ///< the server reported its end
 
  private:
   void listen(const CycleSink& sink, const StopCheck& stop);

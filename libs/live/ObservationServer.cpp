@@ -54,24 +54,24 @@ ObservationServer::~ObservationServer() {
 
 void ObservationServer::wake() const {
   const uint64_t one = 1;
-  [[maybe_unused]] const ssize_t ignored = ::write(wakeUp_, &one, sizeof one);  // fails only if it is awake
+  [[maybe_unused]] const ssize_t ignored = ::write(wakeUp_, &one, sizeof one);  // fails only if already awake
 }
 
 void ObservationServer::publish(const mrpt::obs::CSensoryFrame& cycle) {
   std::string payload = serialise(cycle);
-  if (payload.size() > kMaxPayload) return log_.report("server", "cycle of more than 16 MiB: left out");
+  if (payload.size() > kMaxPayload) return log_.report("server", "cycle larger than 16 MiB skipped");
   enqueue(MessageKind::cycle, std::move(payload));
 }
 
 void ObservationServer::enqueue(MessageKind kind, std::string payload) {
   {
-    // Numbered and queued at once: a heartbeat that overtakes its cycle would make it count as lost.
+    // Number and queue in one step: a heartbeat ahead of its cycle would make it count as lost.
     const std::lock_guard<std::mutex> lock(mutex_);
     if (kind == MessageKind::cycle) ++number_;
     const auto bytes =
         std::make_shared<const std::string>(encode({kind, session_, number_, std::move(payload)}));
     for (Client& client : clients_) {
-      // A message that is on its way must be finished; the next one is the oldest that can go.
+      // A partly sent message must be finished; drop the next oldest.
       const auto oldest = client.queue.begin() + (client.sent > 0 ? 1 : 0);
       if (client.queue.size() >= limits_.queue && oldest != client.queue.end()) {
         client.queue.erase(oldest);
@@ -106,7 +106,7 @@ void ObservationServer::serve() {
         ready.push_back({client.socket.descriptor(),
                          static_cast<short>(POLLIN | (client.queue.empty() ? 0 : POLLOUT)), 0});
     }
-    // Who comes when all places are taken waits in the system's own queue.
+    // Further clients wait in the system's queue.
     if (!isFull_) ready.push_back({listener_.descriptor(), POLLIN, 0});
     ::poll(ready.data(), ready.size(), kHeartbeat);
 
@@ -139,7 +139,7 @@ void ObservationServer::serve() {
 void ObservationServer::accept() {
   TcpSocket socket = listener_.accept(0);
   if (!socket.isOpen()) {
-    // It is out of descriptors, or the client has left again.
+    // Out of descriptors, or the client has already left.
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return;
   }
@@ -151,7 +151,7 @@ void ObservationServer::accept() {
   clients_.push_back(std::move(client));
 }
 
-/// Clients have nothing to say: what they send is thrown away; reading tells when they leave.
+/// Data from clients is discarded; reading detects when they leave.
 void ObservationServer::read(Client& client) { client.socket.receive(0); }
 
 void ObservationServer::write(Client& client) {
@@ -165,10 +165,10 @@ void ObservationServer::write(Client& client) {
   }
   if (client.dropped == 0) return;
   if (client.queue.empty()) {
-    log_.report(client.name, "keeps up again; it missed " + std::to_string(client.dropped) + " cycles");
+    log_.report(client.name, "keeps up again; missed " + std::to_string(client.dropped) + " cycles");
     client.dropped = 0;
   } else {
-    log_.report(client.name, "too slow: its oldest cycles are dropped");
+    log_.report(client.name, "too slow: oldest cycles dropped");
   }
 }
 

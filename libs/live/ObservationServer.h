@@ -1,5 +1,5 @@
 /// @file ObservationServer.h
-/// @brief Cycles of observations to any number of clients, none of which can hold up the robot or another.
+/// @brief Serves cycles to any number of clients; a slow client blocks neither the robot nor other clients.
 #pragma once
 
 #include <mrpt/obs/CSensoryFrame.h>
@@ -18,17 +18,17 @@
 
 namespace hybrid_slam::live {
 
-/// One thread serves all clients without ever waiting for one: each has a queue of cycles that it did not
-/// take yet, and when that is full the oldest cycle goes.
+/// One thread serves all clients without blocking. Each has a queue of unsent cycles; when it is full, the
+/// oldest cycle is dropped.
 class ObservationServer {
  public:
   struct Limits {
-    size_t queue = 50;  ///< cycles that wait for one client
+    size_t queue = 50;  ///< cycles queued per client
     size_t clients = 250;
   };
 
-  /// @param address  of this machine to listen at; @param port  0: one that is free
-  /// @throws InputError if it cannot listen there
+  /// @param address  local address to listen on; @param port  0: any free port
+  /// @throws InputError if it cannot listen
   ObservationServer(const std::string& address, uint16_t port, Limits limits, EventLog& log);
   ~ObservationServer();
   ObservationServer(const ObservationServer&) = delete;
@@ -41,7 +41,7 @@ class ObservationServer {
 
   /// Puts the cycle into every client's queue; takes microseconds. From any thread.
   void publish(const mrpt::obs::CSensoryFrame& cycle);
-  /// Tells the clients that nothing comes any more, and waits at most `timeout` s for them to take all.
+  /// Signals the end to the clients and waits at most `timeout` s for them to receive all.
   void finish(double timeout);
 
  private:
@@ -49,7 +49,7 @@ class ObservationServer {
   struct Client {
     TcpSocket socket;
     std::string name;
-    std::deque<Bytes> queue;  ///< the first may be sent in part
+    std::deque<Bytes> queue;  ///< the first may be partly sent
     size_t sent = 0;          ///< bytes of the first
     size_t dropped = 0;       ///< cycles since the queue was last empty
   };
@@ -69,10 +69,10 @@ class ObservationServer {
   std::atomic<uint64_t> number_{0};
   std::atomic<size_t> clientCount_{0}, dropped_{0};
   std::atomic<bool> stop_{false};
-  /// Of the clients' queues and the growth of number_; only the thread adds and removes clients.
+  /// Guards the clients' queues and number_; only the thread adds and removes clients.
   std::mutex mutex_;
   std::list<Client> clients_;
-  bool isFull_ = false;  ///< more clients wait than can be served
+  bool isFull_ = false;  ///< more clients than can be served
   std::thread thread_;
 };
 

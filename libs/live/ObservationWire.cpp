@@ -23,7 +23,7 @@ uint64_t get(const std::string& bytes, size_t at, size_t count) {
   return value;
 }
 
-/// Of a message from `kKind` on, but the place of the checksum itself.
+/// Checksum of a message from `kKind` on, without the checksum field.
 uint32_t checksumOf(const std::string& bytes, size_t size) {
   const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
   const uLong header = ::crc32(0, data + kKind, kChecksum - kKind);
@@ -40,12 +40,12 @@ struct StringSink {
   std::string getStreamDescription() const { return "message"; }
 };
 
-/// Gives all the bytes that are asked for or throws: MRPT goes on with what it has after a short read.
+/// Returns all requested bytes or throws: MRPT ignores short reads.
 struct StringSource {
   const std::string& bytes;
   size_t at = 0;
   size_t Read(void* data, size_t count) {
-    if (count > bytes.size() - at) throw WireError("an object that is cut off");
+    if (count > bytes.size() - at) throw WireError("a truncated object");
     std::memcpy(data, bytes.data() + at, count);
     at += count;
     return count;
@@ -69,9 +69,9 @@ std::string encode(const Message& message) {
 }
 
 std::optional<Message> MessageDecoder::next() {
-  // What is wrong shows with the first byte that is, not only once a header is whole.
+  // Detect an error at the first wrong byte, before the header is complete.
   if (buffer_.compare(0, kKind, kMagic, std::min(buffer_.size(), kKind)) != 0)
-    throw WireError("bytes that are no message");
+    throw WireError("bytes that are not a message");
   if (buffer_.size() < kHeader) return std::nullopt;
   const uint64_t kind = get(buffer_, kKind, 4), length = get(buffer_, kLength, 4);
   if (kind < 1 || kind > 3) throw WireError("a message of unknown kind " + std::to_string(kind));
@@ -98,15 +98,15 @@ mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload) {
   try {
     object = mrpt::serialization::archiveFrom(source).ReadObject();
   } catch (const std::exception& e) {
-    throw WireError("an object that cannot be read (" + messageOf(e) + ")");
+    throw WireError("an unreadable object (" + messageOf(e) + ")");
   }
   const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
   if (!frame)
     throw WireError(std::string("an object of class ") +
-                    (object ? object->GetRuntimeClass()->className : "none") + " in place of CSensoryFrame");
+                    (object ? object->GetRuntimeClass()->className : "none") + " instead of CSensoryFrame");
   if (source.at != payload.size()) throw WireError("bytes after the object");
   for (const auto& observation : *frame)
-    if (!observation) throw WireError("an object that is no observation");
+    if (!observation) throw WireError("an object that is not an observation");
   return frame;
 }
 

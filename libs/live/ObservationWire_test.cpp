@@ -23,7 +23,7 @@ Message message(MessageKind kind = MessageKind::cycle) {
   return {kind, 0x0123456789abcdef, 42, kind == MessageKind::cycle ? serialise(cycle()) : ""};
 }
 
-/// What the decoder says to bytes: "" nothing yet, "message", or the error.
+/// The decoder's answer to bytes: "" (incomplete), "message", or the error.
 std::string answerTo(const std::string& bytes) {
   MessageDecoder decoder;
   decoder.feed(bytes);
@@ -100,8 +100,8 @@ TEST(ObservationWire, NoChangedBitPasses) {
 }
 
 TEST(ObservationWire, GarbageShowsAtOnce) {
-  EXPECT_THAT(answerTo("G"), HasSubstr("no message"));
-  EXPECT_THAT(answerTo("HSO2"), HasSubstr("no message"));
+  EXPECT_THAT(answerTo("G"), HasSubstr("not a message"));
+  EXPECT_THAT(answerTo("HSO2"), HasSubstr("not a message"));
   EXPECT_EQ(answerTo("HSO"), "");
   std::string bytes = encode(message());
   bytes[4] = 9;
@@ -124,9 +124,9 @@ TEST(ObservationWire, OnlyOneWholeFrameOfObservationsIsTaken) {
   const std::string payload = serialise(cycle());
   EXPECT_EQ(errorOf(payload), "no error");
   EXPECT_THAT(errorOf(payload + "x"), HasSubstr("bytes after"));
-  EXPECT_THAT(errorOf(payload.substr(0, payload.size() / 2)), HasSubstr("cannot be read"));
-  EXPECT_THAT(errorOf(""), HasSubstr("cannot be read"));
-  EXPECT_THAT(errorOf("\x85hello"), HasSubstr("cannot be read"));
+  EXPECT_THAT(errorOf(payload.substr(0, payload.size() / 2)), HasSubstr("unreadable object"));
+  EXPECT_THAT(errorOf(""), HasSubstr("unreadable object"));
+  EXPECT_THAT(errorOf("\x85hello"), HasSubstr("unreadable object"));
 
   const files::TemporaryFolder folder;
   const auto bytesOf = [&folder](const mrpt::serialization::CSerializable::Ptr& object) {
@@ -134,9 +134,9 @@ TEST(ObservationWire, OnlyOneWholeFrameOfObservationsIsTaken) {
   };
   EXPECT_EQ(errorOf(bytesOf(mrpt::obs::CSensoryFrame::Create(cycle()))), "no error");
   EXPECT_THAT(errorOf(bytesOf(test::action({1, 0, 0}))),
-              HasSubstr("class mrpt::obs::CActionCollection in place of"));
+              HasSubstr("class mrpt::obs::CActionCollection instead of"));
   EXPECT_THAT(errorOf(bytesOf(test::scan(1))),
-              HasSubstr("class mrpt::obs::CObservation2DRangeScan in place of"));
+              HasSubstr("class mrpt::obs::CObservation2DRangeScan instead of"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file OdometryContinuity.h
-/// @brief Odometry that goes on where it was when a robot's counters start anew.
+/// @brief Keeps odometry continuous when a robot's counters restart.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -11,16 +11,16 @@
 
 namespace hybrid_slam::live {
 
-/// A robot that is switched off and on, and a driver that connects again, count from zero. What happened in
-/// between is not known: the pose goes on from the last one as if the robot had stood still. So it does over
-/// a jump that no robot makes, which a replay of the recording would refuse.
+/// Counters restart from zero when a robot is power-cycled or a driver reconnects. The motion in between is
+/// unknown, so the pose continues from the last one as if the robot had stood still. The same applies to
+/// impossible jumps, which a replay of the recording would reject.
 class OdometryContinuity {
  public:
-  /// The next pose is in a frame of its own.
+  /// The next pose is in a new frame.
   void restart() { isNewFrame_ = true; }
 
-  /// @param pose  as the robot tells it (m, rad)
-  /// @return the pose in the frame of the very first one; the same bits until the first restart
+  /// @param pose  as reported by the robot (m, rad)
+  /// @return the pose in the first frame; bit-identical until the first restart
   mrpt::math::TPose2D operator()(const mrpt::math::TPose2D& pose) {
     if (told_ && (isNewFrame_ || (pose - *told_).norm() > readings::kMaxStep)) start_ = Start{*last_, pose};
     isNewFrame_ = false;
@@ -31,15 +31,15 @@ class OdometryContinuity {
 
  private:
   struct Start {
-    mrpt::math::TPose2D here, there;  ///< one moment in the first frame and in the present one
+    mrpt::math::TPose2D here, there;  ///< the same pose in the first and in the current frame
   };
   bool isNewFrame_ = false;
   std::optional<Start> start_;
   std::optional<mrpt::math::TPose2D> told_,
-      last_;  ///< the one before, as the robot told it and as it was given
+      last_;  ///< the previous pose, as reported and as returned
 };
 
-/// Puts an observation, if it is odometry, into the first frame.
+/// Transforms an odometry observation into the first frame; ignores others.
 void rebase(mrpt::obs::CObservation& observation, OdometryContinuity& continuity);
 
 }  // namespace hybrid_slam::live

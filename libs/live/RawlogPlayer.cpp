@@ -17,14 +17,14 @@ using Clock = std::chrono::steady_clock;
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
-/// Waits until the moment of each cycle.
+/// Waits until the time of each cycle.
 class Pace {
  public:
   Pace(double rate, const StopCheck& stop) : rate_(rate), stop_(stop) {}
 
   void wait(const CSensoryFrame& cycle) {
     const double time = timeOf(cycle);
-    // A step back, or a pause of minutes between two logs in one, is not waited for.
+    // Do not wait for a step back, or a gap of minutes between two logs in one file.
     if (count_ == 0 || time < last_ || time - last_ > 60) start_ = Clock::now(), first_ = time, count_ = 0;
     const double due = rate_ > 0 ? static_cast<double>(count_) / rate_ : time - first_;
     ++count_;

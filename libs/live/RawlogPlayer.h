@@ -1,5 +1,5 @@
 /// @file RawlogPlayer.h
-/// @brief A rawlog in place of sensors, at its own pace or at a given rate.
+/// @brief Replays a rawlog instead of sensors, in real time or at a given rate.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace hybrid_slam::live {
 
 class RawlogPlayer : public CycleSource {
  public:
-  /// @param cycleRate   cycles/s of the log's time that are made of its observations; 0: each scan is one
-  /// @param replayRate  cycles/s at which they are given away; 0: the log's own pace
-  /// @throws InputError if the log is missing, or holds no scan
+  /// @param cycleRate   cycles per second of log time; 0: one cycle per scan
+  /// @param replayRate  cycles/s delivered; 0: real time
+  /// @throws InputError if the log is missing or has no scan
   RawlogPlayer(const std::string& file, double cycleRate, double replayRate);
 
-  /// Ends with the log. The odometry of action-observation pairs becomes CObservationOdometry.
+  /// Ends with the log. Converts the odometry of action-observation pairs to CObservationOdometry.
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
  private:

@@ -35,10 +35,10 @@ void Recording::finish() {
 }
 
 void Recording::endAt(const std::exception& fault) {
-  log_.report("recording", "ends here; the run goes on (" + messageOf(fault) + ")");
+  log_.report("recording", "stopped; the run continues (" + messageOf(fault) + ")");
   try {
     writer_->finishCut();
-  } catch (const std::exception&) {  // the folder is gone: nothing can be kept
+  } catch (const std::exception&) {  // the folder is gone
   }
   writer_.reset();
 }

@@ -1,5 +1,5 @@
 /// @file Recording.h
-/// @brief The raw observations of a live run as a rawlog, whatever happens to the run.
+/// @brief Records the raw observations of a live run as a rawlog, robust to crashes.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
@@ -13,19 +13,19 @@
 
 namespace hybrid_slam::live {
 
-/// While it grows the file is `.partial.NAME`; every 5 s all of it is on disk. It gets its name at the end of
-/// the run, also of one that failed; after a power cut the partial file can be read up to where it ends.
+/// The file is `.partial.NAME` while it grows and is synced to disk every 5 s. It gets its final name at the
+/// end of the run, even a failed one. After a power cut the partial file is readable up to its end.
 class Recording {
  public:
-  /// @throws InputError if it cannot be written there
+  /// @throws InputError if it cannot be written
   Recording(const std::string& path, EventLog& log);
   ~Recording() { finish(); }
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  /// A disk that takes no more ends the recording, not the run; it is reported.
+  /// A full disk ends the recording, not the run, and is reported.
   void write(const mrpt::obs::CObservation& observation);
-  /// All that was written is on disk after this.
+  /// Syncs everything written so far to disk.
   void flush();
   void finish();
   const std::string& path() const { return path_; }
@@ -36,7 +36,7 @@ class Recording {
 
   std::string path_;
   EventLog& log_;
-  std::unique_ptr<files::RawlogWriter> writer_;  ///< null once it has ended
+  std::unique_ptr<files::RawlogWriter> writer_;  ///< null after the end
   Clock::time_point lastFlush_ = Clock::now();
 };
 

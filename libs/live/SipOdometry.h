@@ -1,5 +1,5 @@
 /// @file SipOdometry.h
-/// @brief From the counters of server information packets to a pose.
+/// @brief Pose from the counters of server information packets.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -11,11 +11,11 @@
 
 namespace hybrid_slam::live {
 
-/// Adds up the counters of SIPs over their wrap-around.
+/// Accumulates the counters of SIPs across wrap-arounds.
 class SipOdometry {
  public:
   explicit SipOdometry(double metresPerUnit) : metresPerUnit_(metresPerUnit) {}
-  /// @return the pose (m, rad) from that of the first SIP's counters on
+  /// @return the pose (m, rad) relative to the first SIP
   mrpt::math::TPose2D operator()(const arcos::Sip& sip);
 
  private:

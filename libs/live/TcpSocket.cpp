@@ -45,8 +45,7 @@ bool waitFor(int descriptor, short events, double timeout) {
   }
 }
 
-/// Small messages at once, and a dead peer noticed: bytes that nobody acknowledges for 30 s end the
-/// connection.
+/// Sends small messages immediately and detects dead peers: bytes unacknowledged for 30 s end the connection.
 void prepare(int descriptor) {
   const int on = 1, idle = 10, interval = 5, count = 4, userTimeout = 30000;
   ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) | O_NONBLOCK);
@@ -71,8 +70,7 @@ Addresses lookUp(const std::string& host, uint16_t port, int flags) {
   return {found, ::freeaddrinfo};
 }
 
-/// In a thread of its own, which is left behind where nobody waits for it any more: getaddrinfo cannot be
-/// interrupted. @return none if it was to stop
+/// In a separate thread, abandoned on a stop: getaddrinfo cannot be interrupted. @return none if stopped
 Addresses lookUp(const std::string& host, uint16_t port, double timeout,
                  const std::function<bool()>& isStopped) {
   std::packaged_task<Addresses()> task([host, port] { return lookUp(host, port, 0); });
@@ -87,7 +85,7 @@ Addresses lookUp(const std::string& host, uint16_t port, double timeout,
   return found.get();
 }
 
-/// @return 0 if somebody answered, else the reason
+/// @return 0 if connected, else the errno
 int connectWithin(int descriptor, const addrinfo& address, double timeout,
                   const std::function<bool()>& isStopped) {
   const auto start = Clock::now();
@@ -170,7 +168,7 @@ void TcpSocket::send(const std::string& bytes, double timeout) {
 
 TcpListener::TcpListener(const std::string& address, uint16_t port) {
   const std::string where = addressText(address, port);
-  const std::string expected = "expected an address of this machine and a port that is free";
+  const std::string expected = "expected a local address and a free port";
   try {
     const Addresses found = lookUp(address, port, AI_PASSIVE | AI_NUMERICHOST);
     socket_ = TcpSocket(::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));

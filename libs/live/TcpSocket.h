@@ -1,9 +1,9 @@
 /// @file TcpSocket.h
-/// @brief TCP connections that can neither block for ever nor end the program.
+/// @brief TCP connections that neither block forever nor kill the program.
 ///
-/// MRPT's sockets would not do. CServerTCPSocket does not tell the port that the system chose, which tests
-/// need. CClientTCPSocket::writeAsync goes round for ever once the peer is gone (it takes a failed send for
-/// no progress), after a SIGPIPE that ends the program.
+/// MRPT's sockets are not suitable. CServerTCPSocket does not report the port chosen by the system, which
+/// tests need. CClientTCPSocket::writeAsync loops forever once the peer is gone (it treats a failed send as
+/// no progress), after a SIGPIPE that kills the program.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ class TcpSocket {
   TcpSocket(TcpSocket&& other) noexcept : descriptor_(other.release()) {}
   TcpSocket& operator=(TcpSocket&& other) noexcept;
 
-  /// Tries the host's addresses, IPv6 ones among them, one after the other.
-  /// @param timeout    s, in which each address that is left has an equal share
-  /// @param isStopped  asked every 0.1 s
-  /// @return a closed socket if it was to stop
-  /// @throws std::runtime_error with the reason if nobody answers
+  /// Tries the host's addresses, IPv4 and IPv6, one after the other.
+  /// @param timeout    s, shared equally between the remaining addresses
+  /// @param isStopped  called every 0.1 s
+  /// @return a closed socket if stopped
+  /// @throws std::runtime_error with the reason if there is no answer
   static TcpSocket connectTo(
       const std::string& host, uint16_t port, double timeout,
       const std::function<bool()>& isStopped = [] { return false; });
@@ -37,13 +37,13 @@ class TcpSocket {
   int descriptor() const { return descriptor_; }
   void close();
 
-  /// What has come, at most 64 KiB, waiting at most `timeout` s for the first byte; empty if nothing came.
-  /// @throws std::runtime_error if the peer has closed the connection, or it broke
+  /// Received bytes, at most 64 KiB; waits at most `timeout` s for the first one. Empty if none arrived.
+  /// @throws std::runtime_error if the connection was closed or broke
   std::string receive(double timeout);
-  /// Sends without waiting. @return how many bytes were taken, 0 if there is no room
-  /// @throws std::runtime_error if the connection is gone
+  /// Sends without blocking. @return number of bytes sent, 0 if the buffer is full
+  /// @throws std::runtime_error if the connection is lost
   size_t sendSome(const char* bytes, size_t count);
-  /// Sends all. @throws std::runtime_error if that takes longer than `timeout` s, or the connection is gone
+  /// Sends all. @throws std::runtime_error if that takes longer than `timeout` s, or the connection is lost
   void send(const std::string& bytes, double timeout);
 
  private:
@@ -51,17 +51,17 @@ class TcpSocket {
   int descriptor_ = -1;
 };
 
-/// Waits for connections.
+/// A listening socket.
 class TcpListener {
  public:
-  /// @param address  of this machine, "127.0.0.1", "::1"; "0.0.0.0" for all of IPv4, "::" for all
-  /// @param port     0: one that is free
-  /// @throws InputError if it cannot listen there
+  /// @param address  local address: "127.0.0.1", "::1"; "0.0.0.0": all IPv4 interfaces, "::": all
+  /// @param port     0: any free port
+  /// @throws InputError if it cannot listen
   TcpListener(const std::string& address, uint16_t port);
 
   uint16_t port() const { return port_; }
   int descriptor() const { return socket_.descriptor(); }
-  /// The next connection; a closed socket if there is none within `timeout` s. errno says why.
+  /// The next connection; a closed socket if there is none within `timeout` s, with errno set.
   TcpSocket accept(double timeout);
 
  private:

@@ -69,7 +69,7 @@ class FullListener {
   std::vector<TcpSocket> sockets_;
 };
 
-/// How long a client that has nobody to talk to takes to stop, s.
+/// Time a client without a server takes to stop, s.
 double timeToStop(const std::string& host, uint16_t port) {
   test::Events events;
   ObservationClient client({host, port, 15}, events.log());

@@ -12,14 +12,14 @@
 namespace hybrid_slam::live {
 namespace {
 
-/// Observations: about a second's. Sensors do not start in the same moment.
+/// Number of observations, about one second: sensors do not start at the same time.
 constexpr size_t kEarly = 5;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The smallest value that at least `share` of all values do not exceed.
+/// Quantile: the smallest value that at least `share` of all values do not exceed.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
@@ -31,7 +31,7 @@ double quantile(std::vector<double> values, double share) {
 std::string recordingPath(const run::Configuration& configuration, const LiveOptions& options) {
   if (options.recording.empty() || options.recording.find('/') != std::string::npos)
     throw InputError("wrong name `" + options.recording + "`", "section [live], key `recording`",
-                     "expected the name of a file in the folder for the results");
+                     "expected a file name in the folder for the results");
   return files::OutputFolder(configuration.run.output).path(options.recording);
 }
 
@@ -65,7 +65,7 @@ void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, C
     early_.emplace_back(observation, arrival);
     if (early_.size() <= kEarly) return;
     early_.pop_front();
-    return log_.report("odometry", "none yet; what comes long before it is left out");
+    return log_.report("odometry", "none yet; scans long before the first reading are skipped");
   }
   pass({observation, arrival});
 }
@@ -120,7 +120,7 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
   stopFilter();
   recording_.finish();
   if (failure_) std::rethrow_exception(failure_);
-  if (run_.scans() == 0) throw std::runtime_error("no scan came with its odometry");
+  if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");
 
   const readings::RawlogSummary recorded = summarise(recording_.path(), configuration_.input);
   const nlohmann::ordered_json more{{"skipped", skipped_.load()},

@@ -1,5 +1,5 @@
 /// @file LiveRun.h
-/// @brief Cycles of observations into a recording, through the filter, into results.
+/// @brief A live run: records cycles, filters them and writes results.
 #pragma once
 
 #include <atomic>
@@ -22,33 +22,33 @@
 
 namespace hybrid_slam::live {
 
-/// The caller's thread records and pairs, a thread of its own filters. Replaying the recording by hybrid-slam
-/// gives the same readings, and where none was skipped the same results, to the byte.
+/// The caller's thread records and pairs readings; a second thread filters. Replaying the recording with
+/// hybrid-slam gives the same readings and, if none was skipped, identical results.
 class LiveRun {
  public:
-  /// @param configuration  with [live] among its sections; outlives the run
-  /// @param isQuiet        no line about the filter's state every 10 s
+  /// @param configuration  must contain [live] and outlive the run
+  /// @param isQuiet        no status line every 10 s
   /// @throws InputError for wrong settings, or an output folder that cannot be written to
   LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet);
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
-  /// Called in the filter's thread after each scan with whether the filter was updated; to be set before the
-  /// first cycle.
+  /// Called in the filter's thread after each scan, with whether it caused an update. Set it before the first
+  /// cycle.
   using Watcher = std::function<void(const FilterView&, const readings::Reading&, bool isUpdate)>;
   void setWatcher(Watcher watcher) { watcher_ = std::move(watcher); }
 
-  /// One cycle. Odometry that is not a number, and where the input requires odometry all but the last few
-  /// observations before the first odometry, are left out, also of the recording.
+  /// Processes one cycle. Odometry that is not a number is dropped, also from the recording; so are, if
+  /// odometry is required, all but the last few observations before the first odometry.
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
-  /// The filter gave up: there is no use in more cycles.
+  /// The filter has failed; further cycles are useless.
   bool hasFailed() const { return hasFailed_; }
 
-  /// The filter takes what waits; then all results are written.
-  /// @param lost  cycles that did not reach the run; to metrics.json
-  /// @return one line: what the run came to
-  /// @throws std::runtime_error if no scan came, or what made the filter fail; the recording is there anyway
+  /// Filters the waiting readings, then writes all results.
+  /// @param lost  number of lost cycles, for metrics.json
+  /// @return a one-line summary
+  /// @throws std::runtime_error if there was no scan, or with the filter's failure; the recording is kept
   std::string finish(const std::string& version, size_t lost);
 
   size_t skipped() const { return skipped_; }
@@ -75,7 +75,7 @@ class LiveRun {
   ReadingQueue queue_;
   bool hasOdometry_ = false;
   std::deque<Arrived> early_;      ///< before the first odometry
-  std::vector<double> latencies_;  ///< ms, of each scan that was filtered
+  std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
   std::atomic<size_t> skipped_{0};
   std::atomic<bool> hasFailed_{false};

@@ -77,7 +77,7 @@ TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
   EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
 }
 
-/// MRPT's filter, too, draws what the seed says, whichever thread it runs in.
+/// MRPT's filter also depends only on the seed, in any thread.
 TEST_F(LiveRunTest, SoItDoesForMrptsFilter) {
   options.maxWaiting = 1000;
   const std::string more = "[run]\nmethod = stock\n";
@@ -188,7 +188,7 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
     cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
     run.take(cycle);
   }
-  EXPECT_EQ(events.count("ends here; the run goes on"), 1u) << events.text();
+  EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_THAT(run.finish("test", 0), HasSubstr("300 scans"));
   files::RawlogReader reader(folder.path("live/recording.rawlog"));

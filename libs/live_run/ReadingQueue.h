@@ -1,5 +1,5 @@
 /// @file ReadingQueue.h
-/// @brief What waits for the filter, and which scans are skipped when it is late.
+/// @brief Queue of readings for the filter; skips scans if it is late.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@
 namespace hybrid_slam::live {
 
 struct QueuedReading {
-  readings::Reading reading;  ///< its motion is that since the scan that the filter had before
-  size_t skipped = 0;         ///< scans before it that the filter does not get
+  readings::Reading reading;  ///< its motion is since the previous filtered scan
+  size_t skipped = 0;         ///< scans skipped before it
   std::chrono::steady_clock::time_point arrival;
 };
 
-/// The rule: when more than `limit` scans wait, all but the newest are skipped, and the newest carries their
-/// motion. So the filter is never later than it takes for `limit` scans, and never works through a backlog.
+/// If more than `limit` scans wait, all but the newest are skipped; the newest carries their motion. The
+/// filter thus lags by at most the time for `limit` scans and never processes a backlog.
 class ReadingQueue {
  public:
   explicit ReadingQueue(size_t limit) : limit_(limit) {}
@@ -40,7 +40,7 @@ class ReadingQueue {
     }
     changed_.notify_all();
   }
-  /// Waits for the next reading; nothing once the queue is closed and empty.
+  /// Waits for the next reading; empty once the queue is closed and empty.
   std::optional<QueuedReading> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return isClosed_ || !waiting_.empty(); });

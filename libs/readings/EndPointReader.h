@@ -1,5 +1,5 @@
 /// @file EndPointReader.h
-/// @brief The end points of a log's scans, against which trajectories are judged.
+/// @brief Reads the end points of a log's scans, for evaluation.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 /// @file EndPoints.h
-/// @brief What a scan shows: where its beams end.
+/// @brief The end points of a scan's beams.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::readings {
 
-/// Where the valid beams of one scan end, in the order of their angles.
+/// End points of the valid beams of one scan, by angle.
 struct EndPoints {
   double timestamp = 0;                      ///< s
   std::vector<mrpt::math::TPoint2D> points;  ///< in the robot frame, m

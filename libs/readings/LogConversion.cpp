@@ -36,7 +36,7 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
   observation->resizeScan(beams);
   for (size_t i = 0; i < beams; ++i) {
     const float range = record.ranges[i];
-    // Not a number in a rawlog would reach programs that do not look at the validity.
+    // NaN in a rawlog would reach programs that ignore the validity flags.
     observation->setScanRange(i, std::isfinite(range) ? range : 0);
     observation->setScanRangeValidity(i, range > 0 && range < observation->maxRange);
   }
@@ -56,7 +56,7 @@ LogFormat recogniseFormat(files::LineReader& lines) {
                    "(Odometry, Laser)");
 }
 
-/// Writes records as rawlog entries, in either form, and sums them up.
+/// Writes records as rawlog entries, in either format, and gathers the summary.
 class Conversion {
  public:
   Conversion(files::RawlogWriter& writer, double maxRange, bool actionObservation)
@@ -101,7 +101,7 @@ class Conversion {
   LogSummary summary;
 
  private:
-  /// The odometry's increment since the scan before; an action without a movement where there is none.
+  /// The odometry increment since the previous scan; an empty action if there is none.
   void writeActionUpTo(double time) {
     mrpt::obs::CActionCollection actions;
     if (last_) {

@@ -9,7 +9,7 @@ namespace hybrid_slam::readings {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\f\v";
-/// s; the timestamps of MRPT count 100 ns ticks from the year 1601 in 64 bits and end at 9e11 s.
+/// s; MRPT's timestamps are 64-bit counts of 100 ns since 1601 and end at 9e11 s.
 constexpr double kLatestTime = 1e11;
 
 }  // namespace
@@ -29,7 +29,7 @@ void LogFields::expectLeft(size_t count, const std::string& what) const {
 }
 
 std::string_view LogFields::word() {
-  if (empty()) throw BrokenLine("the line is cut short");
+  if (empty()) throw BrokenLine("truncated line");
   return fields_[next_++];
 }
 
@@ -51,7 +51,7 @@ float LogFields::range() { return static_cast<float>(anyNumber()); }
 size_t LogFields::count(size_t least) {
   const double value = number();
   if (value < static_cast<double>(least) || value > 1e6 || value != std::floor(value))
-    throw BrokenLine(inBackquotes(fields_[next_ - 1]) + " is not a number of readings");
+    throw BrokenLine(inBackquotes(fields_[next_ - 1]) + " is not a valid number of readings");
   return static_cast<size_t>(value);
 }
 

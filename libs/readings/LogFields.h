@@ -1,5 +1,5 @@
 /// @file LogFields.h
-/// @brief The blank-separated fields of one line of a log, taken one after the other.
+/// @brief The blank-separated fields of a log line, read in sequence.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -11,12 +11,12 @@
 
 namespace hybrid_slam::readings {
 
-/// A line that does not hold what its record type asks for; what() says why.
+/// A line that does not match its record type; what() gives the reason.
 struct BrokenLine : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Every getter takes the next field and throws BrokenLine where the field is not what it asks for.
+/// Every getter reads the next field and throws BrokenLine if it is invalid.
 class LogFields {
  public:
   explicit LogFields(std::string_view line);
@@ -30,11 +30,11 @@ class LogFields {
   void skip(size_t count) { next_ += count; }
   /// A finite number.
   double number();
-  /// A range reading (m): a number, of which `nan` and `inf` are a laser's ways to say "nothing seen".
+  /// A range reading (m); `nan` and `inf` mean no return.
   float range();
-  /// A whole number from `least` on.
+  /// A whole number, at least `least`.
   size_t count(size_t least);
-  /// A time in seconds that a timestamp can hold.
+  /// A time in seconds within the range of a timestamp.
   double time();
   /// x, y (m), theta (rad).
   mrpt::math::TPose2D pose();
@@ -45,7 +45,7 @@ class LogFields {
   size_t next_ = 0;
 };
 
-/// The field in backquotes, shortened, with a `?` for what cannot be printed.
+/// The field in backquotes, shortened, with `?` for unprintable characters.
 std::string inBackquotes(std::string_view field);
 
 }  // namespace hybrid_slam::readings

@@ -14,7 +14,7 @@ bool sameWord(std::string_view a, std::string_view b) {
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// Message names are capitals: `SYNC`, `NMEA-GGA`, `SM_UPDATE`.
+/// Message names are in capitals: `SYNC`, `NMEA-GGA`, `SM_UPDATE`.
 bool isRecordName(std::string_view word) {
   return word.size() <= 32 && word.front() >= 'A' && word.front() <= 'Z' &&
          std::all_of(word.begin(), word.end(), [](char c) {
@@ -42,7 +42,7 @@ std::optional<LogFormat> formatOf(std::string_view line) {
   if (sameWord(name, "Odometry") || sameWord(name, "Laser")) return LogFormat::dpslam;
   if (name == "LASER_READING" || name == "ODO_UPDATE" || name == "SM_UPDATE" || name == "FRAME")
     return LogFormat::gfs;
-  // x y theta time against x y theta tv rv acceleration ipc_time host logger_time
+  // x y theta time, or x y theta tv rv acceleration ipc_time host logger_time
   if (name == "ODOM" && fields.left() == 4) return LogFormat::gfs;
   if (name == "ODOM" && fields.left() == 9) return LogFormat::carmen;
   if (name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" || name == "PARAM")
@@ -90,7 +90,7 @@ LogRecord LogParser::carmenLaser(std::string_view name, LogFields& fields) const
                                    " ranges, the laser's and the robot's pose, "
                                    "ipc_time host logger_time");
   LaserRecord record = scan(name, beams, fields);
-  // The laser's own pose is left aside: in corrected logs it is a mapper's result, not the mounting.
+  // Ignore the laser pose: in corrected logs it is a mapper's result, not the mounting.
   fields.pose();
   record.odometry = fields.pose();
   record.time = carmenTime(fields);
@@ -106,14 +106,14 @@ LogRecord LogParser::carmenRobotLaser(std::string_view name, LogFields& fields) 
   record.label = name;
   fields.number();  // laser type
   record.angles.first = fields.number();
-  fields.number();  // field of view, which some logs give as beams * resolution and some as one less
+  fields.number();  // field of view: beams * resolution in some logs, one step less in others
   record.angles.step = fields.number();
   if (!(record.angles.step > 0)) throw BrokenLine("the angular resolution is not positive");
   record.maxRange = fields.number();
   if (!(*record.maxRange > 0)) record.maxRange.reset();
   for (int i = 0; i < 2; ++i) fields.number();  // accuracy, remission mode
   const size_t beams = fields.count(1);
-  if (fields.left() <= beams) throw BrokenLine("the line is cut short: " + std::to_string(beams) + " ranges");
+  if (fields.left() <= beams) throw BrokenLine("truncated line: " + std::to_string(beams) + " ranges");
   record.ranges = ranges(beams, fields);
   const size_t remissions = fields.count(0);
   fields.expectLeft(remissions + 14, std::to_string(remissions) +
@@ -134,7 +134,7 @@ void LogParser::parameter(LogFields& fields) {
   if (key == "robot_rearlaser_offset") rearOffset_ = fields.number();
 }
 
-/// The end of every CARMEN row.
+/// The last fields of every CARMEN row.
 double LogParser::carmenTime(LogFields& fields) const {
   const double ipc = fields.time();
   fields.word();  // host
@@ -156,9 +156,9 @@ LogRecord LogParser::gfs(std::string_view name, LogFields& fields) {
   return otherRecord(name);
 }
 
-/// GMapping writes the row before it takes over the new reading's pose: the pose is that of the reading
-/// before, the time that of the new one. Each pose goes back to its own time here; where that reading's
-/// scan was logged, its more precise pose has been passed on with it.
+/// GMapping writes a row before it takes over the new reading's pose: the pose belongs to the previous
+/// reading, the time to the new one. This restores each pose's own time; if that reading's scan was logged,
+/// its more precise pose was already output with it.
 LogRecord LogParser::gfsOdometry(LogFields& fields) {
   fields.expectLeft(4, "x y theta time");
   OdometryRecord record;
@@ -193,12 +193,12 @@ LogRecord LogParser::dpslam(std::string_view name, LogFields& fields) {
   throw BrokenLine(inBackquotes(name) + " is neither Odometry nor Laser");
 }
 
-/// The ranges, at angles that follow from their number.
+/// The ranges, with angles derived from their number.
 LaserRecord LogParser::scan(std::string_view name, size_t beams, LogFields& fields) const {
   const std::optional<double> step = options_.angularStep ? options_.angularStep : angularStepFor(beams);
   if (!step)
-    throw BrokenLine("no laser is known to give " + std::to_string(beams) +
-                     " beams: the angular step has to be told");
+    throw BrokenLine("no known laser has " + std::to_string(beams) +
+                     " beams: the angular step must be given");
   LaserRecord record;
   record.label = name;
   record.angles = beamAngles(beams, *step);

@@ -1,5 +1,5 @@
 /// @file LogParser.h
-/// @brief The records of CARMEN, GMapping and DP-SLAM logs, from text to numbers.
+/// @brief Parses the records of CARMEN, GMapping and DP-SLAM logs.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,17 +18,17 @@ class LogFields;
 
 enum class LogFormat {
   carmen,  ///< CARMEN's logger: `ODOM`, `FLASER`, `RLASER`, `ROBOTLASER1`, `PARAM`
-  gfs,     ///< what GMapping writes while it maps: `ODOM`, `LASER_READING`
+  gfs,     ///< GMapping's output: `ODOM`, `LASER_READING`
   dpslam   ///< DP-SLAM: `Odometry`, `Laser`; without times
 };
 
-/// Which of the two times of a CARMEN row is the reading's.
+/// Which of the two timestamps of a CARMEN row to use.
 enum class LogTime {
-  ipc,    ///< of the message itself, set where the sensor was read
-  logger  ///< of its arrival at the logger, in seconds from the logger's start
+  ipc,    ///< of the message, set when the sensor was read
+  logger  ///< of arrival at the logger, seconds since its start
 };
 
-/// The pose that the wheels report, in the odometry frame.
+/// Pose from wheel odometry, in the odometry frame.
 struct OdometryRecord {
   double time = 0;  ///< s
   mrpt::math::TPose2D pose;
@@ -40,35 +40,35 @@ struct LaserRecord {
   std::vector<float> ranges;  ///< m, as logged: no return, NaN and negative readings included
   BeamAngles angles;
   mrpt::math::TPose2D laserPose;                ///< in the robot frame
-  std::optional<double> maxRange;               ///< m, where the row says so
-  std::optional<mrpt::math::TPose2D> odometry;  ///< the robot at the scan's time, where the row says so
+  std::optional<double> maxRange;               ///< m, if in the row
+  std::optional<mrpt::math::TPose2D> odometry;  ///< the robot at the scan's time, if in the row
 };
 
-/// A record that is in order and of no use here, such as `SYNC`.
+/// A valid but unused record, such as `SYNC`.
 struct OtherRecord {
   std::string name;
 };
 
-/// `monostate`: nothing to pass on (blank line, comment, parameter).
+/// `monostate`: no record (blank line, comment, parameter).
 using LogRecord = std::variant<std::monostate, OtherRecord, OdometryRecord, LaserRecord>;
 
 struct LogParserOptions {
   LogTime time = LogTime::ipc;
   double period = 1;                  ///< s between two scans of a DP-SLAM log
-  std::optional<double> laserX;       ///< m; the front laser ahead of the robot's centre, over `PARAM`
-  std::optional<double> angularStep;  ///< rad, for scans whose row does not carry it
+  std::optional<double> laserX;       ///< m; front laser ahead of the robot's centre, overrides `PARAM`
+  std::optional<double> angularStep;  ///< rad, for scans whose row does not state it
 };
 
-/// The format that a line gives away; empty for a line that could stand in any log.
+/// The log format that a line implies; empty if it could be in any.
 std::optional<LogFormat> formatOf(std::string_view line);
 
-/// Reads one line after the other; parameters and DP-SLAM's clock carry over from line to line.
+/// Parses line by line; parameters and DP-SLAM's clock persist between lines.
 class LogParser {
  public:
   LogParser(LogFormat format, const LogParserOptions& options) : format_(format), options_(options) {}
 
-  /// @throws BrokenLine for a line with a wrong number of fields, with a field that is not a number, with no
-  /// ranges, or with a number of beams whose angles are not known
+  /// @throws BrokenLine for a wrong number of fields, a field that is not a number, no ranges, or a number of
+  ///         beams with unknown angles
   LogRecord parse(std::string_view line);
 
  private:

@@ -21,7 +21,7 @@ LogParserOptions threeBeamOptions() {
   return options;
 }
 
-/// The line must give a record of this type.
+/// The line must parse to a record of this type.
 template <class Record>
 Record parseAs(LogParser& parser, const std::string& line) {
   return std::get<Record>(parser.parse(line));
@@ -115,14 +115,14 @@ TEST(LogParserCarmen, RobotLaserCarriesItsOwnGeometry) {
     EXPECT_EQ(record.time, 100.25);
     EXPECT_THAT(record.ranges, ElementsAre(4, 5, 6));
     EXPECT_EQ(record.angles.first, -1.0);
-    EXPECT_EQ(record.angles.step, 0.5);  // its own, not the one told for scans without
+    EXPECT_EQ(record.angles.step, 0.5);  // its own, not the default for scans without one
     EXPECT_EQ(record.maxRange, 30.0);
     expectPose(record.laserPose, 0.3, 0.1, 0.1);
     ASSERT_TRUE(record.odometry);
     expectPose(*record.odometry, 2, 1, M_PI / 2);
   }
   EXPECT_THAT(whyBroken(LogFormat::carmen, head + "1" + tail), HasSubstr("fields where"));
-  EXPECT_THAT(whyBroken(LogFormat::carmen, head), HasSubstr("cut short"));
+  EXPECT_THAT(whyBroken(LogFormat::carmen, head), HasSubstr("truncated line"));
   EXPECT_THAT(whyBroken(LogFormat::carmen, "ROBOTLASER1 0 -1.0 2.0 0 30.0 0.01 0 3 4 5 6 0" + tail),
               HasSubstr("angular resolution"));
 }
@@ -170,7 +170,7 @@ TEST(LogParserCarmen, BrokenLines) {
     EXPECT_THAT(whyBroken(LogFormat::carmen, line), testing::Not(HasSubstr("not broken"))) << line;
 }
 
-/// Whatever is cut from the end of a row, it never passes for a whole one, unless within its last number.
+/// A row truncated anywhere before its last number is never accepted.
 TEST(LogParserCarmen, EveryCutRowIsBroken) {
   for (size_t kept = kFlaser.rfind(' '); kept > 6; --kept)
     EXPECT_THAT(whyBroken(LogFormat::carmen, kFlaser.substr(0, kept)), testing::Not(HasSubstr("not broken")));
@@ -185,7 +185,7 @@ TEST(LogParserCarmen, ReasonsNameWhatIsWrong) {
     parser.parse(kFlaser);
     FAIL() << "three beams and no angular step told";
   } catch (const BrokenLine& e) {
-    EXPECT_THAT(e.what(), HasSubstr("3 beams: the angular step has to be told"));
+    EXPECT_THAT(e.what(), HasSubstr("3 beams: the angular step must be given"));
   }
 }
 
@@ -208,7 +208,7 @@ TEST(LogParserGfs, LaserReading) {
               HasSubstr("6 fields where 7 were expected"));
 }
 
-/// GMapping puts the pose of the reading before beside the time of the new one.
+/// GMapping combines the previous reading's pose with the new one's time.
 TEST(LogParserGfs, OdometryGoesBackToItsOwnTime) {
   LogParser parser(LogFormat::gfs, threeBeamOptions());
   auto record = parseAs<OdometryRecord>(parser, "ODOM 0 0 0 100");  // the first reading, right as it is

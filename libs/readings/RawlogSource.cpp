@@ -49,9 +49,9 @@ void InputOptions::describe(OptionTable& t) {
   t.add("sensor_label", sensorLabel,
         "label of the laser to use, or a list `FRONT, REAR`; empty: all that are mounted horizontally");
   t.add("require_odometry", requireOdometry,
-        "false: take a log of scans only, as if the odometry said that the robot stands still");
+        "false: accept a log without odometry and assume zero motion between scans");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
-        "odometry is interpolated at a scan's time between readings no farther apart than this");
+        "largest gap between odometry readings for interpolation at a scan's time");
 }
 
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
@@ -120,8 +120,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
   if (!summary.hasActions && !summary.hasOdometryReadings && options.requireOdometry)
     throw InputError("no odometry", file,
-                     "expected actions or CObservationOdometry; [input] require_odometry = false takes a log "
-                     "of scans only");
+                     "expected actions or CObservationOdometry; [input] require_odometry = false accepts a "
+                     "log without odometry");
   return summary;
 }
 

@@ -1,5 +1,5 @@
 /// @file RawlogSource.h
-/// @brief Scans with their odometry from a rawlog of either form.
+/// @brief Scans with odometry from a rawlog in either format.
 #pragma once
 
 #include <functional>
@@ -20,12 +20,12 @@ struct InputOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// How often something odd is in a log, and the entry (from 1) where it is first.
+/// Number of occurrences of an anomaly in a log, and the first entry (from 1).
 struct Oddity {
   size_t count = 0, first = 0;
 };
 
-/// What a log holds, found in one pass before the filter runs.
+/// Summary of a log, from one pass before the filter runs.
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
   std::vector<std::string> ignored;  ///< one line for each other laser: its label, and why it is not used
@@ -35,7 +35,7 @@ struct RawlogSummary {
   bool hasActions = false, hasOdometryReadings = false;
   double duration = 0;  ///< s, from the earliest scan to the latest
   size_t entries = 0;
-  std::string defect;  ///< how the log is cut off; empty if it is whole
+  std::string defect;  ///< how the log is truncated; empty if complete
 };
 
 /// @throws InputError if there is no laser or a wanted one is missing, no scan with beams, no laser that is
@@ -46,13 +46,13 @@ RawlogSummary summarise(
     const std::string& file, const InputOptions& options,
     const std::function<bool()>& isStopped = [] { return false; });
 
-/// The readings of a log, as ReadingAssembler makes them.
+/// The readings of a log, from ReadingAssembler.
 class RawlogSource {
  public:
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
 
-  /// Nothing at the end of the log.
-  /// @throws InputError where the odometry jumps by more than 100 m between two scans
+  /// Empty at the end of the log.
+  /// @throws InputError if the odometry jumps by more than 100 m between two scans
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
 

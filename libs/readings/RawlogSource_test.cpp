@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// What a log comes to: the summary, and the odometry pose of each scan from that of the first one on.
+/// Result of a log: its summary, and each scan's odometry pose relative to the first.
 struct Replayed {
   RawlogSummary summary;
   std::vector<double> times, x, phi;
@@ -153,7 +153,7 @@ TEST(RawlogSource, EqualTimestamps) {
   const Replayed r =
       replayed({test::odometry(10, {0, 0, 0}), scan(10), scan(10), test::odometry(10, {1, 0, 0}), scan(10),
                 test::odometry(10, {2, 0, 0}), test::odometry(10, {3, 0, 0}), scan(10)});
-  EXPECT_THAT(r.x, areNear({0, 0, 1, 3})) << "the order of the log holds";
+  EXPECT_THAT(r.x, areNear({0, 0, 1, 3})) << "log order kept";
   EXPECT_EQ(r.summary.repeatedStamps.count, 3u);
   EXPECT_EQ(r.summary.repeatedStamps.first, 3u);
   EXPECT_EQ(r.summary.stepsBack.count, 0u);

@@ -17,7 +17,7 @@ using mrpt::obs::CObservationOdometry;
 
 namespace {
 
-/// MRPT's own code takes the readings of valid beams as they are.
+/// MRPT's code uses valid beams unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
   for (size_t i = 0; i < scan.getScanSize(); ++i) {
     const float range = scan.getScanRange(i);
@@ -84,7 +84,7 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
   if (hasOdometryReadings_ && !lastOdometry_) return;
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
-  // Nobody waits longer than the gap, so that memory does not grow where odometry ends before the scans do.
+  // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans.
   if (!mayLieBetween && (waiting_.size() == 1 || age > maxOdometryGap_)) finishWaiting(travelled_);
 }
 

@@ -1,5 +1,5 @@
 /// @file ReadingAssembler.h
-/// @brief Pairs scans with their odometry, object by object: of a rawlog, or as they come from a robot.
+/// @brief Pairs scans with odometry, object by object, from a rawlog or a robot.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -34,8 +34,8 @@ struct Reading {
 /// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
 /// ScanGrouper says which scans are used and which of them make one reading.
 ///
-/// The same objects in the same order give the same readings to the bit, whether they come from a file or
-/// from a robot: this is what makes the replay of a recording the same as the live run.
+/// The same objects in the same order give bit-identical readings, from a file or a robot: the replay of a
+/// recording equals the live run.
 class ReadingAssembler {
  public:
   /// @param lasers               labels of the lasers to use; none: all
@@ -81,7 +81,7 @@ class ReadingAssembler {
   double lastTimestamp_ = 0;
 };
 
-/// Calls visit(mrpt::obs::CObservation::Ptr) for every observation in an object of a rawlog.
+/// Calls visit(mrpt::obs::CObservation::Ptr) for every observation in a rawlog object.
 template <class Visit>
 void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, const Visit& visit) {
   if (const auto single = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) visit(single);
@@ -89,11 +89,11 @@ void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, c
     for (const auto& observation : *frame) visit(observation);
 }
 
-/// The increment (m, rad) of an action; nothing for an object that is none, or an empty one.
+/// The increment (m, rad) of an action; empty for other objects or empty actions.
 std::optional<mrpt::math::TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object);
 
 bool isFinite(const mrpt::math::TPose2D& pose);
-/// Whether a scan has beams, and a place for them.
+/// Whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
 /// m between two readings; farther apart are two logs in one file, or odometry that was set back.

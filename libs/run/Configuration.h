@@ -1,5 +1,5 @@
 /// @file Configuration.h
-/// @brief The INI file of a run: every section of ours, checked.
+/// @brief The INI file of a run, with all our sections checked.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -25,34 +25,34 @@ struct RunOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// All settings of a replay. Sections that are none of ours (MRPT's own, a grabber's) are left alone.
+/// All settings of a replay. Other sections (MRPT's, a grabber's) are ignored.
 struct Configuration {
   RunOptions run;
   readings::InputOptions input;
   FilterConfiguration filter;
-  /// The file as it was read, with the settings of the command line; `stock` reads MRPT's sections from it.
+  /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
 
   /// @param file      the INI file
-  /// @param settings  `SECTION.KEY=VALUE` each, stronger than the file
-  /// @param more      further sections of the program, loaded with these; they outlive the configuration
-  /// @throws InputError as loadIni does; MRPT's RBPF's section will do for one of ours
+  /// @param settings  `SECTION.KEY=VALUE` each; override the file
+  /// @param more      further sections of the program; must outlive the configuration
+  /// @throws InputError as loadIni; a file with only MRPT's RBPF section is accepted
   Configuration(const std::string& file, const std::vector<std::string>& settings,
                 const files::Sections& more = {});
   Configuration() = default;
 
   files::Sections sections();
-  /// Every key of ours with its value, and the file's other sections: read back, the same run.
+  /// All our keys with their values, and the file's other sections; reading it back gives the same run.
   std::string text();
 
  private:
   files::Sections more_;
 };
 
-/// Every section and key with its default, unit, range and reason, as Markdown: doc/configuration.md.
+/// Every section and key with default, unit, range and meaning, as Markdown: doc/configuration.md.
 std::string configurationManual();
 
-/// The section that MRPT's rbpf-slam starts from.
+/// The main section of MRPT's rbpf-slam.
 inline const char* const kStockSection = "MappingApplication";
 
 }  // namespace hybrid_slam::run

@@ -46,7 +46,7 @@ double cpuSeconds() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// The most memory that this program has had resident; getrusage would count that of whoever started it, too.
+/// Peak resident memory of this program; getrusage would include the parent's.
 double peakMegabytes() {
   std::ifstream status("/proc/self/status");
   double kilobytes = 0;
@@ -64,7 +64,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       steps_(folder_.path("steps.csv")) {
   if (configuration.run.method == Method::stock) {
     if (configuration.run.refine > 0)
-      throw InputError("no refinement of MRPT's filter", "section [run], keys `method`, `refine`",
+      throw InputError("MRPT's filter cannot be refined", "section [run], keys `method`, `refine`",
                        "expected hybrid or general, or refine = 0");
     filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
                                                 static_cast<uint32_t>(configuration.filter.filter.seed));
@@ -98,8 +98,8 @@ bool FilterRun::process(const readings::Reading& reading) {
 
 std::string FilterRun::slipNote() const {
   if (slips_ == 0) return {};
-  return std::to_string(slips_) + " updates in which the odometry was far off: first at " +
-         fixedText(firstSlip_, 3) + " s" + "; the motion is that of a scan match";
+  return std::to_string(slips_) + " updates with a large odometry error: first at " +
+         fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
 }
 
 void FilterRun::refineResult(Result& result, readings::RawlogSource& source) const {
@@ -168,8 +168,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
 
   return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
          fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
-         fixedText(wall > 0 ? log.duration / wall : 0, 0) +
-         " times the log's pace): " + folder_.path("map.png");
+         fixedText(wall > 0 ? log.duration / wall : 0, 0) + " x real time): " + folder_.path("map.png");
 }
 
 }  // namespace hybrid_slam::run

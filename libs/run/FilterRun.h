@@ -1,5 +1,5 @@
 /// @file FilterRun.h
-/// @brief A filter and the results that it leaves, whoever feeds it: a log or a robot.
+/// @brief A filter and its result files, for a log or a live robot.
 #pragma once
 
 #include <chrono>
@@ -17,27 +17,26 @@
 
 namespace hybrid_slam::run {
 
-/// Writes steps.csv (and particles.csv) while it runs, and the other files of doc/results.md at its end.
-/// Without `finish` no result is left.
+/// Writes steps.csv (and particles.csv) during the run, and the other files of doc/results.md at the end.
+/// Without `finish` no results remain.
 class FilterRun {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param configuration  outlives the run
-  /// @param start          since when `wall_s` counts
-  /// @throws InputError for settings that the filter does not take, or an output folder that cannot be
-  /// written
+  /// @param configuration  must outlive the run
+  /// @param start          start of `wall_s`
+  /// @throws InputError for settings the filter rejects, or an unwritable output folder
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
   /// One reading through the filter.
   /// @return whether the filter was updated with it, not only the odometry gathered
   bool process(const readings::Reading& reading);
-  /// So many readings of the log are left out here; the motion of the next one holds theirs.
+  /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
   void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
 
   size_t scans() const { return scans_; }  ///< processed
-  /// One line on the updates in which the odometry was far off; empty if there were none.
+  /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
   const FilterView& view() const { return *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
@@ -45,8 +44,8 @@ class FilterRun {
   const files::OutputFolder& folder() const { return folder_; }
 
   /// Writes the results.
-  /// @param file     the log that was processed, read again for map.simplemap.gz and the refinement
-  /// @param log      what it holds; where that is less than was processed (a recording on a full disk),
+  /// @param file     the processed log, read again for map.simplemap.gz and the refinement
+  /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
   ///                 map.simplemap.gz and the refinement end there
   /// @param version  of the program
   /// @param more     further keys of metrics.json
@@ -62,7 +61,7 @@ class FilterRun {
     mrpt::maps::COccupancyGridMap2D grid;
     std::vector<DatabaseLine> lines;
   };
-  /// Matches the scans of the log against the map and builds it anew.
+  /// Matches the scans of the log to the map and rebuilds it.
   void refineResult(Result& result, readings::RawlogSource& source) const;
 
   Configuration& configuration_;
@@ -73,7 +72,7 @@ class FilterRun {
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;
   enum class Use { skipped, carried, update };
-  std::vector<Use> uses_;  ///< of each reading of the log
+  std::vector<Use> uses_;  ///< per reading of the log
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
   double firstSlip_ = 0;  ///< s
 };

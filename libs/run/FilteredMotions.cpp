@@ -12,22 +12,22 @@ namespace hybrid_slam::run {
 namespace {
 
 void addSamples(std::vector<MotionSample>& samples, const FilterStep& step) {
-  const auto weight = [&step](size_t i) { return std::exp(step.poses[i].logWeight); };  // the highest is 1
+  const auto weight = [&step](size_t i) { return std::exp(step.poses[i].logWeight); };  // maximum 1
   double sum = 0;
   for (size_t i = 0; i < step.poses.size(); ++i) sum += weight(i);
   for (size_t i = 0; i < step.poses.size(); ++i)
     samples.push_back({step.odometry, step.motions[i], weight(i) / sum});
 }
 
-/// MRPT's auxiliary filters resample before they move the particles, and weigh them by other than p(scan).
+/// MRPT's auxiliary filters resample before moving the particles and do not weight by p(scan).
 void checkFilter(const Configuration& configuration) {
   using Proposal = ParticleFilterOptions::Proposal;
   const Proposal proposal = configuration.filter.filter.proposal;
   if (proposal != Proposal::standard && proposal != Proposal::improved)
-    throw InputError("not a filter to learn with", "section [particle_filter], key `proposal`",
+    throw InputError("filter not suited for learning", "section [particle_filter], key `proposal`",
                      "expected standard or improved");
   if (configuration.run.method == RunOptions::Method::stock)
-    throw InputError("not a filter to learn with", "section [run], key `method`",
+    throw InputError("filter not suited for learning", "section [run], key `method`",
                      "expected hybrid or general");
 }
 

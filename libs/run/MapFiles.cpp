@@ -15,7 +15,7 @@ namespace {
 using mrpt::img::TColor;
 using mrpt::maps::COccupancyGridMap2D;
 
-/// Columns and rows that hold anything known, with a margin; the whole grid if nothing is known.
+/// Columns and rows with known cells, plus a margin; the whole grid if there are none.
 struct Window {
   int x0, y0, x1, y1;  ///< both ends included
   int width() const { return x1 - x0 + 1; }
@@ -42,7 +42,7 @@ Window knownWindow(const COccupancyGridMap2D& grid) {
 void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& grid,
                  const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines) {
   const Window window = knownWindow(grid);
-  // Small maps are drawn larger, so that the path and the lines do not hide the walls.
+  // Small maps are enlarged, so that path and lines do not hide the walls.
   const int scale = std::clamp(1600 / std::max(window.width(), window.height()), 1, 4);
   mrpt::img::CImage image(window.width() * scale, window.height() * scale, mrpt::img::CH_RGB);
   for (int y = 0; y < window.height() * scale; ++y)
@@ -75,7 +75,7 @@ void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& g
                column(robot.x) + static_cast<int>(std::lround(radius * std::cos(robot.phi))),
                row(robot.y) - static_cast<int>(std::lround(radius * std::sin(robot.phi))), lightBlue, 2);
   }
-  // Encoded in memory: libpng would report a full disk on standard error by itself.
+  // Encoded in memory: libpng would print a full disk to standard error itself.
   std::vector<unsigned char> png;
   cv::imencode(".png", image.asCvMatRef(), png);
   folder.write("map.png", [&png](std::ostream& out) {
@@ -84,7 +84,7 @@ void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& g
 }
 
 void saveRosMap(const files::OutputFolder& folder, const COccupancyGridMap2D& grid) {
-  // Some ten beams through a cell make it free; the YAML's thresholds are those of the grey values.
+  // About ten crossing beams make a cell free; the YAML thresholds match the grey values.
   constexpr double kOccupied = 0.65, kFree = 0.35;
   const Window window = knownWindow(grid);
   folder.write("map.pgm", [&](std::ostream& out) {
@@ -95,7 +95,7 @@ void saveRosMap(const files::OutputFolder& folder, const COccupancyGridMap2D& gr
         out.put(static_cast<char>(occupied > kOccupied ? 0 : occupied < kFree ? 254 : 205));
       }
   });
-  const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT's are floats
+  const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT uses floats
   const double cell = grid.getResolution();
   folder.write("map.yaml", [&](std::ostream& out) {
     out << std::setprecision(10) << "image: map.pgm\nresolution: " << rounded(cell) << "\norigin: ["

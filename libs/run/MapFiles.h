@@ -1,5 +1,5 @@
 /// @file MapFiles.h
-/// @brief The map in the forms that people and other programs take.
+/// @brief Writes the map for people and other programs.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -17,7 +17,7 @@ namespace hybrid_slam::run {
 void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
                  const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines);
 
-/// `map.pgm` and `map.yaml` as ROS's map_server takes them: 0 occupied, 254 free, 205 unknown.
+/// `map.pgm` and `map.yaml` for ROS's map_server: 0 occupied, 254 free, 205 unknown.
 void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);
 
 /// `map.gridmap.gz`: the serialised COccupancyGridMap2D.

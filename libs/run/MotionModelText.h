@@ -1,5 +1,5 @@
 /// @file MotionModelText.h
-/// @brief A learnt motion model as people and programs read it.
+/// @brief A learnt motion model as an INI section and a table.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace hybrid_slam::run {
 
-/// Section [motion_model] of an INI file, each key with its unit and meaning, below `comments` (a line each).
-/// Six digits: more than any log determines.
+/// Section [motion_model] of an INI file, each key with unit and meaning, below `comments` (one line each).
+/// Six digits, more than any log determines.
 std::string motionModelSection(const MotionModelOptions& model, const std::vector<std::string>& comments);
 
-/// Head and row of a table of iterations: number, log-likelihood per update, then mean_d, mean_t, var_d,
+/// Header and row of the table of iterations: number, log-likelihood per update, then mean_d, mean_t, var_d,
 /// var_t of D, C and T.
 std::string motionModelTableHead();
 std::string motionModelTableRow(int iteration, double logLikelihood, const MotionModelOptions& model);

@@ -1,5 +1,5 @@
 /// @file Progress.h
-/// @brief How far a run is: a bar with the time left on a terminal, plain lines elsewhere.
+/// @brief Progress of a run: a bar with the time left on a terminal, plain lines otherwise.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::run {
 
-/// Writes to standard error, at most five times a second on a terminal and once in ten seconds elsewhere.
+/// Writes to standard error, at most five times per second on a terminal and every ten seconds otherwise.
 class Progress {
  public:
   Progress(size_t total, bool isQuiet);
@@ -16,7 +16,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param done  of `total`; @param note  what to say beside it, such as the particles' spread
+  /// @param done  of `total`; @param note  shown next to it, such as the particles' spread
   void update(size_t done, const std::string& note);
   /// Ends the bar's line.
   void finish();

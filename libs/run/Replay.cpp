@@ -55,13 +55,13 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
   if (stop)
     outcome.incomplete = "interrupted: entry " + std::to_string(source.entry()) + " of " + file +
-                         "; the results cover the log up to there";
+                         "; results cover the log up to this point";
   else if (!log.defect.empty())
     outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + file +
-                         "; the results cover the log up to there";
+                         "; results cover the log up to this point";
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
-  run.profiler().clear(true);  // else MRPT prints it, too
+  run.profiler().clear(true);  // else MRPT prints it as well
   return outcome;
 }
 

@@ -13,7 +13,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// The results that are text, but for how long a step took.
+/// The text results, without the step times.
 std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folder, const std::string& ini,
                                              const std::string& log) {
   Configuration c(ini, {"run.rawlog=" + log, "run.output=" + folder.path("out"), "run.particles_every=10",

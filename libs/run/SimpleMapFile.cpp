@@ -13,7 +13,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// A CSimpleMap to whoever reads it, that makes its pairs one by one while it is written.
+/// Serialises as a CSimpleMap, but creates its pairs one by one while writing.
 class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
  public:
   StreamedSimpleMap(readings::RawlogSource& source, const std::vector<bool>& isUpdate,

@@ -1,5 +1,5 @@
 /// @file SimpleMapFile.h
-/// @brief MRPT's CSimpleMap of a run, written from the log without holding its scans in memory.
+/// @brief Writes MRPT's CSimpleMap of a run from the log, without keeping scans in memory.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -12,10 +12,10 @@
 
 namespace hybrid_slam::run {
 
-/// `map.simplemap.gz`: the scans that made the filter run, read from the log once more, at the best
-/// particle's poses (in the map frame, without covariance).
-/// @param isUpdate  for each reading of the log that was processed, whether the filter ran with it
-/// @param path      one pose for each of those that did
+/// `map.simplemap.gz`: the scans of the updates, reread from the log, at the best particle's poses (map
+/// frame, without covariance).
+/// @param isUpdate  for each processed reading of the log, whether it caused an update
+/// @param path      one pose per update
 void saveSimpleMap(const files::OutputFolder& folder, readings::RawlogSource& source,
                    const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path);
 

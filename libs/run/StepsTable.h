@@ -1,5 +1,5 @@
 /// @file StepsTable.h
-/// @brief `steps.csv`: one row for each update of the filter; `particles.csv`: one for each of its particles.
+/// @brief `steps.csv`: one row per filter update; `particles.csv`: one row per particle of an update.
 #pragma once
 
 #include <ostream>
@@ -9,7 +9,7 @@
 namespace hybrid_slam::run {
 
 void writeStepsHeader(std::ostream& out);
-/// @param timestamp  s; @param milliseconds  that the update took
+/// @param timestamp  s; @param milliseconds  duration of the update
 void writeStep(std::ostream& out, double timestamp, const FilterStep& step, double milliseconds);
 
 void writeParticlesHeader(std::ostream& out);

@@ -20,7 +20,7 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
   for (const Scan& scan : scans_) out.push_back({scan.timestamp, scan.odometry});
   if (path.empty()) return out;
 
-  std::vector<size_t> anchors;  // the scans that made the filter run
+  std::vector<size_t> anchors;  // the scans of the updates
   for (size_t i = 0; i < scans_.size(); ++i)
     if (scans_[i].updates > (i == 0 ? 0 : scans_[i - 1].updates)) anchors.push_back(i);
 

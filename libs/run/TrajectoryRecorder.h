@@ -10,17 +10,17 @@
 
 namespace hybrid_slam::run {
 
-/// Remembers of each scan its time, its odometry and whether the filter ran.
+/// Records each scan's time, odometry and whether it caused an update.
 class TrajectoryRecorder {
  public:
-  /// @param motion   odometry since the scan before (m, rad)
-  /// @param updates  the filter's number of updates after this scan
+  /// @param motion   odometry since the previous scan (m, rad)
+  /// @param updates  number of filter updates after this scan
   void add(double timestamp, const mrpt::math::TPose2D& motion, size_t updates);
 
-  /// The pose of every scan: of an update, the filter's own; between two, carried along the odometry from the
-  /// update before, the closing error spread evenly over the scans up to the next; after the last, and before
-  /// the first, carried along the odometry alone.
-  /// @param path  one pose for each update (map frame)
+  /// The pose of every scan: at an update, the filter's; between two, odometry from the previous update, with
+  /// the closing error spread evenly over the scans up to the next; before the first and after the last,
+  /// odometry alone.
+  /// @param path  one pose per update (map frame)
   files::Trajectory trajectory(const std::vector<mrpt::math::TPose2D>& path) const;
 
   double distance() const { return distance_; }  ///< m, along the odometry

@@ -24,7 +24,7 @@ void PioneerOptions::describe(OptionTable& t) {
   t.add("driver", driver, "PioneerOdometry");
   t.add("sensorLabel", sensorLabel, "label of the observations");
   t.add("process_rate", processRate, 0.1, 1000, "1/s",
-        "polling rate of the line; the robot sends 10 packets a second");
+        "polling rate of the port; the robot sends 10 packets per second");
   t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: maximum number of queued observations");
   t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: keep one observation in this many; 0: all");
   t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: ignore this sensor");
@@ -50,8 +50,8 @@ void PioneerOdometry::loadConfig_sensorSpecific(const mrpt::config::CConfigFileB
                                                 const std::string& section) {
   options_.loadFromConfigFile(config, section);
   if (options_.serialPort.empty() == options_.host.empty())
-    throw InputError("no robot, or two", "section [" + section + "], keys `serial_port` and `host`",
-                     "expected one of them");
+    throw InputError("no robot, or two robots", "section [" + section + "], keys `serial_port` and `host`",
+                     "expected exactly one of the two");
   m_sensorLabel = options_.sensorLabel;
   m_process_rate = options_.processRate;
 }
@@ -79,7 +79,7 @@ void PioneerOdometry::connect() {
   serial_->setTimeouts(1, 0, 20, 1, 20);
 }
 
-/// The robot answers each SYNC by the same; the last answer holds its name, type and subtype as well.
+/// The robot echoes each SYNC; the last answer also holds its name, type and subtype.
 void PioneerOdometry::shakeHands() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     uint8_t step = live::arcos::sync0;
@@ -90,7 +90,7 @@ void PioneerOdometry::shakeHands() {
     if (step > live::arcos::sync2) return;
     command(live::arcos::close);  // it may still be open from a program that was killed
   }
-  throw std::runtime_error("no answer to SYNC: no Pioneer, or another baud rate");
+  throw std::runtime_error("no answer to SYNC: no Pioneer, or wrong baud rate");
 }
 
 bool PioneerOdometry::isAnswered(uint8_t step) {
@@ -124,10 +124,10 @@ void PioneerOdometry::doProcess() {
   if (secondsSince(lastSip_) > kSilence) throw std::runtime_error("the robot is silent");
 }
 
-/// A line with steady noise is not to fill the log: the 1st, 2nd, 4th, 8th ... damaged packet is told.
+/// A noisy line must not flood the log: report the 1st, 2nd, 4th, 8th ... damaged packet.
 void PioneerOdometry::tellOfDamage(size_t before) {
   for (size_t n = before + 1; n <= decoder_.damaged(); ++n)
-    if ((n & (n - 1)) == 0) MRPT_LOG_WARN_STREAM("damaged packets left out: " << n << " so far");
+    if ((n & (n - 1)) == 0) MRPT_LOG_WARN_STREAM("damaged packets skipped: " << n << " so far");
 }
 
 void PioneerOdometry::command(uint8_t number) { send(live::arcos::encode({number})); }
@@ -142,7 +142,7 @@ std::string PioneerOdometry::receive(double timeout) {
 void PioneerOdometry::send(const std::string& bytes) {
   if (socket_.isOpen()) return socket_.send(bytes, kAnswerTimeout);
   if (serial_->Write(bytes.data(), bytes.size()) != bytes.size())
-    throw std::runtime_error("the serial line is gone");
+    throw std::runtime_error("serial port lost");
 }
 
 }  // namespace hybrid_slam::sensors

@@ -1,5 +1,5 @@
 /// @file PioneerOdometry.h
-/// @brief Odometry of a Pioneer robot as a sensor of MRPT's; it never moves the robot.
+/// @brief Odometry of a Pioneer robot as an MRPT sensor; it never moves the robot.
 #pragma once
 
 #include <mrpt/comms/CSerialPort.h>
@@ -17,7 +17,7 @@
 
 namespace hybrid_slam::sensors {
 
-/// The keys of the sensor's INI section, those of every sensor among them.
+/// The keys of the sensor's INI section, including those common to all sensors.
 struct PioneerOptions : Options {
   std::string driver, sensorLabel = "ODOMETRY";
   double processRate = 20, timeOffset = 0;
@@ -29,21 +29,21 @@ struct PioneerOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// `driver = PioneerOdometry`: a Pioneer 2/3, AmigoBot or PowerBot on a serial line or behind TCP.
+/// `driver = PioneerOdometry`: a Pioneer 2/3, AmigoBot or PowerBot on a serial port or TCP.
 ///
-/// Sends SYNC0, SYNC1, SYNC2, OPEN, then PULSE every second (the robot's watchdog waits two), CLOSE at the
-/// end; gives a CObservationOdometry, stamped on arrival, for each server information packet, ten a second.
-/// Any fault of the connection is an exception: whoever runs the sensor makes it anew.
+/// Sends SYNC0, SYNC1, SYNC2, OPEN, then PULSE every second (the robot's watchdog takes two), CLOSE at the
+/// end. Each server information packet (ten per second) becomes a CObservationOdometry, timestamped on
+/// arrival. Any connection fault throws; the caller recreates the sensor.
 class PioneerOdometry : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COutputLogger {
   DEFINE_GENERIC_SENSOR(PioneerOdometry)
  public:
   PioneerOdometry() : COutputLogger("PioneerOdometry") {}
   ~PioneerOdometry() override;
 
-  /// Connects and shakes hands. @throws std::runtime_error where the robot does not answer
+  /// Connects and performs the handshake. @throws std::runtime_error if the robot does not answer
   void initialize() override;
-  /// Takes what has come. @throws std::runtime_error where the connection is gone, or the robot silent for 3
-  /// s
+  /// Processes the received packets. @throws std::runtime_error if the connection is lost, or the robot
+  /// silent for 3 s
   void doProcess() override;
 
  protected:

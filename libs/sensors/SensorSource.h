@@ -1,5 +1,5 @@
 /// @file SensorSource.h
-/// @brief All sensors of an INI file as one source of cycles.
+/// @brief All sensors of an INI file as one cycle source.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -15,9 +15,9 @@ namespace hybrid_slam::sensors {
 
 class SensorSource : public live::CycleSource {
  public:
-  /// Every section with a `driver` is a sensor, unless it says `rawlog-grabber-ignore = true`.
-  /// @param cycleRate  1/s; @param timeout  s, of a sensor that gives nothing
-  /// @throws InputError if there is none, or one is wrong
+  /// Every section with a `driver` is a sensor, unless it has `rawlog-grabber-ignore = true`.
+  /// @param cycleRate  1/s; @param timeout  s without data until a sensor is restarted
+  /// @throws InputError if there is no sensor, or a wrong one
   SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
                std::shared_ptr<live::EventLog> log);
 

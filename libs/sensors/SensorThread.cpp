@@ -27,7 +27,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// CLMS100Eth gives scans without beams once its connection is gone.
+/// CLMS100Eth returns scans without beams once its connection is lost.
 bool isEmptyScan(const CObservation& observation) {
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
   return scan && scan->getScanSize() == 0;
@@ -55,7 +55,7 @@ std::deque<CObservation::Ptr> ObservationInbox::take(double timeout) {
   return std::exchange(waiting_, {});
 }
 
-/// What the thread works on.
+/// State of the thread.
 struct SensorThread::Work {
   mrpt::config::CConfigFileMemory config;
   std::string section, driver;
@@ -89,7 +89,7 @@ struct SensorThread::Work {
 CGenericSensor::Ptr SensorThread::Work::make() const {
   CGenericSensor::Ptr sensor = CGenericSensor::createSensorPtr(driver);
   if (auto* output = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get())) {
-    // Drivers write pages to the console; warnings and errors become events here.
+    // Drivers write much to the console; only warnings and errors become events.
     output->logging_enable_console_output = false;
     output->setMinLoggingLevel(mrpt::system::LVL_WARN);
     output->logRegisterCallback([log = log, subject = "sensor " + section](
@@ -111,7 +111,7 @@ void SensorThread::Work::correct(CObservation& observation) {
   live::rebase(observation, odometry);
 }
 
-/// Until something is wrong: then it throws.
+/// Runs until an error, then throws.
 void SensorThread::Work::grab(double& nextPause) {
   const CGenericSensor::Ptr sensor = make();
   sensor->initialize();
@@ -135,7 +135,7 @@ void SensorThread::Work::grab(double& nextPause) {
       nextPause = kShortestPause;
       inbox->put(observations);
     } else if (secondsSince(lastObservation) > timeout) {
-      throw std::runtime_error("it gives nothing");
+      throw std::runtime_error("no data");
     }
     pause(period - secondsSince(start));
   }
@@ -147,7 +147,7 @@ void SensorThread::Work::run() {
     try {
       grab(nextPause);
     } catch (const std::exception& e) {
-      report("fault (" + messageOf(e) + "); starting it anew");
+      report("fault (" + messageOf(e) + "); restarting");
       pause(nextPause);
       nextPause = std::min(2 * nextPause, kLongestPause);
     }

@@ -1,5 +1,5 @@
 /// @file SensorThread.h
-/// @brief One sensor of MRPT's, or ours, kept going.
+/// @brief Runs one sensor driver, MRPT's or ours, and restarts it after faults.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -18,11 +18,11 @@
 
 namespace hybrid_slam::sensors {
 
-/// Observations on their way from the sensors' threads to the one that groups them.
+/// Queue of observations from the sensor threads to the grouping thread.
 class ObservationInbox {
  public:
   void put(const std::vector<mrpt::obs::CObservation::Ptr>& observations);
-  /// Waits at most `timeout` s. @return what has come, in its order
+  /// Waits at most `timeout` s. @return the received observations, in order of arrival
   std::deque<mrpt::obs::CObservation::Ptr> take(double timeout);
 
  private:
@@ -32,30 +32,30 @@ class ObservationInbox {
 };
 
 /// Runs the mrpt::hwdrivers::CGenericSensor of an INI section as rawlog-grabber does: driver, process_rate
-/// and the driver's own keys. A driver that throws, or that gives nothing for some time, is made anew, after
-/// pauses of 0.5 s growing to 10 s; its odometry goes on from the last pose.
+/// and the driver's own keys. A driver that throws or falls silent is recreated, after pauses of 0.5 s
+/// growing to 10 s; its odometry continues from the last pose.
 ///
-/// Two keys correct what a driver says of its observations: `time_offset` (s) is added to their times, and
-/// `right_to_left` (true or false) is the order of a laser's beams seen from above.
+/// Two keys correct a driver's observations: `time_offset` (s) is added to their timestamps, and
+/// `right_to_left` (true or false) sets the order of a laser's beams seen from above.
 class SensorThread {
  public:
-  /// @param timeout  s without an observation after which the driver is made anew
-  /// @throws InputError for a driver that there is not, or that does not take the section's settings
+  /// @param timeout  s without an observation until the driver is recreated
+  /// @throws InputError for an unknown driver, or one that rejects the section's settings
   SensorThread(const mrpt::config::CConfigFileMemory& config, const std::string& section, double timeout,
                std::shared_ptr<ObservationInbox> inbox, std::shared_ptr<live::EventLog> log);
   void start();
-  /// Waits at most 3 s for the driver; one that does not come back is left behind.
+  /// Waits at most 3 s for the driver; a driver that does not return is abandoned.
   ~SensorThread();
   SensorThread(const SensorThread&) = delete;
   SensorThread& operator=(const SensorThread&) = delete;
 
-  /// Drivers left behind so far. While there are some, static objects must not be destroyed: the program is
-  /// to leave by std::_Exit.
+  /// Number of abandoned drivers. If there are any, static objects must not be destroyed: exit with
+  /// std::_Exit.
   static size_t leftBehind();
 
  private:
   struct Work;
-  std::shared_ptr<Work> work_;  ///< shared with the thread, which may stay when this goes
+  std::shared_ptr<Work> work_;  ///< shared with the thread, which may outlive this object
   std::thread thread_;
 };
 

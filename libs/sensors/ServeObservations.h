@@ -1,5 +1,5 @@
 /// @file ServeObservations.h
-/// @brief observation-server: sensors or a rawlog to TCP clients.
+/// @brief observation-server: serves sensors or a rawlog to TCP clients.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -14,11 +14,11 @@
 
 namespace hybrid_slam::sensors {
 
-/// Serves until it is to stop, or the log that is replayed has ended and the clients have taken it all.
-/// @param config   with a section for each sensor, where options name no rawlog
-/// @param isReady  called with the port once clients can connect
-/// @return one line: what was served
-/// @throws InputError for wrong sensors, a wrong rawlog, an address where it cannot listen
+/// Serves until stopped, or until the replayed log has ended and the clients have received all of it.
+/// @param config   with one section per sensor, unless options name a rawlog
+/// @param isReady  called with the port when clients can connect
+/// @return a one-line summary
+/// @throws InputError for wrong sensors, a wrong rawlog, or an address it cannot listen on
 std::string serveObservations(const live::ServerOptions& options,
                               const mrpt::config::CConfigFileMemory& config,
                               const std::shared_ptr<live::EventLog>& log, const live::StopCheck& stop,

@@ -1,5 +1,5 @@
 /// MRPT's CLMS100Eth waits 1 s after each of five answers, and 10 s once more. In this program it does not:
-/// these take the place of the C library's functions.
+/// these replace the C library's functions.
 #include <sys/epoll.h>
 #include <sys/syscall.h>
 #include <time.h>

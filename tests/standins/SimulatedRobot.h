@@ -1,5 +1,5 @@
 /// @file SimulatedRobot.h
-/// @brief The robot that carries the stand-ins: it drives along a route by a step for each scan.
+/// @brief The robot that carries the stand-ins: drives along a route, one step per scan.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

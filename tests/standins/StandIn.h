@@ -1,5 +1,5 @@
 /// @file StandIn.h
-/// @brief What the devices for tests have in common: a TCP server of one client at a time, and its faults.
+/// @brief Common base of the test devices: a TCP server for one client at a time, with faults.
 #pragma once
 
 #include <atomic>
@@ -13,13 +13,13 @@ namespace hybrid_slam::test {
 
 class StandIn {
  public:
-  /// What is wrong with the device, until it is set otherwise.
+  /// The device's current fault.
   enum class Fault {
     none,
-    silent,    ///< the connection is there, but nothing comes: a cable pulled
-    refusing,  ///< connections are closed as soon as they are made, and the present one
+    silent,    ///< connected but no data, as with a pulled cable
+    refusing,  ///< closes the current connection and every new one
     garbled,   ///< noise between telegrams, and a wrong checksum where there is one
-    cut,       ///< a telegram stops in its middle, the rest comes later
+    cut,       ///< a telegram stops halfway; the rest comes later
   };
 
   virtual ~StandIn() = default;
@@ -39,7 +39,7 @@ class StandIn {
   }
 
   virtual void connected() = 0;
-  /// Bytes that came, may be none; called again and again. Throws where the connection is gone.
+  /// Received bytes, possibly none; called repeatedly. Throws if the connection is lost.
   virtual void step(live::TcpSocket& socket, const std::string& bytes) = 0;
   Fault fault() const { return fault_; }
 

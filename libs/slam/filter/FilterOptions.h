@@ -1,5 +1,5 @@
 /// @file FilterOptions.h
-/// @brief Settings of the particle filter, and those of all its parts together.
+/// @brief Settings of the particle filter and its parts.
 #pragma once
 
 #include <mrpt/bayes/CParticleFilter.h>
@@ -48,7 +48,7 @@ struct ImprovedProposalOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The filter and its parts, a section each.
+/// The filter and its parts, one section each.
 struct FilterConfiguration {
   bool useLines = true;  ///< false: the same filter without lines, `--method general`
   ParticleFilterOptions filter;
@@ -64,7 +64,7 @@ struct FilterConfiguration {
   ImprovedProposalOptions improved;
   ScanMatcherOptions matcher;
 
-  /// How far the robot moves (m) or turns (rad) from one update to the next.
+  /// Distance (m) or rotation (rad) between updates.
   double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
   double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
   bool usesMatches() const { return filter.proposal == ParticleFilterOptions::Proposal::improved; }

@@ -1,5 +1,5 @@
 /// @file FilterView.h
-/// @brief What a program shows and saves of a running filter, whichever filter it is.
+/// @brief Read access to a running filter, ours or MRPT's, for display and results.
 #pragma once
 
 #include <mrpt/core/Clock.h>
@@ -19,39 +19,39 @@ struct WeightedPose {
   double logWeight;
 };
 
-/// What one update of the filter did: a row of steps.csv. Spreads are weighted standard deviations over the
+/// Statistics of one filter update: a row of steps.csv. Spreads are weighted standard deviations of the
 /// particles before resampling (m, rad).
 struct FilterStep {
   size_t particles = 0;
-  double ess = 1;                 ///< effective sample size before resampling, as a share in [0, 1]
-  std::optional<bool> resampled;  ///< nothing where the filter does not tell
+  double ess = 1;                 ///< effective sample size before resampling, as a fraction in [0, 1]
+  std::optional<bool> resampled;  ///< empty if the filter does not report it
   double stdX = 0, stdY = 0, stdPhi = 0;
   double stdAlong = 0, stdAcross = 0;   ///< along and across the best particle's heading
   std::optional<double> gridWeight;     ///< w_grid of the best particle before tempering
   std::optional<double> lineWeight;     ///< w_line of the best particle
   int linesSeen = 0, linesMatched = 0;  ///< of the best particle
-  std::optional<double> matched;    ///< share of the particles whose scan match was used; improved proposal
-  std::optional<bool> slipped;      ///< the odometry was off, and the motion found by a search; likewise
-  std::vector<WeightedPose> poses;  ///< those that the spreads are of
+  std::optional<double> matched;    ///< fraction of particles whose scan match was used; improved proposal
+  std::optional<bool> slipped;      ///< odometry rejected, motion found by a search; improved proposal
+  std::vector<WeightedPose> poses;  ///< the particles, as for the spreads
 
-  /// @name Of our own filter, from its second update on
+  /// @name Only for our own filter, from its second update on
   /// @{
-  mrpt::math::TPose2D odometry;              ///< increment since the update before
-  std::vector<mrpt::math::TPose2D> motions;  ///< of each of `poses`, since the update before
-  /// ln p(scan | scans before), up to a constant of the step: the weighted mean of what the particles'
-  /// weights grew by. MRPT's auxiliary filters weigh otherwise.
+  mrpt::math::TPose2D odometry;              ///< increment since the previous update
+  std::vector<mrpt::math::TPose2D> motions;  ///< of each of `poses`, since the previous update
+  /// ln p(scan | previous scans), up to a constant of the step: log of the weighted mean of the particles'
+  /// incremental weights. Not valid for MRPT's auxiliary filters, which weight differently.
   double logLikelihood = 0;
   /// @}
 };
 
-/// Notes a weighted set of poses and its spreads, seen along `heading`.
+/// Stores the weighted poses and their spreads, with axes along and across `heading`.
 void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double heading);
 
-/// Read access common to our filter and to MRPT's own.
+/// Read access common to our filter and MRPT's.
 class FilterView {
  public:
   virtual ~FilterView() = default;
-  /// Updates so far; grows by one when a scan made the filter run.
+  /// Number of filter updates so far.
   virtual size_t updates() const = 0;
   virtual const FilterStep& lastStep() const = 0;
   /// The best particle's pose at each update (map frame).
@@ -61,7 +61,7 @@ class FilterView {
   virtual std::vector<DatabaseLine> bestLines() const = 0;
   virtual std::vector<WeightedPose> particlePoses() const = 0;
 
-  /// Where the stages of an update note their times (s); off unless enabled, and then next to free.
+  /// Times (s) of the stages of an update; off by default, negligible cost.
   mrpt::system::CTimeLogger& profiler() { return profiler_; }
 
  private:

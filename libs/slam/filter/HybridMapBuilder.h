@@ -33,7 +33,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilt
     return static_cast<unsigned int>(initialMap_.size() + scans_.size());
   }
   void saveCurrentEstimationToImage(const std::string& file, bool formatEmfBmp = true) override;
-  /// The best particle's path, one pose for each update.
+  /// The best particle's path, one pose per update.
   void getCurrentMostLikelyPath(std::deque<mrpt::math::TPose3D>& path) const;
 
   /// Whether the scans of later updates are kept for getCurrentlyBuiltMap (default: yes); memory then grows

@@ -153,12 +153,11 @@ TEST(HybridMapBuilder, TheBestParticleIsTheOneWithTheGreatestWeightBeforeResampl
   EXPECT_LT(weighing.lastStep().ess, 1);
   EXPECT_NE(weighed.front().logWeight, weighed.back().logWeight);
   for (const auto& particle : resampling.particlePoses())
-    EXPECT_EQ(particle.logWeight, 0);  // MRPT leaves them as they were: ParticleSet::performSubstitution
+    EXPECT_EQ(particle.logWeight, 0);  // MRPT does not reset them: see ParticleSet::performSubstitution
 }
 
 TEST(HybridMapBuilder, EveryParticleMatchesAnotherPlaceNoBetter) {
-  // 1000 beams' worth of weight, no outliers allowed, and a scan of elsewhere: the weights underflow
-  // together.
+  // The weight of 1000 beams, no outliers allowed, and a scan of another place: all weights underflow.
   FilterConfiguration c = test::roomConfiguration();
   c.gridWeight.exponent = 1000;
   c.gridWeight.outlier = 1e-6;
@@ -286,7 +285,7 @@ TEST(HybridMapBuilder, GoesOnFromAMapOfScans) {
   EXPECT_EQ(second.bestPath().size(), second.updates());
   const auto [last, frame] = whole.getAsPair(whole.size() - 1);
   expectPose(TPose2D(last->getMeanVal().asTPose()), second.bestPath().back(), 1e-9);
-  // Back where it began, in the first map's frame; the odometry alone is lost by then.
+  // Back at the start, in the first map's frame; odometry alone has failed by then.
   expectPose(second.bestPath().back(), steps.back().truth, 0.2);
 }
 

@@ -66,14 +66,14 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     return proposed;
   }
 
-  // The normal distribution around the top, and its factor for drawing: covariance = root root^T.
+  // Normal approximation at the maximum and its square root for sampling: covariance = root root^T.
   const Eigen::LLT<Eigen::Matrix3d> factor(match.information);
   const Eigen::Matrix3d root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
   const double logVolume = root.diagonal().array().abs().log().sum();
 
   const auto samples = static_cast<size_t>(options_.samples);
   std::vector<Eigen::Vector3d> offsets(samples);
-  std::vector<double> logRatios(samples);  // ln of p over the density it was drawn from
+  std::vector<double> logRatios(samples);  // ln of p over the sampling density
   for (size_t k = 0; k < samples; ++k) {
     const Eigen::Vector3d normal = standardNormal(random);
     offsets[k] = root * normal;
@@ -95,8 +95,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
 
   proposed.logWeight = highest + std::log(sum / static_cast<double>(samples)) -
                        0.5 * std::log(motion.covariance.determinant());
-  // The covariance of few samples may be flat in one direction; the root of a semi-definite matrix is not
-  // unique, LDLT gives one.
+  // The covariance of few samples may be singular; LDLT also works for semi-definite matrices.
   const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
   const Eigen::Vector3d deviations = spread.vectorD().cwiseMax(0).cwiseSqrt();
   const Eigen::Vector3d drawn =

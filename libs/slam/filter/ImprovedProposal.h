@@ -8,24 +8,24 @@
 
 namespace hybrid_slam {
 
-/// A pose drawn for a particle, and what that does to its weight.
+/// A pose drawn for a particle, and its incremental weight.
 struct Proposed {
   mrpt::math::TPose2D pose;
-  double logWeight = 0;  ///< ln of p(scan | pose before, odometry, grid, lines), up to a constant of the step
-  double fit = 0;        ///< of the match, in [0, 1]
-  bool isMatched = true;  ///< false: drawn from the motion model, because no match was good enough
+  double logWeight = 0;   ///< ln p(scan | previous pose, odometry, grid, lines), up to a constant of the step
+  double fit = 0;         ///< of the match, in [0, 1]
+  bool isMatched = true;  ///< false: drawn from the motion model for lack of a good match
   LineWeight lineWeight;
 };
 
-/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).  A
-/// match finds its top; poses drawn from the normal distribution that the match makes out there, each weighed
-/// by p over that distribution, give the proposal its mean and covariance, and their mean weight is the
-/// particle's own: the integral of p, which does not depend on the pose that is drawn in the end. Where the
-/// scan says nothing, as along a corridor, the motion model keeps its uncertainty.
+/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).
+/// Scan matching finds its maximum and a normal approximation there. Poses sampled from it, with importance
+/// weights, give the mean and covariance of the proposal. Their mean weight estimates the integral of p,
+/// which is the particle's incremental weight, independent of the pose drawn. In directions the scan does not
+/// constrain, as along a corridor, the motion model's uncertainty remains.
 ///
-/// A match that fits the map less than min_fit is not used: the pose is drawn from the motion model, and the
-/// weight is p(scan | x, grid) p(lines | x, database) there. Its mean over such draws is the same integral,
-/// so that matched and unmatched particles can be compared. (ParticleSet tempers both, after that.)
+/// If the match fits the map worse than min_fit, the pose is drawn from the motion model with weight p(scan |
+/// x, grid) p(lines | x, database). Its expectation is the same integral, so matched and unmatched particles
+/// are comparable. (ParticleSet then tempers both.)
 class ImprovedProposal {
  public:
   explicit ImprovedProposal(const FilterConfiguration& configuration);

@@ -22,7 +22,7 @@ FilterConfiguration configuration(bool useLines) {
   return c;
 }
 
-/// The scan, a little beside where the odometry says.
+/// The scan, slightly off the odometry.
 PreparedScan scanAfterwards(const test::Walls& walls, const TPose2D& start) {
   RandomStream random(2, 0, 0);
   return test::prepared(walls, start + kOdometry + TPose2D(0.01, -0.008, 0.01), random);
@@ -95,11 +95,11 @@ TEST_P(ImprovedProposals, TheWeightIsTheIntegralOfTheTarget) {
     const double expected = integrated(c, particle, scan).mass;
     const Moments matched = proposed(c, particle, scan, 300);
     EXPECT_NEAR(matched.mass / expected, 1, 5 * matched.massError / expected + 0.005);
-    EXPECT_LT(matched.massError / expected, 0.05);  // the bound says something
+    EXPECT_LT(matched.massError / expected, 0.05);  // the bound is not trivial
   }
 }
 
-/// The same integral from poses of the motion model: what lets both kinds of particles be compared.
+/// The same integral from poses of the motion model, which makes both kinds of particles comparable.
 TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
   FilterConfiguration c = configuration(GetParam());
   c.improved.minFit = 1;
@@ -172,14 +172,14 @@ TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   EXPECT_LT(test::offset(p.pose, kStart + kOdometry).norm(), 1e-3);
 }
 
-/// Where the odometry says, no line lies near its wall; where the search ended, each one does.
+/// At the odometry's pose no line is near its wall; at the search result all are.
 TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
   FilterConfiguration c;
   c.improved.minFit = 0;
   const StepMotion slipped{kOdometry, kOdometry + TPose2D(0, 0, 30 * test::kDegree), true};
   const TPose2D truth = kStart + slipped.start;
   const std::vector<LineSegment> walls = {makeSegment({2, -3}, {2, 3}), makeSegment({-4, 3}, {2, 3})};
-  Particle particle;  // no grid, and no beams in the scan: the lines alone say where it is
+  Particle particle;  // no grid and no beams: only the lines constrain the pose
   particle.path.push(kStart);
   for (int i = 0; i < c.database.minCount; ++i)
     particle.lines.write().update(walls, c.database, c.association);

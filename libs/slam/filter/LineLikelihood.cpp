@@ -32,7 +32,7 @@ LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose
 }
 
 LogDensity LineLikelihood::operator()(const TPose2D& pose) const {
-  constexpr double kMostSquares = 9;  // three deviations: beyond, it is another wall
+  constexpr double kMostSquares = 9;  // three standard deviations: beyond, it is another wall
   LogDensity density = lineLogDensity(newLines_, pose.phi, database_, weight_);
   const double perAngle = 1 / (weight_.sigma * weight_.sigma), perDistance = 1 / (sigmaRho_ * sigmaRho_);
   for (const KnownWall& wall : walls_) {

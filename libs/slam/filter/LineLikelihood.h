@@ -1,5 +1,5 @@
 /// @file LineLikelihood.h
-/// @brief What the lines of a scan say of a particle's pose: the lines' part in the improved proposal.
+/// @brief Likelihood of a scan's lines given a particle's pose, for the improved proposal.
 #pragma once
 
 #include <vector>
@@ -20,15 +20,15 @@ struct LineLikelihoodOptions {
 
 /// ln p(lines | pose, line database), up to a constant. It is the sum of two parts:
 ///
-/// - Lines of walls that the database does not know (nothing associated, or seen fewer than min_count times)
-///   count against the database's directions: ln w_line over these lines alone.
-/// - A line of a known wall counts against this wall, by its angle to it and its middle's distance from it:
+/// - Lines of unknown walls (no association, or observed fewer than min_count times) are compared with the
+///   database's directions: ln w_line over these lines alone.
+/// - A line of a known wall is compared with it, by its angle and its midpoint's distance:
 ///   - l / L min(angle^2 / sigma^2 + distance^2 / sigma_rho^2, 9) / 2, l its length and L that of all lines.
-///   How the wall lies to the others was settled when it was new; to ask again in each scan would turn a
-///   wall that runs 2 deg off the others, and the map with it, bit by bit.
+///   Its direction relative to other walls is not used again: in the long run that would rotate a wall 2 deg
+///   off the others, and the map with it.
 ///
-/// Lines are associated once, at the predicted pose: the motion model's mean or, after a slip, where the
-/// search found the robot.
+/// Lines are associated once, at the predicted pose: the motion model's mean or, after a slip, the search
+/// result.
 class LineLikelihood {
  public:
   /// @param seen       robot frame
@@ -40,8 +40,8 @@ class LineLikelihood {
 
  private:
   struct KnownWall {
-    mrpt::math::TPoint2D middle;  ///< of the line seen, robot frame, m
-    double theta;                 ///< of the line seen, robot frame, rad
+    mrpt::math::TPoint2D middle;  ///< of the observed line, robot frame, m
+    double theta;                 ///< of the observed line, robot frame, rad
     double knownRho, knownTheta;  ///< of the wall, map frame
     double normalX, normalY;      ///< cosine and sine of knownTheta
     double share;                 ///< l / L

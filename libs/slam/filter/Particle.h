@@ -11,18 +11,17 @@
 
 namespace hybrid_slam {
 
-/// {path, grid, line database}, which copies share; what it has learnt of the odometry, and what its last
-/// weighing gave.
+/// {path, grid, line database}, shared between copies; the odometry error estimate and the last weights.
 struct Particle {
   Path path;
   OccupancyGrid grid;
   CowPtr<LineDatabase> lines{LineDatabase()};
   MotionBelief motion;
 
-  double logWeight = 0;   ///< after the last weighing, before any resampling; best particle = its argmax
+  double logWeight = 0;   ///< after the last weighting, before resampling; the best particle is its argmax
   double gridWeight = 1;  ///< w_grid before tempering, in [0, 1]
   LineWeight lineWeight;  ///< w_line
-  bool isMatched = true;  ///< improved proposal: by a scan match, not by odometry alone
+  bool isMatched = true;  ///< improved proposal: from a scan match, not odometry alone
 };
 
 }  // namespace hybrid_slam

@@ -85,7 +85,7 @@ RandomStream ParticleSet::stream(size_t particle) const {
 }
 
 void ParticleSet::appendPose(const TPose2D& motion) {
-  Path from, to;  // particles that share a path go on sharing it
+  Path from, to;  // particles that share a path keep sharing it
   for (auto& particle : m_particles) {
     if (from.empty() || !particle.d->path.sharesWith(from)) {
       from = to = particle.d->path;
@@ -167,8 +167,7 @@ ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& 
   return weight;
 }
 
-/// w_grid^exponent x w_line: the beams of a scan are far from independent, the directions stay at full
-/// strength.
+/// w_grid^exponent x w_line: beams are far from independent, so only w_grid is tempered.
 double ParticleSet::Weight::log(double exponent) const { return exponent * logGrid + std::log(line.value); }
 
 void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
@@ -188,7 +187,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   step_.odometry = odometry;
   for (const auto& particle : m_particles) step_.motions.push_back(particle.d->path.lastMotion());
   step_.logLikelihood = logSumOfWeights() - logSumBefore_;
-  normalizeWeights();  // else ESS() underflows where all particles fit badly
+  normalizeWeights();  // else ESS() underflows if all particles fit badly
   for (auto& particle : m_particles) particle.d->logWeight = particle.log_w;
   const Particle& bestParticle = best();
   step_.ess = ESS();

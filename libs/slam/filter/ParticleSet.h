@@ -16,19 +16,19 @@ namespace hybrid_slam {
 
 class ParticleSet : public MrptParticles {
  public:
-  /// @param profiler  takes the times of sampling and resampling; outlives the set
+  /// @param profiler  records the times of sampling and resampling; must outlive the set
   explicit ParticleSet(const FilterConfiguration& configuration,
                        mrpt::system::CTimeLogger* profiler = nullptr);
   ParticleSet(const ParticleSet&) = delete;
   ParticleSet& operator=(const ParticleSet&) = delete;
 
-  /// All particles at `start` with empty maps; nothing has been weighed.
+  /// All particles at `start` with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
   /// Starts the next step: the random streams of its number, no weights of its own yet.
   void beginStep();
   /// Moves every particle by `motion` without sampling or weighing: while there is no map.
   void appendPose(const mrpt::math::TPose2D& motion);
-  /// Forgets the paths so far, keeps the maps: every particle goes on from `start`.
+  /// Clears the paths but keeps the maps: every particle continues from `start`.
   void startPathAt(const mrpt::math::TPose2D& start);
 
   /// Steps 1 and 2: draws every particle's pose by the proposal in force, and weighs it by the scan.
@@ -77,7 +77,7 @@ class ParticleSet : public MrptParticles {
   SlipRecovery slipRecovery_;
   tbb::task_arena arena_;
   uint64_t stepNumber_ = 0;
-  double logSumBefore_ = 0;  ///< ln of the sum of weights, at the start of the step
+  double logSumBefore_ = 0;  ///< ln of the sum of the weights at the start of the step
   FilterStep step_;
 };
 

@@ -75,7 +75,7 @@ TEST(ParticleSet, CopiesKeepOneMapAndOthersTheirOwn) {
   particles.performSubstitution({3, 1, 1, 3});
   particles.updateMaps(second);
 
-  const double expected[] = {0.1, 0.1, 0.3, 0.3};  // copies stand side by side
+  const double expected[] = {0.1, 0.1, 0.3, 0.3};  // copies are adjacent
   for (size_t i = 0; i < 4; ++i) {
     const Particle& particle = *particles.m_particles[i].d;
     ASSERT_NEAR(particle.path.back().x, expected[i], 1e-12);

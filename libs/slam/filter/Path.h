@@ -1,5 +1,5 @@
 /// @file Path.h
-/// @brief A particle's trajectory, shared with the particles of the same ancestry.
+/// @brief A particle's trajectory, shared between particles with common ancestors.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -11,8 +11,8 @@
 
 namespace hybrid_slam {
 
-/// The poses of one trajectory hypothesis, newest last (map frame). Copying costs one pointer, whatever the
-/// length; what two particles have in common is stored once.
+/// The poses of one trajectory hypothesis, newest last (map frame). Copying costs one pointer for any length;
+/// common parts of two paths are stored once.
 class Path {
  public:
   void push(const mrpt::math::TPose2D& pose) {
@@ -23,7 +23,7 @@ class Path {
   size_t size() const { return last_ ? last_->length : 0; }
   /// The newest pose; the origin of the map before the first one.
   mrpt::math::TPose2D back() const { return last_ ? last_->pose : mrpt::math::TPose2D(); }
-  /// From the pose before the newest to the newest, in the frame of the one before; zero if there is none.
+  /// The last motion, in the frame of the previous pose; zero if there is none.
   mrpt::math::TPose2D lastMotion() const {
     return size() > 1 ? last_->pose - last_->parent->pose : mrpt::math::TPose2D();
   }
@@ -44,7 +44,7 @@ class Path {
         : pose(p), length(n), parent(std::move(before)) {}
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
-    /// Frees the ancestors that nobody else holds in a loop: an hour of driving would overflow the stack.
+    /// Frees unshared ancestors in a loop: recursion would overflow the stack after an hour of driving.
     ~Node() {
       std::shared_ptr<Node> node = std::move(parent);
       while (node && node.use_count() == 1) node = std::move(node->parent);

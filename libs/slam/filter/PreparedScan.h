@@ -17,10 +17,10 @@ struct PreparedScan {
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
   ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
-  std::vector<LineSegment> lines;  ///< robot frame; none without lines
+  std::vector<LineSegment> lines;  ///< robot frame; empty if lines are off
 };
 
-/// Line detection (Sec. III-B) and all else that is the same for every particle.
+/// Line detection (Sec. III-B) and all other work common to the particles.
 class ScanPreparation {
  public:
   explicit ScanPreparation(const FilterConfiguration& configuration);

@@ -1,5 +1,5 @@
 /// @file Refinement.h
-/// @brief After the run: the best trajectory matched against its own final map, and the map rebuilt from it.
+/// @brief Refinement after the run: matches the best trajectory to the final map and rebuilds the map.
 #pragma once
 
 #include <vector>
@@ -15,10 +15,10 @@ namespace hybrid_slam {
 struct PosedScans {
   Scans scans;
   mrpt::math::TPose2D pose;  ///< map frame
-  bool isMapped = false;     ///< it made the filter run: its beams and lines are in the map
+  bool isMapped = false;     ///< used in an update: its beams and lines are in the map
 };
 
-/// The map that scans make at their poses.
+/// Builds the map from scans at their poses.
 struct ScanMap {
   OccupancyGrid grid;
   LineDatabase lines;

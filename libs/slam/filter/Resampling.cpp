@@ -12,7 +12,7 @@ std::vector<size_t> residualResampling(const std::vector<double>& logWeights, Ra
   for (const double w : logWeights) sum += std::exp(w - greatest);
 
   std::vector<size_t> drawn;
-  std::vector<double> residuals;  // cumulated
+  std::vector<double> residuals;  // cumulative
   double cumulated = 0;
   for (size_t i = 0; i < n; ++i) {
     const double copies = static_cast<double>(n) * std::exp(logWeights[i] - greatest) / sum;

@@ -1,5 +1,5 @@
 /// @file Resampling.h
-/// @brief Residual resampling (Liu & Chen 1998), which MRPT 2.5.8 gets wrong (doc/mrpt-notes.md).
+/// @brief Residual resampling (Liu & Chen 1998), which is wrong in MRPT 2.5.8 (doc/mrpt-notes.md).
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,8 @@
 
 namespace hybrid_slam {
 
-/// The indices, in rising order, of as many particles as there are weights: floor(n w) copies of each, and
-/// the rest drawn by what is left of the weights.
-/// @param logWeights  not necessarily normalised; at least one
+/// Ascending indices of n particles: floor(n w) copies of each, the rest drawn by the residual weights.
+/// @param logWeights  at least one; need not be normalised
 std::vector<size_t> residualResampling(const std::vector<double>& logWeights, RandomStream& random);
 
 }  // namespace hybrid_slam

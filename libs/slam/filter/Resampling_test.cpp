@@ -110,7 +110,7 @@ TEST(Resampling, MrptsSystematicHasTheExpectedCounts) {
 }
 
 /// The trap: the random part takes the smallest of n sorted draws, so the first particles get too much.
-/// When this fails, MRPT has mended it, and Resampling.h can go.
+/// If this fails, MRPT has fixed it, and Resampling.h can be removed.
 TEST(Resampling, MrptsResidualSchemeFavoursTheFirstParticles) {
   const std::vector<double> weights = {0.125, 0.125, 0.125, 0.625};  // n w = 0.5, 0.5, 0.5, 2.5
   const Draw draw = mrptsDraw(CParticleFilter::prResidual);

@@ -11,9 +11,9 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kPoorFit = 0.8;     // of the usual fit: below, it is worth looking around
-constexpr double kForgetting = 0.1;  // share of the newest scan in the usual fit
-constexpr size_t kPlaces = 8;        // from which the search climbs
+constexpr double kPoorFit = 0.8;     // of the usual fit: search below this
+constexpr double kForgetting = 0.1;  // weight of the newest scan in the usual fit
+constexpr size_t kPlaces = 8;        // starting points of the local optimisation
 
 }  // namespace
 
@@ -42,8 +42,8 @@ StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry,
         std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
         0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
     const Prior anywhere = [](const TPose2D&) { return LogDensity(); };
-    // By w_grid, which lets a beam end in the unknown: the matcher's likelihood would rather have it end on
-    // some wall, and pull the robot back along a corridor that it has only begun to see.
+    // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any
+    // wall, and would pull the robot back along a partly seen corridor.
     const auto logWeight = [&](const TPose2D& pose) {
       return exponent_ * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
     };

@@ -1,5 +1,5 @@
 /// @file SlipRecovery.h
-/// @brief Notices that the robot has not moved as its odometry says, and finds out how it has.
+/// @brief Detects wheel slip and recovers the true motion.
 #pragma once
 
 #include "slam/filter/FilterOptions.h"
@@ -9,19 +9,18 @@
 
 namespace hybrid_slam {
 
-/// Where the matches of a step begin, for all particles.
+/// Starting point of a step's scan matches, common to all particles.
 struct StepMotion {
   mrpt::math::TPose2D odometry;  ///< m, rad; in the robot frame at the start of the step
-  mrpt::math::TPose2D start;     ///< the same of the best particle's match: where the others' begin
-  bool hasSlipped = false;       ///< the odometry is worth nothing
+  mrpt::math::TPose2D start;     ///< motion of the best particle's match: start of the other matches
+  bool hasSlipped = false;       ///< odometry rejected
 };
 
-/// Once a step, in the best particle's map: the scan is matched from where the odometry says, which is where
-/// the other particles' matches then begin. If it fits much worse than the scans before, a wide window around
-/// is searched.
+/// Once per step, the scan is matched to the best particle's map from the odometry; the result starts the
+/// other particles' matches. If it fits much worse than earlier scans, a wide window is searched.
 ///
-/// The motion is a mixture: that of the motion model, or (slip_probability) a slip, anywhere in the window. A
-/// place far off the motion model is taken if, with these odds, scan and motion are more likely there.
+/// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
+/// window. A pose far from the motion model is accepted if its posterior under this mixture is higher.
 class SlipRecovery {
  public:
   explicit SlipRecovery(const FilterConfiguration& configuration);
@@ -33,10 +32,10 @@ class SlipRecovery {
   double exponent_;  ///< of w_grid
   ScanMatcher matcher_;
   GridWeight gridWeight_;
-  double usualFit_ = 0;  ///< of the scans so far, the newest counting most
+  double usualFit_ = 0;  ///< running mean of the fit, recent scans weighted most
 };
 
-/// The motion model's distribution of the pose after a step; after a slip as wide as the searched window.
+/// The motion model's distribution of the pose after a step; after a slip, as wide as the search window.
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
                                const MotionModelOptions& model, const ImprovedProposalOptions& options);
 

@@ -63,7 +63,7 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNoSlip) {
   Particle particle = test::particleAt(test::room(), kStart);
   SlipRecovery recovery = used(c, particle, test::room());
   RandomStream random(6, 0, 0);
-  // Through a door, say: nothing here has been mapped.
+  // As through a door: nothing here has been mapped.
   const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
   const StepMotion motion =
       recovery.motionOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random));

@@ -26,7 +26,7 @@ void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
-  // MRPT draws from the generator of the thread it runs in.
+  // MRPT draws from its thread's generator.
   std::swap(mrpt::random::getRandomGenerator(), random_);
   CMetricMapBuilderRBPF::processActionObservation(action, observations);
   std::swap(mrpt::random::getRandomGenerator(), random_);
@@ -56,7 +56,7 @@ std::vector<TPose2D> StockMapBuilder::bestPath() const {
 COccupancyGridMap2D StockMapBuilder::bestGrid() const {
   const auto& map = mapPDF.m_particles[bestParticle()].d->mapTillNow;
   if (const auto grid = map.mapByClass<COccupancyGridMap2D>()) return *grid;
-  // A map of points only (MRPT's ICP set-ups): its scans, drawn into a grid along the best path.
+  // A point map only (MRPT's ICP set-ups): insert its scans into a grid along the best path.
   COccupancyGridMap2D grid(-1, 1, -1, 1, 0.05f);
   mrpt::maps::CSimpleMap scans;
   getCurrentlyBuiltMap(scans);
@@ -86,7 +86,7 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const Filte
   ini.write(s, "resamplingMethod", static_cast<int>(ours.filter.resampling));
   ini.write(s, "adaptiveSampleSize", false);
   ini.write(s, "sampleSize", ours.filter.particles);
-  ini.write(s, "pfOptimalProposal_mapSelection", 0);  // not used by the standard proposal, but asked for
+  ini.write(s, "pfOptimalProposal_mapSelection", 0);  // unused by the standard proposal, but required
   ini.write(s, "BETA", ours.filter.essThreshold);
   ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
   ini.write(s, "insertionAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);

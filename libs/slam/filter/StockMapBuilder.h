@@ -1,5 +1,5 @@
 /// @file StockMapBuilder.h
-/// @brief MRPT's own RBPF, seen as our programs see a filter: `--method stock`.
+/// @brief MRPT's own RBPF behind our filter interface: `--method stock`.
 #pragma once
 
 #include <mrpt/random/RandomGenerators.h>
@@ -18,7 +18,7 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
 
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
-  /// Counts the updates, and has MRPT draw from this filter's own generator; all else is MRPT's.
+  /// Counts the updates and makes MRPT draw from this filter's generator; the rest is MRPT's.
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
 
@@ -38,7 +38,7 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
   FilterStep step_;
 };
 
-/// MRPT's settings as in its rbpf-slam: section [MappingApplication] and those it names.
+/// MRPT's settings as in its rbpf-slam: section [MappingApplication] and the sections it names.
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
     const mrpt::config::CConfigFileBase& source);
 /// MRPT's standard proposal with our number of particles, resampling, update distances and cell size.

@@ -68,7 +68,7 @@ TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
   EXPECT_FALSE(builder.lastStep().resampled);
   EXPECT_GT(builder.lastStep().ess, 0);
   EXPECT_LE(builder.lastStep().ess, 1);
-  // Half a square with odometry this bad: no farther off than its odometry, not somewhere else.
+  // Half a square with odometry this poor: the error is at most that of the odometry.
   EXPECT_LT(test::rms(path, replayed.truth), 0.5);
   for (size_t i = 1; i < path.size(); ++i)
     EXPECT_LT(std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y), 1) << i;

@@ -1,5 +1,5 @@
 /// @file Threads.h
-/// @brief How many threads a task arena gets.
+/// @brief Number of threads of a task arena.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -9,8 +9,8 @@
 
 namespace hybrid_slam {
 
-/// For `threads` of [particle_filter], 0 being all cores. More threads than the machine allows TBB does not
-/// start, but complains about on stderr.
+/// For `threads` of [particle_filter]; 0: all cores. Limited to the machine's threads: TBB ignores more, with
+/// a warning on stderr.
 inline int arenaThreads(int threads) {
   const auto allowed =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));

@@ -88,7 +88,7 @@ TEST_P(Proposals, TracksASquareBetterThanItsOdometry) {
 
 TEST_P(Proposals, SameSeedSameRunForAnyNumberOfThreads) {
   const auto steps = test::drive(2);
-  // As many threads as are asked for, however few cores there are.
+  // As many threads as requested, even with fewer cores.
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
   FilterConfiguration c = configuration();
   const Outcome one = run(c, steps);
@@ -139,7 +139,7 @@ TEST(Tracking, TheImprovedProposalTracksBetterThanTheStandardOne) {
   }
 }
 
-/// The map of one scan is faint, and a good match fits it badly: it must be used all the same.
+/// The map of one scan is faint, and even a good match fits it badly; it must still be used.
 TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
   FilterConfiguration c = with(Proposal::improved, true);
   HybridMapBuilder builder(c);
@@ -233,7 +233,7 @@ TEST(Tracking, MrptsLikelihoodsTakeThreads) {
 }
 
 /// A robot that veers by 6 deg/m, which the motion model's variances (1 deg in a step of 0.25 m) would have
-/// to explain again and again.
+/// to absorb in every step.
 TEST(Tracking, TheStandardProposalLearnsASystematicError) {
   std::vector<test::DriveStep> steps = test::drive(6);
   for (test::DriveStep& step : steps) step.odometry.phi -= 6 * test::kDegree * step.odometry.x;
@@ -257,8 +257,8 @@ TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
   }
 }
 
-/// Without resampling every particle must go on from where it was. MRPT's auxiliary filters give a particle
-/// that fits badly the pose of another one, but leave it its own map and path.
+/// Without resampling every particle must continue from its pose. MRPT's auxiliary filters give a badly
+/// fitting particle the pose of another one, but not its map and path.
 TEST(Tracking, AnAuxiliaryFilterLeavesEachParticleItsOwnPath) {
   FilterConfiguration c = with(Proposal::auxiliaryStandard, true);
   c.filter.essThreshold = 0;

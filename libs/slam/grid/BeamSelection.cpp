@@ -14,8 +14,8 @@ double squaredDistance(const Point& a, const Point& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// The point that is 15 cm away, so that the noise of two ranges turns the line between them by some degrees
-/// only, or the last before one that was not seen.
+/// The point 15 cm away, so that range noise turns the line between the two by only a few degrees, or the
+/// last point before an invalid beam.
 template <class Step>
 size_t awayFrom(size_t i, const LaserScan& scan, const std::vector<Point>& points, Step next) {
   constexpr double kDistance = 0.15;
@@ -62,7 +62,7 @@ std::vector<size_t> BeamSelection::take(int beams) const {
   size_t groupsLeft = groups_.size();
   for (const auto& group : groups_) {
     const size_t share =
-        std::min(group.size(), left / groupsLeft--);  // what a small one lacks, the others give
+        std::min(group.size(), left / groupsLeft--);  // larger groups fill up for smaller ones
     for (size_t i = 0; i < share; ++i) taken.push_back(group[(2 * i + 1) * group.size() / (2 * share)]);
     left -= share;
   }

@@ -1,5 +1,5 @@
 /// @file BeamSelection.h
-/// @brief Which beams of a scan to weigh or to match, where not all are.
+/// @brief Selects the beams of a scan to weigh or match.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace hybrid_slam {
 /// Takes the beams of all lasers evenly from all directions of walls: normal-space sampling (Rusinkiewicz &
 /// Levoy, 3DIM 2001).
 ///
-/// Of beams that are evenly spread over the angle, nearly all meet the walls along a corridor, and the pose
-/// along it is left to the few that meet a door frame or its end.
+/// In a corridor, nearly all of evenly spaced beams hit the side walls, and the position along it depends on
+/// the few that hit a door frame or the end.
 class BeamSelection {
  public:
   explicit BeamSelection(const LaserScans& scans);

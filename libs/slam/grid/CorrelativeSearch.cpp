@@ -17,7 +17,8 @@ constexpr int kStep = 2;                   // cells
 constexpr double kStepAngle = M_PI / 180;  // rad
 constexpr size_t kMostBeams = 120;
 
-/// A rectangle of cells with max(0, 2 p - 1) in steps of 1/255, the highest of each cell and its neighbours.
+/// A rectangle of cells with max(0, 2 p - 1) in steps of 1/255: the maximum over each cell and its
+/// neighbours.
 class WidenedMap {
  public:
   WidenedMap(const OccupancyGrid& grid, const CellBox& box)
@@ -39,7 +40,7 @@ class WidenedMap {
     widen(1, width_, width_, height_);
     widen(width_, height_, 1, width_);
   }
-  /// Of a cell inside of the box.
+  /// Value of a cell inside the box.
   const uint8_t* cell(int x, int y) const {
     return &cells_[static_cast<size_t>(y - minY_) * static_cast<size_t>(width_) +
                    static_cast<size_t>(x - minX_)];
@@ -50,7 +51,7 @@ class WidenedMap {
   uint8_t& at(int x, int y) {
     return cells_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
   }
-  /// The highest of three along lines of `length` cells that lie `stride` apart; `lines` of them, `next`
+  /// Running maximum of three along `lines` lines of `length` cells; cells are `stride` apart, lines `next`
   /// apart.
   void widen(int stride, int length, int next, int lines) {
     for (int line = 0; line < lines; ++line) {
@@ -77,7 +78,7 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
   const int a = static_cast<int>(std::ceil(window.angle / kStepAngle));
   const int side = 2 * n + 1, angles = 2 * a + 1;
 
-  // The ends of the beams for each heading, around the centre.
+  // Beam end points for each heading, relative to the centre.
   std::vector<std::vector<CellIndex>> ends(static_cast<size_t>(angles));
   CellBox box{{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()},
               {std::numeric_limits<int>::min(), std::numeric_limits<int>::min()}};
@@ -125,7 +126,7 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
             for (int di = -1; di <= 1 && isTop; ++di) {
               const int kk = k + dk, jj = j + dj, ii = i + di;
               if (kk < 0 || jj < 0 || ii < 0 || kk >= angles || jj >= side || ii >= side) continue;
-              // Of equal neighbours the first one stands for all.
+              // Of equal neighbours, keep the first.
               const bool isBefore = dk < 0 || (dk == 0 && (dj < 0 || (dj == 0 && di < 0)));
               isTop = isBefore ? own > score(kk, jj, ii) : own >= score(kk, jj, ii);
             }

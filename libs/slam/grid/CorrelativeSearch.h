@@ -1,5 +1,5 @@
 /// @file CorrelativeSearch.h
-/// @brief Where a scan may lie in a grid when the odometry cannot be trusted: E. Olson, "Real-time
+/// @brief Global search for a scan's pose in a grid when odometry is unreliable: E. Olson, "Real-time
 /// correlative scan matching", ICRA 2009.
 #pragma once
 
@@ -9,16 +9,16 @@
 
 namespace hybrid_slam {
 
-/// How far around a predicted pose the robot may be.
+/// Search range around a predicted pose.
 struct SearchWindow {
   double distance = 0;  ///< m, in x and in y
   double angle = 0;     ///< rad
 };
 
-/// The places (map frame), best first, where the ends of the beams meet most of the map, each the best among
-/// its neighbours: on a lattice of 2 cells and 1 deg around `centre`, over the map of ScanMatcher widened by
-/// a cell, so that each place is within a climb's reach. At most about 120 beams are taken.
-/// @param count  at most so many
+/// Local maxima (map frame, best first) of the overlap between the beam end points and the map, on a lattice
+/// of 2 cells and 1 deg around `centre`. The map is that of ScanMatcher dilated by one cell, so that a match
+/// started at a maximum converges. Uses at most about 120 beams.
+/// @param count  maximum number of poses
 std::vector<mrpt::math::TPose2D> correlativeSearch(const ScanBeams& scan, const mrpt::math::TPose2D& centre,
                                                    const OccupancyGrid& grid, const SearchWindow& window,
                                                    size_t count);

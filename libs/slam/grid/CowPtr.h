@@ -8,8 +8,8 @@
 
 namespace hybrid_slam {
 
-/// Copying copies a pointer; `write` gives this copy a value of its own first. Several threads may read and
-/// write different CowPtrs that share a value at the same time.
+/// Copying copies a pointer; `write` first makes this copy's value unshared. Threads may concurrently read
+/// and write different CowPtrs that share a value.
 template <class T>
 class CowPtr {
  public:
@@ -20,17 +20,17 @@ class CowPtr {
   const T* get() const { return shared_.get(); }
   const T& operator*() const { return *shared_; }
   const T* operator->() const { return shared_.get(); }
-  /// Whether both share one value, and so one piece of memory.
+  /// Whether both share one value in memory.
   bool sharesWith(const CowPtr& other) const { return shared_ == other.shared_; }
 
-  /// The value, made this copy's own; a default value where there was none.
+  /// The value for writing, unshared; default-constructed if there was none.
   T& write() {
     if (!shared_) {
       shared_ = std::make_shared<T>();
     } else if (shared_.use_count() > 1) {
       shared_ = std::make_shared<T>(std::as_const(*shared_));
     } else {
-      // The last other owner may have read the value on another thread just before it let go.
+      // The last other owner may have read the value on another thread just before releasing it.
       std::atomic_thread_fence(std::memory_order_acquire);
     }
     return *shared_;

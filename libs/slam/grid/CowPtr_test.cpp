@@ -33,7 +33,7 @@ TEST(CowPtr, AnUnsharedValueIsWrittenInPlace) {
   EXPECT_EQ(a.get(), before);
 }
 
-/// A value that tells how often it was copied.
+/// A value that counts its copies.
 struct Counted {
   int* copies;
   explicit Counted(int* count) : copies(count) {}

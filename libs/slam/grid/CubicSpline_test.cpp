@@ -7,7 +7,7 @@
 namespace hybrid_slam {
 namespace {
 
-constexpr double kSingle = 5e-7;  // a few roundings of single precision
+constexpr double kSingle = 5e-7;  // a few single-precision rounding errors
 
 /// Sum of weight(k) k^power over the samples k = -1..2.
 double moment(const Float4& weights, int power) {

@@ -31,7 +31,7 @@ mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox&
 }
 
 OccupancyGrid fromMrpt(const mrpt::maps::COccupancyGridMap2D& in) {
-  const double s = std::round(in.getResolution() * 1e6) / 1e6;  // MRPT keeps it as a float
+  const double s = std::round(in.getResolution() * 1e6) / 1e6;  // MRPT stores a float
   OccupancyGrid grid(s);
   const double firstX = in.getXMin() / s, firstY = in.getYMin() / s;
   const int x0 = static_cast<int>(std::lround(firstX)), y0 = static_cast<int>(std::lround(firstY));

@@ -8,8 +8,8 @@
 
 namespace hybrid_slam {
 
-/// MRPT's grid over the cells `box` (all that were ever written, plus a margin of one cell, if it is empty).
-/// The cell values are the same log-odds with MRPT's sign (positive is free).
+/// MRPT's grid over the cells `box` (if empty: all cells ever written, plus a margin of one cell). The cell
+/// values are the same log-odds with MRPT's sign (positive is free).
 mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox& box = {});
 
 /// @throws InputError if the origin of MRPT's grid is not a whole number of cells from the map's origin

@@ -25,8 +25,8 @@ MrptGrid::TLikelihoodMethod mrptMethod(Method method) {
   }
 }
 
-/// The scan as seen from above, with nothing but its valid beams: MRPT's methods take a reading marked as
-/// valid for one, read cells outside of the grid for its end, and give tilted scans no weight.
+/// The scan as seen from above, with valid beams only: MRPT's methods use invalid beams, read outside the
+/// grid for long ones, and give tilted scans no weight.
 mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
   mrpt::obs::CObservation2DRangeScan out;
   out.aperture = static_cast<float>(scan.beams.back().angle - scan.beams.front().angle);
@@ -42,7 +42,7 @@ mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
   return out;
 }
 
-/// Every so many-th of `count` beams leaves about `beams`, evenly spread; 0 leaves all.
+/// Step that leaves about `beams` of `count` beams, evenly spaced; 0: all.
 size_t decimation(size_t count, int beams) {
   if (beams == 0) return 1;
   return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));

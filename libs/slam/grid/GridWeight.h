@@ -1,5 +1,5 @@
 /// @file GridWeight.h
-/// @brief w_grid of Sec. III-D: how well a scan fits a particle's grid.
+/// @brief w_grid of Sec. III-D: fit of a scan to a particle's grid.
 #pragma once
 
 #include "slam/grid/PenetrationModel.h"

@@ -1,13 +1,13 @@
 /// @file LogDensity.h
-/// @brief The logarithm of a density of the pose, and its local quadratic form.
+/// @brief Log-density of the pose and its local quadratic approximation.
 #pragma once
 
 #include <Eigen/Dense>
 
 namespace hybrid_slam {
 
-/// ln of a density of the pose (x, y, phi), with the gradient and the (negative, at least semi-definite)
-/// second derivative of its local quadratic form.
+/// Log-density of the pose (x, y, phi) with the gradient and the positive semi-definite information matrix of
+/// its local quadratic approximation.
 struct LogDensity {
   double value = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();

@@ -15,8 +15,8 @@ int logOdds(double p) {
   return static_cast<int>(std::lround(std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale));
 }
 
-/// What one scan says of each cell in the tiles that it may touch: hit, or how many beams crossed it. The
-/// memory is kept between calls.
+/// Hits and number of crossing beams of one scan for each cell in the tiles in range. The memory is reused
+/// between calls.
 class Footprint {
  public:
   static constexpr uint8_t kHit = 255;
@@ -40,7 +40,7 @@ class Footprint {
           {floorOf(origin.x + range * pose.dirX(ray)), floorOf(origin.y + range * pose.dirY(ray))});
       extend(ends.back());
     }
-    // A cell more on each side: where a beam ends on a border, rounding may take it over.
+    // One cell more on each side: rounding may move an end point across a border.
     first_ = {(low.x - 1) >> Tile::kBits, (low.y - 1) >> Tile::kBits};
     last_ = {(high.x + 1) >> Tile::kBits, (high.y + 1) >> Tile::kBits};
     width_ = static_cast<size_t>(last_.x - first_.x + 1) * Tile::kSize;
@@ -62,11 +62,10 @@ class Footprint {
   const uint8_t* row(int tileX, int y) const { return &counts_[index(tileX * Tile::kSize, y)]; }
 
  private:
-  /// Counts the cells that a beam crosses, the origin being relative to the first tile. The beam is followed
-  /// from column to column (or from row to row if it is steep), in each of which it is in one cell or two:
-  /// places in fixed point, and no branch that depends on the beam. A cell that is only
-  /// touched, at a corner, is not crossed.
-  /// @tparam kMayOverflow  whether more beams may cross a cell than a count holds
+  /// Counts the cells that a beam crosses; the origin is relative to the first tile. Follows the beam column
+  /// by column (row by row if steep), with one or two cells in each, in fixed point and without branches that
+  /// depend on the beam. Cells touched only at a corner do not count.
+  /// @tparam kMayOverflow  whether a count can overflow
   template <bool kMayOverflow>
   void cross(double x, double y, double dirX, double dirY, double range) {
     const bool isSteep = std::abs(dirY) > std::abs(dirX);
@@ -77,7 +76,7 @@ class Footprint {
     const int firstColumn = floorOf(u), columns = std::abs(floorOf(u + range * dirU) - firstColumn);
     const double slope = dirV / std::abs(dirU);
     const int64_t step = fixedPoint(slope);
-    // On a border, a beam comes from one cell and goes into the other.
+    // On a border, a beam leaves one cell and enters the other.
     const int64_t toEntry = slope < 0 ? 1 : 0, toExit = slope > 0 ? 1 : 0;
     uint8_t* column = counts_.data() + firstColumn * strideU;
     const auto count = [&](int64_t entry, int64_t exit) {
@@ -93,7 +92,7 @@ class Footprint {
   }
   template <bool kMayOverflow>
   static void add(uint8_t& count, int crossings) {
-    if (kMayOverflow && count >= kHit - 1) return;  // so many reach any floor
+    if (kMayOverflow && count >= kHit - 1) return;  // enough to reach any floor
     count = static_cast<uint8_t>(count + crossings);
   }
   uint8_t& at(int x, int y) { return counts_[index(x, y)]; }
@@ -114,7 +113,7 @@ class Footprint {
 /// The update of a cell, in log-odds.
 struct Steps {
   explicit Steps(const GridOptions& o)
-      // A probability nearer to 0.5 than the smallest step still counts as one.
+      // A probability closer to 0.5 than the smallest step counts as one step.
       : hit(std::max(logOdds(o.pHit), 1)),
         miss(std::min(logOdds(o.pMiss), -1)),
         lowest(logOdds(o.pMin)),
@@ -122,7 +121,7 @@ struct Steps {
   int hit, miss, lowest, highest;
 };
 
-/// A row of cells of a tile by what the scan says of them; a loop that compilers vectorise.
+/// Updates a row of cells of a tile; compilers vectorise this loop.
 void update(int8_t* cells, const uint8_t* counts, const Steps& steps) {
   const auto hit = static_cast<int16_t>(steps.hit), miss = static_cast<int16_t>(steps.miss);
   const auto lowest = static_cast<int16_t>(steps.lowest), highest = static_cast<int16_t>(steps.highest);
@@ -143,14 +142,16 @@ bool isZero(const uint8_t* counts) {
 }  // namespace
 
 void GridOptions::describe(OptionTable& t) {
-  t.add("resolution", resolution, 0.01, 1, "m", "size of a cell; the paper's is 5 cm");
+  t.add("resolution", resolution, 0.01, 1, "m", "cell size; the paper uses 5 cm");
   t.add("max_range", maxRange, 0.5, 200, "m",
-        "readings at or beyond it are no readings: 20 m for an LMS-100");
-  t.add("p_hit", pHit, 0.51, 0.99, "", "occupancy that one hit alone means");
+        "readings at or beyond this are no returns: 20 m for an LMS-100");
+  t.add("p_hit", pHit, 0.51, 0.99, "", "occupancy of an unknown cell after one hit");
   t.add("p_miss", pMiss, 0.01, 0.49, "",
-        "occupancy that one crossing beam alone means; near 0.5, so that what was mapped first prevails");
-  t.add("p_min", pMin, 0.001, 0.49, "", "least occupancy of a cell, so that a map can change its mind");
-  t.add("p_max", pMax, 0.51, 0.999, "", "greatest occupancy of a cell");
+        "occupancy of an unknown cell after one crossing beam; close to 0.5, so that the first mapping "
+        "prevails");
+  t.add("p_min", pMin, 0.001, 0.49, "",
+        "minimum occupancy of a cell; bounded so that the map can still change");
+  t.add("p_max", pMax, 0.51, 0.999, "", "maximum occupancy of a cell");
 }
 
 double OccupancyGrid::occupancy(CellIndex cell) const {
@@ -177,7 +178,7 @@ void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& rob
         isTouched = true;
         update(&cells[Tile::index(0, row)], counts, steps);
       }
-      // What has come to its bounds stays shared with other particles.
+      // Cells at their bounds stay shared with other particles.
       if (isTouched && !(tile && cells == tile->cells())) tiles_.writableTile(tx, ty).assign(cells);
     }
 }

@@ -1,5 +1,5 @@
 /// @file OccupancyGrid.h
-/// @brief The particle's map: occupancy log-odds on shared tiles, and scan insertion.
+/// @brief A particle's map: occupancy log-odds on shared tiles, and scan insertion.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,7 +19,7 @@ struct GridOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// An occupancy grid of unbounded extent; copying it costs a few pointers (see TileGrid).
+/// An unbounded occupancy grid; copying costs a few pointers (see TileGrid).
 class OccupancyGrid {
  public:
   /// Log-odds per unit of a cell's value: MRPT's scale.
@@ -28,13 +28,13 @@ class OccupancyGrid {
   explicit OccupancyGrid(double resolution = 0.05) : resolution_(resolution) {}
 
   double resolution() const { return resolution_; }  ///< m
-  /// Probability that a cell is occupied; 0.5 where nothing is known.
+  /// Occupancy probability of a cell; 0.5 if unknown.
   double occupancy(CellIndex cell) const;
   CellIndex cellOf(double x, double y) const;  ///< x, y in m, map frame
 
-  /// Map estimation (Sec. III-A, step 4): each cell that a beam ends in is hit once a scan, every other cell
-  /// that a beam crosses is missed; a hit outweighs the misses of its own scan, so that a wall seen at a
-  /// grazing angle is not wiped out by the neighbouring beams.
+  /// Map estimation (Sec. III-A, step 4): each cell with a beam end point gets one hit per scan, every other
+  /// crossed cell a miss. A hit overrides the misses of its scan, so that neighbouring beams do not erase a
+  /// wall seen at a grazing angle.
   void insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const GridOptions& options);
 
   const TileGrid& tiles() const { return tiles_; }

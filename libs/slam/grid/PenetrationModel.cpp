@@ -8,31 +8,31 @@
 namespace hybrid_slam {
 
 void GridWeightOptions::describe(OptionTable& t) {
-  t.add(
-      "method", method,
-      {{Method::penetration, "penetration"},
-       {Method::likelihoodField, "likelihood_field"},
-       {Method::rayTracing, "ray_tracing"},
-       {Method::consensus, "consensus"}},
-      "laser penetration as in the paper's [4], or one of MRPT's likelihood methods (slow: for comparison)");
+  t.add("method", method,
+        {{Method::penetration, "penetration"},
+         {Method::likelihoodField, "likelihood_field"},
+         {Method::rayTracing, "ray_tracing"},
+         {Method::consensus, "consensus"}},
+        "penetration: as in the paper's reference [4]; the others are MRPT's likelihood methods (slow; for "
+        "comparison)");
   t.add("exponent", exponent, 0, 1000, "",
-        "tempering: w_grid = (geometric mean of the beams' likelihoods)^exponent, as if so many beams were "
-        "independent");
+        "w_grid = (geometric mean of the beam likelihoods)^exponent: the effective number of independent "
+        "beams");
   t.add("beams", beams, 0, 10000,
-        "weighs so many beams of a scan, evenly from all directions of walls (MRPT's methods: about so many, "
-        "evenly spread); 0: all");
-  t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a range against the grid");
-  t.add("unknown_depth", unknownDepth, 0.1, 1000, "m", "mean distance that a beam travels in unseen cells");
-  t.add("outlier", outlier, 1e-6, 0.99, "",
-        "share of readings that the map does not explain (people, doors)");
+        "number of beams weighted, evenly over the wall directions (MRPT's methods: about this many, evenly "
+        "spaced); 0: all");
+  t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a range relative to the grid");
+  t.add("unknown_depth", unknownDepth, 0.1, 1000, "m",
+        "mean distance that a beam travels through unknown cells");
+  t.add("outlier", outlier, 1e-6, 0.99, "", "fraction of readings the map does not explain (people, doors)");
 }
 
 namespace {
 
-constexpr int kBlock = 8;  // steps at a time: where all cells are free, all are left out
+constexpr int kBlock = 8;  // steps at a time: skipped if all cells are free
 
-/// Whether a block of steps meets nothing: it is no longer than a square is wide, so that its cells lie in
-/// the squares at the corners of the rectangle that it spans.
+/// Whether a block of steps is free. It is no longer than a square is wide, so its cells lie in the squares
+/// at the corners of its bounding rectangle.
 bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
   constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
   for (const int x : {first.squareX(), last.squareX()})
@@ -43,7 +43,7 @@ bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) 
   return true;
 }
 
-/// Occupied cells that follow one another on a beam.
+/// Consecutive occupied cells on a beam.
 struct Wall {
   double passes = 1;   ///< prod (1 - P)
   double stops = 0;    ///< sum P
@@ -63,7 +63,7 @@ PenetrationModel::PenetrationModel(const GridWeightOptions& options, double reso
   }
   const double sigma = options.sigma / resolution;
   behind_ = std::max(1, static_cast<int>(std::lround(3 * sigma)));
-  const int before = static_cast<int>(std::ceil(6 * sigma));  // exp(-18): nothing is added there
+  const int before = static_cast<int>(std::ceil(6 * sigma));  // exp(-18): negligible before that
   const int steps = (before + behind_ + kBlock - 1) / kBlock * kBlock;
   for (int i = 0; i < steps; ++i) {
     const double off = (behind_ - steps + i + 0.5) / sigma;
@@ -79,7 +79,7 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
   int left = static_cast<int>(range + 0.5) + behind_;  // steps
   const double start = range + behind_ - left + 0.5;
   RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);
-  double passing = 1, stoppedNearRange = 0;  // the product and the sum of the formula
+  double passing = 1, stoppedNearRange = 0;  // product and sum of the formula
   Wall wall;
   const auto leaveWall = [&] {
     if (wall.stops == 0) return;
@@ -135,7 +135,7 @@ double PenetrationModel::meanLogLikelihood(const ScanBeams& scan, const mrpt::ma
   const GridPose pose(robot, scan, resolution_);
   const double perMetre = 1 / resolution_;
   TileReader cells(grid.tiles());
-  double sum = 0, product = 1;  // of so many beams that it cannot underflow: one logarithm for all
+  double sum = 0, product = 1;  // over few enough beams not to underflow: one logarithm for all
   for (const auto& ray : scan.rays) {
     const double likelihood = beamLikelihood(pose.origin(ray).x, pose.origin(ray).y, pose.dirX(ray),
                                              pose.dirY(ray), ray.range * perMetre, cells);

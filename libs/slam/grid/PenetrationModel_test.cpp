@@ -47,7 +47,7 @@ class Corridor {
 TEST(PenetrationModel, OneWallInFreeSpaceGivesTheGaussianOfItsDistance) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
-  corridor.wall(100, 25);  // whatever its occupancy: the beam is known to have been stopped
+  corridor.wall(100, 25);  // for any occupancy: the beam is known to have been stopped
   for (const double z : {5.02, 5.01, 5.11, 4.93, 5.23, 4.84}) {
     EXPECT_NEAR(corridor.likelihood(z), corridor.gaussian(100, z), 1e-12) << z;
   }
@@ -65,8 +65,8 @@ TEST(PenetrationModel, TwoWallsShareTheBeamByTheirOccupancy) {
   }
 }
 
-/// Readings of a wall end before and behind its middle alike: noise and rounding make it thick. What is
-/// expected of the next one must lie in the middle, too, or the robot is held back from the wall.
+/// Readings of a wall end equally before and behind its middle: noise and rounding make it thick. The
+/// expected reading must also be in the middle, or the pose is biased away from the wall.
 TEST(PenetrationModel, AThickWallIsExpectedInItsMiddle) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
@@ -141,7 +141,7 @@ TEST(PenetrationModel, AnObstacleHalfUnknownSpaceBeforeIt) {
 TEST(PenetrationModel, KnownFreeSpaceLetsEveryBeamThrough) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
-  EXPECT_EQ(corridor.likelihood(5), 0);  // nothing there can have stopped it
+  EXPECT_EQ(corridor.likelihood(5), 0);  // nothing there could stop it
   corridor.wall(100, 40);
   const double before = corridor.likelihood(5.1);
   corridor.fill(0, 99, -1);  // seen free once, or often
@@ -186,7 +186,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
     const double size = uniform(random, 0.03, 0.3);
     // From worlds where beams go far to worlds where the first cells stop them.
     const double share = std::pow(random.uniform(), 3);
-    const double unknown = world % 2 == 0 ? 0.1 : 0;  // without, whole squares are free and left out
+    const double unknown = world % 2 == 0 ? 0.1 : 0;  // without, free squares are skipped
     OccupancyGrid grid(size);
     for (int y = -100; y < 100; ++y)
       for (int x = -100; x < 100; ++x) {

@@ -1,5 +1,5 @@
 /// @file RaySamples.h
-/// @brief Evenly spaced places along a ray, in the cells of a grid.
+/// @brief Evenly spaced samples along a ray, in grid cells.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace hybrid_slam {
 
-/// std::floor is slow where the processor's own rounding cannot be taken for granted.
+/// Faster than std::floor, which cannot assume the processor's rounding instruction.
 inline int floorOf(double x) {
   const int towardsZero = static_cast<int>(x);
   return towardsZero - (x < towardsZero);
 }
 
-/// A coordinate in fixed point: a cell is 2^32, so that the cell of a place is a shift.
+/// A fixed-point coordinate: a cell is 2^32, so the cell index is a shift.
 inline int64_t fixedPoint(double cells) { return static_cast<int64_t>(cells * 0x1p32); }
 
-/// A place on the grid that moves along a ray by a constant step. In fixed point: the next place is an
-/// addition, and no branch is left that depends on the ray.
+/// A sample that moves along a ray by a constant step. In fixed point a step is one addition, without
+/// branches that depend on the ray.
 class RaySamples {
  public:
-  /// The first place and the step from each to the next, in cells.
+  /// The first sample and the step, in cells.
   RaySamples(double x, double y, double stepX, double stepY)
       : x_(fixedPoint(x)), y_(fixedPoint(y)), stepX_(fixedPoint(stepX)), stepY_(fixedPoint(stepY)) {}
 

@@ -12,12 +12,12 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-/// m and its gradient (per cell) at a place given in cells.
+/// m and its gradient (per cell) at a position in cells.
 struct MapSample {
   double m = 0, dx = 0, dy = 0;
 };
 
-/// m of a cell by its value, as an unsigned byte.
+/// m of a cell, indexed by its value as an unsigned byte.
 const std::array<float, 256>& occupied() {
   static const auto table = [] {
     std::array<float, 256> values;
@@ -67,7 +67,7 @@ void ScanLikelihood::read(Patch& patch) {
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) copied[4 * row + column] = cells_.at(x + column, y + row);
   }
-  // Free and unknown cells have m = 0: whether any byte is positive, four at a time.
+  // Free and unknown cells have m = 0: test whether any byte is positive, four at a time.
   uint32_t positive = 0;
   for (size_t row = 0; row < 4; ++row) {
     uint32_t four;
@@ -83,8 +83,8 @@ void ScanLikelihood::read(Patch& patch) {
   }
 }
 
-/// Calls visit(x, y, sample) with the end of each beam, in cells, and the map there.
-/// @tparam kWithSlope  false: m alone
+/// Calls visit(x, y, sample) with each beam's end point, in cells, and the map there.
+/// @tparam kWithSlope  false: m only
 template <bool kWithSlope, class Visit>
 void ScanLikelihood::forEachEnd(const TPose2D& pose, const Visit& visit) {
   const GridPose frame(pose, scan_, 1 / perCell_);
@@ -120,7 +120,7 @@ LogDensity ScanLikelihood::operator()(const TPose2D& pose) {
   forEachEnd<true>(pose, [&](double x, double y, const MapSample& sample) {
     const double residual = 1 - sample.m;
     squares += residual * residual;
-    // Turning the robot moves the end of the beam at a right angle to its arm.
+    // Rotation moves the end point perpendicular to the lever arm.
     const double dx = sample.dx * perCell_, dy = sample.dy * perCell_;
     const double dphi = -sample.dx * (y - robotY) + sample.dy * (x - robotX);
     gx += residual * dx, gy += residual * dy, gphi += residual * dphi;

@@ -1,5 +1,5 @@
 /// @file ScanLikelihood.h
-/// @brief How likely a scan is on a particle's grid, as a function of the pose.
+/// @brief Likelihood of a scan on a particle's grid, as a function of the pose.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -13,27 +13,26 @@
 
 namespace hybrid_slam {
 
-/// ln p(scan | pose, grid), up to a constant, at poses near each other: what was read of the grid around the
-/// end of each beam is kept until the beam ends in another cell.
+/// ln p(scan | pose, grid), up to a constant, at nearby poses: the cells around a beam's end point are cached
+/// until it moves to another cell.
 ///
 /// The map is m(x, y) = max(0, 2 p - 1), p the occupancy, smoothed by a cubic B-spline over the cells:
-/// nothing at unknown and free cells, twice continuously differentiable, blurred by 0.58 cells. A beam that
-/// ends at (x, y) has the residual 1 - m, and a scan the log-likelihood - sum (1 - m)^2 / (2 sigma^2), as of
-/// so many measurements with the deviation sigma.
+/// zero at unknown and free cells, twice continuously differentiable, blurred by 0.58 cells. A beam that ends
+/// at (x, y) has the residual 1 - m, and the scan the log-likelihood - sum (1 - m)^2 / (2 sigma^2).
 class ScanLikelihood {
  public:
-  /// Scan and grid outlive it.
+  /// Scan and grid must outlive it.
   ScanLikelihood(const ScanBeams& scan, const OccupancyGrid& grid, double sigma);
 
   LogDensity operator()(const mrpt::math::TPose2D& pose);
-  /// The same, the value alone.
+  /// Likewise, value only.
   double value(const mrpt::math::TPose2D& pose);
-  /// Mean over the beams of m at their ends, in [0, 1]; 0 without a beam.
+  /// Mean of m at the beam end points, in [0, 1]; 0 without beams.
   double fit(const mrpt::math::TPose2D& pose);
   double resolution() const { return resolution_; }  ///< of the grid, m
 
  private:
-  /// m of the 4 x 4 cells from (x, y) on, row by row.
+  /// m of the 4 x 4 cells starting at (x, y), row by row.
   struct Patch {
     std::array<Float4, 4> m;
     int x, y;
@@ -47,7 +46,7 @@ class ScanLikelihood {
   const ScanBeams& scan_;
   double resolution_, perCell_, weight_;
   TileReader cells_;
-  std::vector<Patch> patches_;  ///< of each beam
+  std::vector<Patch> patches_;  ///< one per beam
 };
 
 }  // namespace hybrid_slam

@@ -18,10 +18,10 @@ TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
 }  // namespace
 
 void ScanMatcherOptions::describe(OptionTable& t) {
-  t.add("sigma", sigma, 0.01, 100, "", "deviation of one beam's residual 1 - m; larger trusts a match less");
-  t.add("beams", beams, 0, 10000,
-        "matches so many beams of a scan, evenly from all directions of walls; 0: all");
-  t.add("iterations", iterations, 1, 1000, "at most so many steps of a climb");
+  t.add("sigma", sigma, 0.01, 100, "",
+        "standard deviation of a beam's residual 1 - m; larger: matches are trusted less");
+  t.add("beams", beams, 0, 10000, "number of beams matched, evenly over the wall directions; 0: all");
+  t.add("iterations", iterations, 1, 1000, "maximum number of optimisation steps");
 }
 
 LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Eigen::Matrix3d& information) {
@@ -41,9 +41,9 @@ ScanLikelihood ScanMatcher::likelihood(const ScanBeams& scan, const OccupancyGri
 
 namespace {
 
-/// Minus the second derivative of the likelihood, without its negative part: differences of the gradient 1.5
-/// cells (3/4 deg) to either side. The sum of squared slopes that Gauss-Newton climbs by takes the roughness
-/// of a sparsely hit wall for information along it, and has none on the ridge of a wall.
+/// Minus the second derivative of the log-likelihood, negative part removed, from gradients 1.5 cells (3/4
+/// deg) to either side. The Gauss-Newton matrix would count the roughness of a sparsely hit wall as
+/// information along it, and is zero on the ridge of a wall.
 Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
   const double cells = 1.5 * likelihood.resolution();
   const Eigen::Vector3d reach(cells, cells, 0.75 * M_PI / 180);
@@ -53,7 +53,7 @@ Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
     bend.col(k) =
         (likelihood(moved(pose, -step)).gradient - likelihood(moved(pose, step)).gradient) / (2 * reach[k]);
   }
-  // What bends upwards holds no information.
+  // Directions of positive curvature hold no information.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);
   return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
 }
@@ -67,7 +67,7 @@ ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const 
 }
 
 ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, const Prior& prior) const {
-  constexpr double kNegligibleGain = 0.01;  // of ln p: the pose is within 0.14 deviations of the top
+  constexpr double kNegligibleGain = 0.01;  // of ln p: the pose is within 0.14 sigma of the maximum
   const auto posterior = [&](const TPose2D& at) {
     LogDensity density = likelihood(at);
     return density += prior(at);

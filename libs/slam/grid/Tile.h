@@ -1,5 +1,5 @@
 /// @file Tile.h
-/// @brief 32 x 32 cells of a grid, and where in them a beam meets nothing.
+/// @brief 32 x 32 cells of a grid, with flags for free squares.
 #pragma once
 
 #include <array>
@@ -10,23 +10,22 @@
 namespace hybrid_slam {
 
 /// Log-odds of occupancy in steps of 1/16 (MRPT's scale, sign reversed: positive is occupied), 0 = unknown.
-/// Each of its squares of 8 x 8 cells is known to be free, or not: a beam need not be followed through free
-/// squares cell by cell.
+/// Each square of 8 x 8 cells has a flag for free, so that a beam can skip free squares.
 class Tile {
  public:
   static constexpr int kBits = 5, kSize = 1 << kBits;
   static constexpr int kSquareBits = 3, kSquareSize = 1 << kSquareBits;
   using Cells = std::array<int8_t, kSize * kSize>;
 
-  /// The place of a cell in `cells`, row by row; x and y are those of the whole grid.
+  /// Index of a cell in `cells`, row by row; x and y are grid coordinates.
   static size_t index(int x, int y) {
     return static_cast<size_t>(((y & (kSize - 1)) << kBits) | (x & (kSize - 1)));
   }
   const Cells& cells() const { return cells_; }
-  /// Whether every cell of a square was seen and is more likely free than not.
-  /// @param x,y  of the square in the whole grid: those of its cells divided by 8
+  /// Whether every cell of a square is known and more likely free than occupied.
+  /// @param x,y  grid coordinates of the square: those of its cells divided by 8
   bool isFree(int x, int y) const { return isFree(x, y, x, y); }
-  /// The same of the four squares at the corners of a rectangle of squares.
+  /// Likewise for the four corner squares of a rectangle of squares.
   bool isFree(int x0, int y0, int x1, int y1) const {
     const int corners = 1 << squareIndex(x0, y0) | 1 << squareIndex(x1, y0) | 1 << squareIndex(x0, y1) |
                         1 << squareIndex(x1, y1);
@@ -49,7 +48,7 @@ class Tile {
     return (y & (kSquares - 1)) * kSquares + (x & (kSquares - 1));
   }
   void lookForFree(int x, int y) {
-    uint64_t negative = ~uint64_t{0};  // the sign bits of a row of eight cells at a time
+    uint64_t negative = ~uint64_t{0};  // sign bits of eight cells at a time
     for (int row = 0; row < kSquareSize; ++row) {
       uint64_t eight;
       std::memcpy(&eight, &cells_[index(x * kSquareSize, y * kSquareSize + row)], sizeof eight);

@@ -26,14 +26,14 @@ struct CellBox {
 
 /// The cells of a map (see Tile) without bounds.
 ///
-/// The idea is DP-SLAM's: particles of one ancestry share what they agree on. A grid is a window of blocks of
-/// 16 x 16 tiles of 32 x 32 cells; blocks and tiles are copied on write, so that copying a grid costs a few
-/// pointers whatever the size of the map, and it grows in any direction without moving a cell.
+/// As in DP-SLAM, particles with common ancestors share common cells. A grid is a window of blocks of 16 x 16
+/// tiles of 32 x 32 cells. Blocks and tiles are copied on write: copying a grid costs a few pointers for any
+/// map size, and the grid grows in any direction without moving cells.
 class TileGrid {
  public:
   static constexpr int kBlockBits = 4, kBlockSize = 1 << kBlockBits;
 
-  /// The log-odds of a cell; 0 where nothing was ever written.
+  /// The log-odds of a cell; 0 if never written.
   int8_t at(CellIndex cell) const {
     const Tile* tile = tileAt(cell.x >> Tile::kBits, cell.y >> Tile::kBits);
     return tile ? tile->cells()[Tile::index(cell.x, cell.y)] : int8_t{0};
@@ -47,7 +47,7 @@ class TileGrid {
     const CowPtr<Block>* block = findBlock(tx >> kBlockBits, ty >> kBlockBits);
     return block && *block ? (*block)->tiles[inBlock(tx, ty)].get() : nullptr;
   }
-  /// The same tile for writing: made if it is missing, unshared if another grid shares it.
+  /// The same tile for writing: created if missing, unshared if shared.
   Tile& writableTile(int tx, int ty);
 
   /// The cells of all tiles that exist.
@@ -69,11 +69,11 @@ class TileGrid {
   }
   void growTo(int bx, int by);
 
-  int firstX_ = 0, firstY_ = 0, columns_ = 0, rows_ = 0;  ///< the window of blocks, in block indices
+  int firstX_ = 0, firstY_ = 0, columns_ = 0, rows_ = 0;  ///< window of blocks, in block indices
   std::vector<CowPtr<Block>> blocks_;
 };
 
-/// Reads cells along a path: remembers the tile of the last cell.
+/// Reads cells along a path; caches the last tile.
 class TileReader {
  public:
   explicit TileReader(const TileGrid& grid) : grid_(&grid) {}

@@ -130,8 +130,8 @@ TEST(TileGrid, ACopySharesAllTilesAndAWriteUnsharesOne) {
   EXPECT_EQ(second.at({300, -300}), 9);
 }
 
-/// A grid beside what it must hold, and a number for each tile that two grids have in common only while
-/// neither has written to it since one was copied from the other.
+/// A grid and its expected content, with a number per tile that two grids share only until one of them writes
+/// to the tile.
 struct Modelled {
   TileGrid grid;
   Cells cells;

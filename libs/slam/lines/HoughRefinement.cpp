@@ -12,19 +12,19 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 
 void HoughOptions::describe(OptionTable& table) {
-  table.add("enabled", enabled, "refine fitted lines by a Hough transform around them");
-  table.add("rho_window", rhoWindow, 0.001, 10, "m", "voting space: distance either side of the fitted line");
-  table.add(
-      "rho_resolution", rhoResolution, 0.001, 1, "m",
-      "cell size; points within half of it of a line vote for it, so take 2 to 4 times the range noise");
+  table.add("enabled", enabled, "refine fitted lines by a local Hough transform");
+  table.add("rho_window", rhoWindow, 0.001, 10, "m",
+            "voting space: distance on either side of the fitted line");
+  table.add("rho_resolution", rhoResolution, 0.001, 1, "m",
+            "cell size; points within half a cell of a line vote for it: use 2 to 4 times the range noise");
   table.addAngle("theta_window_deg", thetaWindow, 0.01, 45,
-                 "voting space: angle either side of the fitted line");
+                 "voting space: angle on either side of the fitted line");
   table.addAngle("theta_resolution_deg", thetaResolution, 0.01, 10, "cell size");
 }
 
 namespace {
 
-/// Whole cells in a window; rounding errors do not count: 0.15 / 0.05 is a little below 3.
+/// Whole cells in a window, robust to rounding: 0.15 / 0.05 is slightly below 3.
 int cellsIn(double window, double resolution) {
   return static_cast<int>(std::floor(window / resolution + 1e-6));
 }
@@ -40,20 +40,20 @@ FittedLine refineByHough(PointRange points, const FittedLine& fitted, const Houg
 
   const int rhoSize = 2 * rhoCells + 1;
   std::vector<int> votes(static_cast<size_t>(rhoSize));
-  int* const votesAt = votes.data() + rhoCells;  // index 0: through the pivot
+  int* const votesAt = votes.data() + rhoCells;  // index 0: line through the pivot
   int most = 0, bestTheta = 0, bestRho = 0;
   for (int i = -thetaCells; i <= thetaCells; ++i) {
     const double theta = fitted.theta + i * options.thetaResolution;
     const double c = std::cos(theta) / options.rhoResolution, s = std::sin(theta) / options.rhoResolution;
     std::fill(votes.begin(), votes.end(), 0);
     for (const TPoint2D& p : points) {
-      // To the nearest cell: truncating is fast, and rounds down what is not negative.
+      // Round to the nearest cell: truncation is fast, and rounds nonnegative values down.
       const double cell = (p.x - pivot.x) * c + (p.y - pivot.y) * s + rhoCells + 0.5;
       if (cell >= 0 && cell < rhoSize) ++votes[static_cast<size_t>(cell)];
     }
     for (int j = -rhoCells; j <= rhoCells; ++j) {
       const int count = votesAt[j];
-      // Of equal cells the one nearest to the fitted line.
+      // On a tie, the cell closest to the fitted line.
       if (count > most ||
           (count == most && std::abs(i) + std::abs(j) < std::abs(bestTheta) + std::abs(bestRho))) {
         most = count;

@@ -18,12 +18,12 @@ struct HoughOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The line that most points vote for among those with |rho - rho_v| <= rhoWindow and
-/// |theta - theta_v| <= thetaWindow of the fitted line, then fitted (orthogonal least squares) to the points
-/// that voted for it, so that a cell's size does not bound the precision.
+/// The line with the most votes among those with |rho - rho_v| <= rhoWindow and |theta - theta_v| <=
+/// thetaWindow of the fitted line. It is then fitted to its voters (orthogonal least squares), so the cell
+/// size does not limit the precision.
 ///
-/// rho is counted about the middle of the points and not about the sensor: otherwise a turn by a far
-/// segment's own angle error moves rho out of the window (see doc/paper-notes.md).
+/// rho is measured from the centre of the points, not from the sensor: for a distant segment a small angle
+/// error would move rho out of the window (doc/paper-notes.md).
 FittedLine refineByHough(PointRange points, const FittedLine& fitted, const HoughOptions& options);
 
 }  // namespace hybrid_slam

@@ -23,9 +23,8 @@ TEST(HoughRefinement, LeavesExactLinesAsTheyAre) {
   }
 }
 
-/// A start that is off by less than the window is pulled onto the line, also where the segment lies far
-/// beside the foot of the sensor's perpendicular, so that the angle error moves rho by far more than its
-/// window.
+/// A start that is off by less than the window is corrected, even if the segment is far from the foot of the
+/// perpendicular, so that the angle error moves rho far beyond its window.
 TEST(HoughRefinement, PullsAWrongStartOntoTheLine) {
   RandomStream random(2, 0, 0);
   const HoughOptions options;

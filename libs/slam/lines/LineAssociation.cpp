@@ -8,12 +8,12 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 
 void AssociationOptions::describe(OptionTable& table) {
-  table.add("max_rho", maxRho, 0, 10, "m", "lines further apart than this are different walls");
-  table.addAngle("max_theta_deg", maxTheta, 0, 45, "lines that differ by more than this are different walls");
+  table.add("max_rho", maxRho, 0, 10, "m", "largest distance between segments of one wall");
+  table.addAngle("max_theta_deg", maxTheta, 0, 45, "largest angle between segments of one wall");
   table.add("theta_weight", thetaWeight, 0, 1000, "m/rad",
-            "how much rho a radian of theta is worth in the distance");
+            "weight of theta in the association distance: metres of rho per radian");
   table.add("min_overlap", minOverlap, -100, 100, "m",
-            "length that two segments of one line share; negative: the gap that may lie between them");
+            "minimum overlap of two segments of one line; negative: the largest gap between them");
 }
 
 LineDifference difference(const LineSegment& segment, const LineSegment& reference) {

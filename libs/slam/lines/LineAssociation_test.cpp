@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// The piece of x cos(theta) + y sin(theta) = rho from `from` to `to` m beside the foot of the perpendicular.
+/// The segment of x cos(theta) + y sin(theta) = rho from `from` to `to` m from the foot of the perpendicular.
 LineSegment piece(double rho, double theta, double from = -3, double to = 3) {
   const double c = std::cos(theta), s = std::sin(theta);
   return makeSegment(rho, theta, TPoint2D(rho * c - from * s, rho * s + from * c),

@@ -26,7 +26,7 @@ std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>&
     cosine += weight * std::cos(4 * line.theta);
     total += weight;
   }
-  // Lines at 45 deg to each other cancel: what is left is rounding error and points nowhere.
+  // Lines at 45 deg to each other cancel: the remainder is rounding error.
   if (std::hypot(sine, cosine) <= 1e-9 * total) return std::nullopt;
   return std::atan2(sine, cosine) / 4;
 }
@@ -54,13 +54,13 @@ void setDirections(std::vector<DatabaseLine>& lines, double window) {
 }
 
 void LineDatabaseOptions::describe(OptionTable& table) {
-  table.add("min_length", minLength, 0, 100, "m", "a line that matches none is inserted if it is this long");
+  table.add("min_length", minLength, 0, 100, "m", "minimum length of a new line");
   table.add("min_count", minCount, 1, 1000,
-            "lines seen less often are pruned: sensor and localisation errors");
+            "lines observed less often are pruned: sensor and localisation errors");
   table.add("prune_interval", pruneInterval, 1, 10000,
-            "updates from one pruning to the next, and chances that a new line has to be seen again");
+            "updates between prunings, and grace period of a new line");
   table.addAngle("direction_window_deg", directionWindow, 0, 22.5,
-                 "lines whose directions, modulo a right angle, differ by less share a dominating direction");
+                 "largest difference of direction, modulo 90 deg, within a dominating direction");
 }
 
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
@@ -69,7 +69,8 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
   const TPoint2D oldMiddle = middle(line), newMiddle = middle(seen);
   const TPoint2D pivot(mean(oldMiddle.x, newMiddle.x), mean(oldMiddle.y, newMiddle.y));
 
-  // The seen line in the representation, (rho, theta) or (-rho, theta + pi), whose normal is the old line's.
+  // The observed line in the representation, (rho, theta) or (-rho, theta + pi), whose normal agrees with the
+  // old line's.
   const double turn = std::remainder(seen.theta - line.theta, M_PI);
   const bool flipped = std::cos(seen.theta - line.theta) < 0;
   const double seenRho = flipped ? -seen.rho : seen.rho, seenTheta = line.theta + turn;

@@ -1,5 +1,5 @@
 /// @file LineDatabase.h
-/// @brief The line segments that a particle carries beside its grid (Sec. III-C).
+/// @brief The line segments of a particle's map (Sec. III-C).
 #pragma once
 
 #include <cmath>
@@ -23,64 +23,64 @@ struct LineDatabaseOptions : Options {
 };
 
 struct DatabaseLine : LineSegment {
-  int count = 1;     ///< how often the line was seen, its insertion included
-  int inserted = 0;  ///< the number of the update that inserted it
-  /// rad in [-pi/4, pi/4], modulo a right angle: the dominating direction of the lines around this one in
-  /// angle. It is known better than the line's own theta, and a line that a drifting particle has just
-  /// inserted takes that of the walls it should be parallel or perpendicular to.
+  int count = 1;     ///< number of observations, including the first
+  int inserted = 0;  ///< update that inserted it
+  /// rad in [-pi/4, pi/4], modulo 90 deg: dominating direction of the lines with similar directions. It is
+  /// more precise than the line's theta, and a line newly inserted by a drifting particle takes the direction
+  /// of the walls it should be parallel or perpendicular to.
   double direction = 0;
 };
 
-/// eq. (7) and (8): the running mean of what was seen of one line, and the ends as in Fig. 2: the two
-/// farthest of the four ends, projected on the merged line.
+/// eq. (7) and (8): the running mean of a line's observations. The ends are the two farthest of the four
+/// ends, projected onto the merged line (Fig. 2).
 ///
-/// theta is averaged across the wrap of the angle, and rho about the mean of the two middles, weighted by
-/// count: printed eq. (7) counts it about the map's origin, which for a far-away line turns a small error of
-/// theta into a large one of rho (doc/paper-notes.md). Both agree where that mean is at the origin, and where
-/// the two lines are parallel.
+/// theta is averaged across the angle wrap. rho is averaged about the mean of the two midpoints, weighted by
+/// count; eq. (7) as printed measures it from the map's origin, which for a distant line turns a small error
+/// of theta into a large one of rho (doc/paper-notes.md). Both agree if that mean is the origin or the lines
+/// are parallel.
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen);
 
-/// What a line counts as evidence of its direction, m: length x min(count, 20), so that a long-known wall
-/// does not outweigh all the others for ever.
+/// A line's weight as evidence of its direction, m: length x min(count, 20). The cap keeps an old wall from
+/// outweighing all others.
 double evidence(const DatabaseLine& line);
 
-/// The direction, modulo a right angle, that lines are parallel or perpendicular to, in rad in
-/// (-pi/4, pi/4]: atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Nothing while
-/// there is no line, or no direction prevails.
+/// The direction, modulo 90 deg, to which the lines are parallel or perpendicular, rad in (-pi/4, pi/4]:
+/// atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Empty if there is no line or
+/// no dominating direction.
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines);
 
-/// The angle modulo a right angle, rad in [-pi/4, pi/4].
+/// The angle modulo 90 deg, rad in [-pi/4, pi/4].
 double wrapToRightAngle(double angle);
-/// wrapToRightAngle(a - b) for two angles that are wrapped already; far quicker.
+/// wrapToRightAngle(a - b) for wrapped angles; much faster.
 inline double rightAngleDifference(double a, double b) {
   const double d = a - b;
   return d > M_PI / 4 ? d - M_PI / 2 : d < -M_PI / 4 ? d + M_PI / 2 : d;
 }
 
-/// Sets each line's `direction`: the mean of the directions, modulo a right angle, that lie less than
-/// `window` (rad) from its own, each weighted by its evidence x (1 - (difference / window)^2): one step of
-/// mean shift with Epanechnikov's kernel (Comaniciu & Meer 2002). A building of several frames keeps them
-/// apart if they differ by more than the window. With a window of 0 every line keeps its own.
+/// Sets each line's `direction`: the mean of the directions, modulo 90 deg, within `window` (rad) of its own,
+/// weighted by evidence x (1 - (difference / window)^2): one mean-shift step with the Epanechnikov kernel
+/// (Comaniciu & Meer 2002). Building wings whose directions differ by more than the window stay separate.
+/// With window 0 every line keeps its own direction.
 void setDirections(std::vector<DatabaseLine>& lines, double window);
 
-/// The line database of one particle, in the map frame. Copied with its particle: one contiguous block.
+/// The line database of one particle, in the map frame. One contiguous block, copied with its particle.
 class LineDatabase {
  public:
   LineDatabase() = default;
-  /// Of lines as lines() has them.
+  /// From the result of lines().
   explicit LineDatabase(std::vector<DatabaseLine> lines);
 
-  /// One step of Sec. III-C: search, insertion, update, and every pruneInterval steps pruning.
+  /// One step of Sec. III-C: search, insertion, update, and pruning every pruneInterval steps.
   ///
-  /// A line seen now that matches a database line is merged into the closest one; otherwise it is inserted if
-  /// it is at least minLength long. Pruning drops lines with a count below minCount, but none that has been
-  /// there for fewer than pruneInterval steps: each has that many chances to be seen again.
+  /// An observed line that matches is merged into the closest database line; otherwise it is inserted if it
+  /// is at least minLength long. Pruning removes lines with a count below minCount, except those younger than
+  /// pruneInterval steps.
   void update(const std::vector<LineSegment>& seen, const LineDatabaseOptions& options,
               const AssociationOptions& association);
 
   const std::vector<DatabaseLine>& lines() const { return lines_; }
 
-  /// The line that a segment seen now (map frame) belongs to, or null.
+  /// The database line closest to an observed segment (map frame), or null if none matches.
   const DatabaseLine* closestMatch(const LineSegment& seen, const AssociationOptions& association) const;
 
   /// directionModuloRightAngle of the lines, computed once per update.

@@ -212,7 +212,7 @@ TEST_F(Database, DominatingDirection) {
   EXPECT_NEAR(std::remainder(*database.dominatingDirection(), M_PI / 2), 0, 1e-12);
 }
 
-/// Closed form: whatever the rotation, parallel and perpendicular lines give that rotation modulo 90 deg.
+/// Closed form: for any rotation, parallel and perpendicular lines give that rotation modulo 90 deg.
 TEST_F(Database, DominatingDirectionTurnsWithTheBuilding) {
   RandomStream random(5, 0, 0);
   for (int i = 0; i < 300; ++i) {

@@ -11,13 +11,13 @@
 
 namespace hybrid_slam {
 
-/// Turns a scan into line segments. Has no state beyond its options: one extractor serves all threads.
+/// Turns a scan into line segments. Stateless but for its options: one extractor serves all threads.
 class LineExtractor {
  public:
   LineExtractor(const SegmentationOptions& segmentation, const LineFitOptions& fit,
                 const HoughOptions& hough);
 
-  /// The lines of at least minLength, in the robot frame, in the order of the beams.
+  /// The lines of at least minLength, in the robot frame, in beam order.
   std::vector<LineSegment> extract(const LaserScan& scan) const;
 
  private:

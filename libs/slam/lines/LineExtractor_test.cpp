@@ -21,7 +21,7 @@ using Method = LineFitOptions::Method;
 const LineExtractor kDefault{SegmentationOptions(), LineFitOptions(), HoughOptions()};
 const test::Walls kRoom = test::polygon({{-3, -2}, {5, -2}, {5, 4}, {-3, 4}});
 
-/// The wall that a line in the map frame lies on within 0.3 deg and 1 cm, or -1.
+/// Index of the wall that a line in the map frame coincides with, within 0.3 deg and 1 cm, or -1.
 int wallOf(const LineSegment& line, const test::Walls& walls) {
   for (size_t i = 0; i < walls.size(); ++i) {
     const LineSegment wall = makeSegment(walls[i].first, walls[i].second);
@@ -165,8 +165,8 @@ TEST(LineExtractor, ThePaperToTheLetterLosesTheWallAcrossItsWay) {
   EXPECT_NEAR(lines[0].rho, 3, 0.02);
 }
 
-/// Prints the table of doc/paper-notes.md on the Intel log: how far each line is from the direction that the
-/// others of its scan have in common.
+/// Prints the table of doc/paper-notes.md on the Intel log: angle of each line to the common direction of the
+/// other lines of its scan.
 TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
   const char* folder = std::getenv("HYBRID_SLAM_DATASETS");
   if (!folder) GTEST_SKIP() << "HYBRID_SLAM_DATASETS is not set";

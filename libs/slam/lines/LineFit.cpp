@@ -11,12 +11,11 @@ using mrpt::math::TPoint2D;
 
 void LineFitOptions::describe(OptionTable& table) {
   table.add("method", method, {{Method::orthogonal, "orthogonal"}, {Method::paper, "paper"}},
-            "least squares of orthogonal distances, or eq. (2)-(5) of the paper (worse: doc/paper-notes.md)");
-  table.add(
-      "max_rms", maxRms, 0, 10, "m",
-      "method orthogonal: segments with a larger root mean square distance from their line are dropped");
-  table.add("max_error", maxError, 0, 1e6, "m^2",
-            "method paper: segments with a larger error, eq. (5), are dropped");
+            "orthogonal: least squares of the orthogonal distances; paper: eq. (2)-(5) (less accurate: "
+            "doc/paper-notes.md)");
+  table.add("max_rms", maxRms, 0, 10, "m",
+            "method orthogonal: largest RMS distance of a segment's points from the line");
+  table.add("max_error", maxError, 0, 1e6, "m^2", "method paper: largest error, eq. (5), of a segment");
 }
 
 std::optional<FittedLine> fitOrthogonal(PointRange points) {
@@ -28,7 +27,7 @@ std::optional<FittedLine> fitOrthogonal(PointRange points) {
   }
   meanX /= static_cast<double>(points.size());
   meanY /= static_cast<double>(points.size());
-  double xx = 0, xy = 0, yy = 0;  // about the mean, so that the distance from the origin costs no digits
+  double xx = 0, xy = 0, yy = 0;  // about the mean, to avoid cancellation far from the origin
   for (const TPoint2D& p : points) {
     const double x = p.x - meanX, y = p.y - meanY;
     xx += x * x;

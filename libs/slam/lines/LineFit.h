@@ -28,7 +28,7 @@ struct FittedLine {
   double theta = 0;  ///< rad, in (-pi, pi]
 };
 
-/// The line with the least sum of squared orthogonal distances. Nothing for fewer than two distinct points.
+/// Orthogonal least squares. Empty for fewer than two distinct points.
 std::optional<FittedLine> fitOrthogonal(PointRange points);
 /// Root mean square orthogonal distance of the points from the line, m.
 double rmsDistance(PointRange points, const FittedLine& line);
@@ -37,15 +37,14 @@ double rmsDistance(PointRange points, const FittedLine& line);
 struct LineCoefficients {
   double a = 0, b = 0, c = 0;
 };
-/// eq. (2)-(4). All three are 0 (no line) where the points lie on one line through the origin.
+/// eq. (2)-(4). All three are 0 (no line) if the points lie on a line through the origin.
 LineCoefficients fitCoefficients(PointRange points);
-/// eq. (5): sum of the squared residuals along y, m^2. Infinite where b = 0.
+/// eq. (5): sum of the squared residuals along y, m^2. Infinite if b = 0.
 double verticalError(PointRange points, const LineCoefficients& line);
-/// eq. (6) with the signs that fit the Hesse normal form (doc/paper-notes.md). Nothing where a = b = 0.
+/// eq. (6) with the signs of the Hesse normal form (doc/paper-notes.md). Empty if a = b = 0.
 std::optional<FittedLine> toHesse(const LineCoefficients& line);
 
-/// The fit of the chosen method, or nothing where there is none or where its error is above the method's
-/// limit.
+/// The fit by the chosen method; empty if there is none or its error exceeds the method's limit.
 std::optional<FittedLine> fitLine(PointRange points, const LineFitOptions& options);
 
 }  // namespace hybrid_slam

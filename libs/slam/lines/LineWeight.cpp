@@ -16,17 +16,17 @@ bool hasDirections(const LineDatabase& database, Method method) {
 }  // namespace
 
 void LineWeightOptions::describe(OptionTable& table) {
-  table.add(
-      "method", method,
-      {{Method::graded, "graded"},
-       {Method::dominatingDirection, "dominating_direction"},
-       {Method::paper, "paper"}},
-      "eq. (9) with a graded match, graded against the one dominating direction, or eq. (9) as printed");
+  table.add("method", method,
+            {{Method::graded, "graded"},
+             {Method::dominatingDirection, "dominating_direction"},
+             {Method::paper, "paper"}},
+            "paper: eq. (9) as printed; graded: eq. (9) with a smooth match; dominating_direction: a smooth "
+            "match to the dominating direction only");
   table.addAngle("sigma_deg", sigma, 0.05, 22.5,
-                 "graded, dominating_direction: the spread of directions that the weight tells apart");
+                 "graded, dominating_direction: standard deviation of a direction");
   table.addAngle("threshold_deg", threshold, 0, 45,
-                 "paper: lines this near to parallel or perpendicular match");
-  table.add("floor", floor, 1e-6, 1, "", "the least weight, so that one bad scan cannot end a particle");
+                 "paper: largest deviation from parallel or perpendicular for a match");
+  table.add("floor", floor, 1e-6, 1, "", "minimum weight, so that one bad scan cannot kill a particle");
 }
 
 DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options) {

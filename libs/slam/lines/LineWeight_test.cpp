@@ -83,7 +83,7 @@ TEST(LineWeight, GradedByHand) {
   EXPECT_EQ(weight.matched, 2);
 }
 
-/// A wall seen thirty times counts twenty times as much as one that was inserted a moment ago.
+/// A wall observed thirty times counts twenty times as much as a newly inserted one.
 TEST(LineWeight, GradedCountsEvidence) {
   LineDatabase database;
   for (int i = 0; i < 30; ++i) database.update({line(20, 6)}, LineDatabaseOptions(), AssociationOptions());
@@ -93,7 +93,7 @@ TEST(LineWeight, GradedCountsEvidence) {
   EXPECT_NEAR(lineWeight({line(60, 2)}, 0, database, {}).value, 1. / 21, 1e-9);
 }
 
-/// What eq. (9) lacks and the one dominating direction does not allow: two frames that both count.
+/// Not possible with eq. (9) or one dominating direction: two building directions that both count.
 TEST(LineWeight, SeveralFramesStandSideBySide) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6), line(30, 6), line(120, 6)});
   const std::vector<LineSegment> wing{line(30, 4), line(120, 4)};
@@ -102,7 +102,8 @@ TEST(LineWeight, SeveralFramesStandSideBySide) {
   };
   EXPECT_NEAR(at(Method::graded, 0), 0.5, 1e-9);
   EXPECT_LT(at(Method::graded, 1), 0.05);
-  EXPECT_EQ(at(Method::dominatingDirection, 0), LineWeightOptions().floor);  // it lies between the two frames
+  EXPECT_EQ(at(Method::dominatingDirection, 0),
+            LineWeightOptions().floor);  // it is between the two directions
 }
 
 /// By hand: residuals 0, 2 deg (1 sigma) and 45 deg.
@@ -135,8 +136,7 @@ TEST(LineWeight, TheHeadingTurnsTheLinesIntoTheMap) {
     }
 }
 
-/// Why the threshold of eq. (9) has to be as small as the spread of the headings: within it all weigh the
-/// same.
+/// The threshold of eq. (9) must be as small as the spread of the headings: within it all weights are equal.
 TEST(LineWeight, EqNineTellsNothingApartWithinItsThreshold) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6)});
   const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};

@@ -8,21 +8,23 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 
 void SegmentationOptions::describe(OptionTable& table) {
-  table.add("gap_absolute", gapAbsolute, 0, 10, "m",
-            "neighbouring points further apart than gap_absolute + gap_relative x range end a segment");
+  table.add(
+      "gap_absolute", gapAbsolute, 0, 10, "m",
+      "a gap between neighbouring points larger than gap_absolute + gap_relative x range ends a segment");
   table.add("gap_relative", gapRelative, 0, 1, "",
-            "the part of the gap that grows with range, as the spacing of the beams does");
-  table.add("split", split, "cut segments at corners (iterative end-point fit); the paper does not");
+            "range-dependent part of that gap (beam spacing grows with range)");
+  table.add("split", split, "split segments at corners (iterative end-point fit); not in the paper");
   table.add("split_distance", splitDistance, 0.001, 10, "m",
-            "a point this far from the chord of its segment is a corner");
-  table.add("min_points", minPoints, 2, 10000, "a segment of fewer points gives no line");
-  table.add("min_length", minLength, 0, 100, "m", "shorter lines are dropped: their direction is uncertain");
+            "distance from the segment's chord that makes a point a corner");
+  table.add("min_points", minPoints, 2, 10000, "minimum number of points for a line");
+  table.add("min_length", minLength, 0, 100, "m",
+            "minimum length of a line; shorter ones have uncertain directions");
 }
 
 SegmentedScan::SegmentedScan(const LaserScan& scan, const SegmentationOptions& options)
     : minPoints_(options.minPoints) {
   points_.reserve(scan.beams.size());
-  const Beam* previous = nullptr;  // the beam just before, where it was valid
+  const Beam* previous = nullptr;  // the preceding beam, if valid
   for (const Beam& beam : scan.beams) {
     if (!beam.valid) {
       previous = nullptr;
@@ -56,7 +58,7 @@ void splitAtCorners(PointRange run, const SegmentationOptions& options, std::vec
   const TPoint2D* corner = nullptr;
   double farthest = options.splitDistance;
   for (const TPoint2D& p : run) {
-    // A closed run has no chord: its farthest point is the one farthest from where it starts and ends.
+    // A closed run has no chord: use the point farthest from its start.
     const double distance = chord > 0
                                 ? std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / chord
                                 : std::hypot(p.x - a.x, p.y - a.y);

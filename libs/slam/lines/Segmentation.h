@@ -1,5 +1,5 @@
 /// @file Segmentation.h
-/// @brief From a scan to runs of points that may be straight (Sec. III-B, step 1).
+/// @brief Splits a scan into runs of points that may be straight (Sec. III-B, step 1).
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -36,13 +36,13 @@ struct PointRange {
   const mrpt::math::TPoint2D& back() const { return *(last - 1); }
 };
 
-/// The beams' ends in the sensor frame, cut into runs. A run ends at an invalid beam and at a gap between
-/// neighbours above gapAbsolute + gapRelative * (range of the nearer one).
+/// The beam end points in the sensor frame, split into runs. A run ends at an invalid beam and at a gap
+/// between neighbours larger than gapAbsolute + gapRelative * (range of the nearer one).
 class SegmentedScan {
  public:
   SegmentedScan(const LaserScan& scan, const SegmentationOptions& options);
 
-  /// The runs of at least minPoints points, in the order of the beams.
+  /// The runs of at least minPoints points, in beam order.
   std::vector<PointRange> runs() const;
 
  private:
@@ -51,9 +51,9 @@ class SegmentedScan {
   int minPoints_;
 };
 
-/// Iterative end-point fit: a run is cut at its point farthest from the chord between its ends while that
-/// distance is above splitDistance. The corner belongs to both pieces; pieces with fewer than minPoints
-/// points are left out. The run's pieces are appended to `pieces` in the order of the beams.
+/// Iterative end-point fit: a run is split at the point farthest from the chord between its ends while that
+/// distance exceeds splitDistance. The corner belongs to both pieces; pieces with fewer than minPoints points
+/// are dropped. The pieces are appended to `pieces` in beam order.
 void splitAtCorners(PointRange run, const SegmentationOptions& options, std::vector<PointRange>& pieces);
 
 }  // namespace hybrid_slam

@@ -22,7 +22,7 @@ double cosine(const std::vector<MotionSample>& samples, const F& f, const G& g) 
 Determination determine(const std::vector<MotionSample>& samples) {
   constexpr double kLeastDistance = 0.02, kLeastTurn = 0.05;  // m, rad
   constexpr double kLeastSteps = 20;
-  // Beyond, the standard errors are 7 times those of one regressor alone.
+  // Above this, the standard errors are 7 times those of a single regressor.
   constexpr double kMostCosine = 0.99;
 
   double moved = 0, turned = 0;
@@ -34,7 +34,8 @@ Determination determine(const std::vector<MotionSample>& samples) {
   Determination result;
   const auto lacks = [&result](const std::string& keys, double steps, const std::string& least) {
     result.lacks.push_back({keys, "the robot " + least + " in " + std::to_string(std::lround(steps)) +
-                                      " updates, it takes " + std::to_string(std::lround(kLeastSteps))});
+                                      " updates; at least " + std::to_string(std::lround(kLeastSteps)) +
+                                      " needed"});
   };
   if (std::round(moved) < kLeastSteps) {
     result.meanD = result.varianceD = false;
@@ -52,11 +53,11 @@ Determination determine(const std::vector<MotionSample>& samples) {
   const auto tt = [](const MotionStep& step) { return step.turn * step.turn; };
   if (std::abs(cosine(samples, d, t)) > kMostCosine) {
     result.meanD = result.meanT = false;
-    result.lacks.push_back({"mean_d, mean_t", "the robot turned in proportion to what it moved"});
+    result.lacks.push_back({"mean_d, mean_t", "the robot's turns were proportional to its translations"});
   }
   if (cosine(samples, dd, tt) > kMostCosine) {
     result.varianceD = result.varianceT = false;
-    result.lacks.push_back({"var_d, var_t", "the robot turned in proportion to what it moved"});
+    result.lacks.push_back({"var_d, var_t", "the robot's turns were proportional to its translations"});
   }
   return result;
 }

@@ -35,7 +35,7 @@ TEST(Determination, ARobotThatNeverTurnedKeepsThePriorForTurns) {
   const Determination determined = determine(samples);
   ASSERT_EQ(determined.lacks.size(), 1u);
   EXPECT_EQ(determined.lacks[0].keys, "mean_t, var_t");
-  EXPECT_EQ(determined.lacks[0].why, "the robot turned 2.9 deg or more in 0 updates, it takes 20");
+  EXPECT_EQ(determined.lacks[0].why, "the robot turned 2.9 deg or more in 0 updates; at least 20 needed");
   const MotionModelOptions prior, fitted = fitMotionModel(samples, prior, determined);
   expectKept(fitted.distance, prior.distance, false, true);
   expectKept(fitted.drift, prior.drift, false, true);
@@ -69,7 +69,7 @@ TEST(Determination, CirclesTellOnlyTheSumOfBoth) {
   const Determination determined = determine(drive(200, circle));
   EXPECT_TRUE(determined.nothing());
   ASSERT_EQ(determined.lacks.size(), 2u);
-  EXPECT_THAT(determined.lacks[0].why, HasSubstr("in proportion"));
+  EXPECT_THAT(determined.lacks[0].why, HasSubstr("proportional"));
 }
 
 TEST(Determination, CirclesBothWaysTellTheMeansButNotTheVariances) {

@@ -8,7 +8,7 @@ MotionTerm MotionBelief::Term::model(MotionTerm prior) const {
   if (prior.meanStd == 0) return prior;
   const double known = 1 / (prior.meanStd * prior.meanStd);
   const double determinant = (dd + known) * (tt + known) - dt * dt;
-  // The inverse of the information is the covariance of the means.
+  // The covariance of the means is the inverse of the information.
   const double varianceD = (tt + known) / determinant, varianceT = (dd + known) / determinant;
   const double covariance = -dt / determinant;
   prior.meanD += varianceD * d + covariance * t;
@@ -42,7 +42,7 @@ MotionModelOptions MotionBelief::model(const MotionModelOptions& options) const 
 void MotionBelief::learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
                          const MotionModelOptions& options) {
   const MotionStep seen(odometry);
-  const double turn = seen.turn + mrpt::math::wrapToPi(motion.phi - seen.turn);  // the shorter way round
+  const double turn = seen.turn + mrpt::math::wrapToPi(motion.phi - seen.turn);  // the shorter direction
   const MotionStep made(mrpt::math::TPose2D(motion.x, motion.y, turn));
   distance_.learn(seen, made.distance, options.distance, options.minStdXY);
   drift_.learn(seen, made.drift - seen.drift, options.drift, options.minStdXY);

@@ -1,23 +1,23 @@
 /// @file MotionBelief.h
-/// @brief What a particle has learnt of its robot's systematic odometry error.
+/// @brief A particle's estimate of the systematic odometry error.
 #pragma once
 
 #include "slam/motion/MotionModel.h"
 
 namespace hybrid_slam {
 
-/// The means of D, C and T as normal distributions, conjugate to the motions that a particle makes: with the
-/// regressors x = (d, t) of a step, the value r that the particle drew (less the mean that the options give)
-/// and the variance v of the motion model,  information += x x^T / v,  sum += x r / v.
+/// Normal distributions of the means of D, C and T, conjugate to the particle's motions. With the regressors
+/// x = (d, t) of a step, the drawn value r (minus the mean in the options) and the variance v of the motion
+/// model: information += x x^T / v,  sum += x r / v.
 ///
-/// So the means need not be drawn: the filter is Rao-Blackwellised over them as it is over the map. The
-/// paper's [9] learns them by EM from a log that must be there first; motion-model-learn does that.
+/// The filter is thus Rao-Blackwellized over the means, as it is over the map. The paper's [9] learns them by
+/// EM from a recorded log instead, as motion-model-learn does.
 class MotionBelief {
  public:
-  /// `options` with this particle's means and, in the variances, how unsure of them it still is; just as
-  /// they are where a term's meanStd is 0.
+  /// `options` with this particle's means, and variances increased by their uncertainty; terms with meanStd 0
+  /// are unchanged.
   MotionModelOptions model(const MotionModelOptions& options) const;
-  /// Takes in one step (increments in the robot frame at its start; m, rad).
+  /// Updates with one step (increments in the robot frame at its start; m, rad).
   void learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
              const MotionModelOptions& options);
 
@@ -25,7 +25,7 @@ class MotionBelief {
   struct Term {
     MotionTerm model(MotionTerm prior) const;
     void learn(const MotionStep& odometry, double value, const MotionTerm& prior, double minStd);
-    double dd = 0, dt = 0, tt = 0;  ///< information that the motions so far hold
+    double dd = 0, dt = 0, tt = 0;  ///< information of the motions so far
     double d = 0, t = 0;            ///< sum
   };
   Term distance_, drift_, turn_;

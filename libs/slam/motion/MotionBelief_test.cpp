@@ -10,7 +10,7 @@ namespace {
 using mrpt::math::TPose2D;
 using namespace test;
 
-/// `options` with means that may lie off by so much.
+/// `options` with this standard deviation of the means.
 MotionModelOptions unsure(MotionModelOptions options, double meanStd) {
   for (MotionTerm* term : {&options.distance, &options.drift, &options.turn}) term->meanStd = meanStd;
   return options;

@@ -20,8 +20,8 @@ void describeTerm(OptionTable& t, MotionTerm& term, const std::string& name, con
   t.add(name + "_var_t", term.varianceT, 0, 100, square(perRadian),
         "variance of the " + what + " per squared radian of odometry");
   t.add(name + "_mean_std", term.meanStd, 0, 1, perMetre + ", " + perRadian,
-        "how far the means of the " + what +
-            " may lie off: each particle learns its own on the way; 0: they are known");
+        "prior standard deviation of the means of the " + what +
+            "; each particle estimates its own; 0: known exactly");
 }
 
 }  // namespace
@@ -40,8 +40,8 @@ void MotionModelOptions::describe(OptionTable& t) {
   describeTerm(t, distance, "distance", "m", "distance along the heading");
   describeTerm(t, drift, "drift", "m", "drift to the left");
   describeTerm(t, turn, "turn", "rad", "turn");
-  t.add("min_std_xy", minStdXY, 0, 1, "m", "least standard deviation of distance and drift in a step");
-  t.addAngle("min_std_phi_deg", minStdPhi, 0, 60, "least standard deviation of the turn in a step");
+  t.add("min_std_xy", minStdXY, 0, 1, "m", "minimum standard deviation of distance and drift per step");
+  t.addAngle("min_std_phi_deg", minStdPhi, 0, 60, "minimum standard deviation of the turn per step");
 }
 
 TPose2D sampleMotion(const TPose2D& odometry, const MotionModelOptions& o, RandomStream& random) {
@@ -67,7 +67,7 @@ MotionDistribution motionDistribution(const TPose2D& start, const TPose2D& odome
   const double distance = o.distance.mean(seen), drift = seen.drift + o.drift.mean(seen);
   const double turn = o.turn.mean(seen), heading = start.phi + turn / 2;
   const double c = std::cos(heading), s = std::sin(heading);
-  Eigen::Matrix3d jacobian;  // of the pose after the step by (distance, drift, turn)
+  Eigen::Matrix3d jacobian;  // of the pose after the step with respect to (distance, drift, turn)
   jacobian << c, -s, (-s * distance - c * drift) / 2,  //
       s, c, (c * distance - s * drift) / 2,            //
       0, 0, 1;

@@ -14,8 +14,8 @@
 
 namespace hybrid_slam {
 
-/// A pose increment seen along the heading in the middle of its turn. Of the odometry, `distance` and `turn`
-/// are the model's d and t; what it moved sideways stays in the drift.
+/// A pose increment in the direction of the heading halfway through its turn. For odometry, `distance` and
+/// `turn` are the model's d and t; sideways motion stays in the drift.
 struct MotionStep {
   MotionStep(double distanceAlong, double driftAcross, double turned)
       : distance(distanceAlong), drift(driftAcross), turn(turned) {}
@@ -27,9 +27,9 @@ struct MotionStep {
   double turn;             ///< rad
 };
 
-/// One of D, C, T: normal with a mean and a variance that grow with the odometry's translation d (m) and
-/// rotation t (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2, and
-/// 2 covariance d t beside where the means are not quite known (MotionBelief).
+/// One of D, C, T: a normal distribution that depends on the odometry's translation d (m) and rotation t
+/// (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2, plus 2 covariance
+/// d t if the means are uncertain (MotionBelief).
 struct MotionTerm {
   double mean(const MotionStep& odometry) const { return meanD * odometry.distance + meanT * odometry.turn; }
   double variance(const MotionStep& odometry, double minStd) const {
@@ -39,8 +39,8 @@ struct MotionTerm {
 
   double meanD, meanT;
   double varianceD, varianceT;
-  double meanStd = 0;     ///< how far meanD and meanT may lie off (their units); 0: they are known
-  double covariance = 0;  ///< of meanD and meanT, where they are learnt
+  double meanStd = 0;     ///< prior standard deviation of meanD and meanT (their units); 0: known exactly
+  double covariance = 0;  ///< of meanD and meanT, if they are learnt
 };
 
 /// Section [motion_model].
@@ -57,12 +57,12 @@ struct MotionModelOptions : Options {
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  RandomStream& random);
 
-/// The same from standard normal numbers that were drawn elsewhere, for D, C and T.
+/// Likewise, with given standard normal numbers for D, C and T.
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  const std::array<double, 3>& normals);
 
-/// The normal distribution nearest to `sampleMotion`: the mean pose after the step, and its covariance
-/// (x, y, phi) in the frame that `start` is given in.
+/// Normal approximation of `sampleMotion`: mean pose after the step and its covariance (x, y, phi), in the
+/// frame of `start`.
 struct MotionDistribution {
   mrpt::math::TPose2D mean;
   Eigen::Matrix3d covariance;
@@ -70,11 +70,11 @@ struct MotionDistribution {
 MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
                                       const MotionModelOptions& options);
 
-/// MRPT's Gaussian motion model nearest to this one, for code of MRPT that draws by itself: it knows one
-/// deviation for both axes, and a systematic error only as a part of it.
+/// The closest Gaussian motion model of MRPT, for MRPT code that samples by itself. It has one standard
+/// deviation for both axes, which includes the systematic error.
 mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& options);
 
-/// The action that MRPT's filters take for an odometry increment.
+/// MRPT's action object for an odometry increment.
 mrpt::obs::CActionRobotMovement2D toAction(const mrpt::math::TPose2D& odometry,
                                            const MotionModelOptions& options);
 

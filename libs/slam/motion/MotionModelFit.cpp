@@ -11,19 +11,19 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// One of D, C, T of a sample beside the odometry that it belongs to.
+/// One of D, C, T of a sample, with its odometry.
 struct Row {
   MotionStep odometry;
   double value, weight;
 };
 
-/// The rows of D, of C and of T.
+/// The rows of D, C and T.
 struct Rows {
   explicit Rows(const std::vector<MotionSample>& samples) {
     for (const MotionSample& sample : samples) {
       const MotionStep odometry(sample.odometry);
       mrpt::math::TPose2D increment = sample.motion;
-      // Modulo 2 pi, so that a turn by half a circle does not come back as one the other way.
+      // Modulo 2 pi, so that a turn by pi keeps its sign.
       increment.phi = odometry.turn + mrpt::math::wrapToPi(increment.phi - odometry.turn);
       const MotionStep motion(increment);
       distance.push_back({odometry, motion.distance, sample.weight});
@@ -34,7 +34,7 @@ struct Rows {
   std::vector<Row> distance, drift, turn;
 };
 
-/// (1 um, 1 urad)^2: a model without noise has no likelihood.
+/// (1 um, 1 urad)^2: a noise-free model has no likelihood.
 constexpr double kLeastVariance = 1e-12;
 
 double varianceOf(const MotionTerm& term, const Row& row, double minStd) {
@@ -51,18 +51,18 @@ double logLikelihood(const std::vector<Row>& rows, const MotionTerm& term, doubl
   return sum / weights;
 }
 
-/// A quadratic model of the likelihood around the present parameters x:  gradient^T dx - dx^T information dx
-/// / 2.
+/// Quadratic model of the likelihood around the current parameters x:  gradient^T dx - dx^T information dx /
+/// 2.
 struct Quadratic {
   double value(const Vector2d& dx) const { return gradient.dot(dx) - dx.dot(information * dx) / 2; }
-  /// Takes a parameter out: it stays as it is.
+  /// Fixes a parameter.
   void hold(int i) {
     isHeld[i] = true;
     gradient[i] = information(i, 1 - i) = information(1 - i, i) = 0;
     information(i, i) = 1;
   }
   Vector2d top() const { return information.ldlt().solve(gradient); }
-  /// The top among x + dx >= 0: if it is not the top of all, it lies on one of the two borders.
+  /// The maximum subject to x + dx >= 0: the unconstrained one, or on one of the two borders.
   Vector2d topAbove(const Vector2d& x) const {
     Vector2d free = top();
     if ((x + free).minCoeff() >= 0) return free;
@@ -99,7 +99,7 @@ void fitMeans(MotionTerm& term, const std::vector<Row>& rows, double minStd,
   term.meanT += dx[1];
 }
 
-/// One step of Fisher scoring, halved until the likelihood does not fall.
+/// One step of Fisher scoring, halved until the likelihood does not decrease.
 void improveVariances(MotionTerm& term, const std::vector<Row>& rows, double minStd,
                       const Determination& determined) {
   Quadratic q;
@@ -117,7 +117,7 @@ void improveVariances(MotionTerm& term, const std::vector<Row>& rows, double min
   Vector2d dx = q.topAbove(present);
   for (int halvings = 0; halvings < 30; ++halvings, dx /= 2) {
     MotionTerm next = term;
-    next.varianceD = std::max(0.0, present[0] + dx[0]);  // max: rounding below 0 would make it unreadable
+    next.varianceD = std::max(0.0, present[0] + dx[0]);  // max: the INI reader rejects values below 0
     next.varianceT = std::max(0.0, present[1] + dx[1]);
     if (logLikelihood(rows, next, minStd) < before) continue;
     term = next;

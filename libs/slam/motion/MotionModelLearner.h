@@ -10,11 +10,10 @@
 
 namespace hybrid_slam {
 
-/// What the E-step finds with a model: how the robot may have moved, and how well the scans go with the
-/// model.
+/// Result of the E-step: motion hypotheses and the likelihood of the scans.
 struct Expectation {
   std::vector<MotionSample> samples;
-  double logLikelihood = 0;  ///< ln p(scans | odometry, model) per step, up to a constant of the log
+  double logLikelihood = 0;  ///< ln p(scans | odometry, model) per step, up to a constant
 };
 using EStep = std::function<Expectation(const MotionModelOptions& model)>;
 
@@ -25,18 +24,17 @@ struct EmIteration {
 };
 
 struct LearntMotionModel {
-  EmIteration best;          ///< of the highest likelihood
+  EmIteration best;          ///< highest likelihood
   bool isConverged = false;  ///< false: the likelihood was still rising
-  Determination determined;  ///< what else kept the prior
+  Determination determined;  ///< which parameters were learnt; the others keep the prior
 };
 
-/// E-step and M-step in turns until the likelihood stops rising: two iterations in a row do not exceed the
-/// best so far by 1e-4 nats per step. Not one, because a particle filter's likelihood is an estimate, which
-/// wavers where the true one rises.
-/// @param prior       where it starts; what the log does not determine stays as it is here, but its means
-///                    are taken as known (mean_std = 0), and so are those learnt
-/// @param report      called for the prior and each iteration
-/// @throws InputError  if the log is too short to determine anything; @param where  names it
+/// Alternates E-step and M-step until two iterations in a row fail to exceed the best likelihood by 1e-4 nats
+/// per step. Two, because a particle filter's likelihood is a noisy estimate.
+/// @param prior       initial model; undetermined parameters keep its values. Means are treated as known
+/// (mean_std = 0), before and after learning
+/// @param report      called for the prior and after each iteration
+/// @throws InputError  if the log determines no parameter; @param where  names the log
 LearntMotionModel learnMotionModel(MotionModelOptions prior, const EStep& eStep, int maxIterations,
                                    const std::string& where,
                                    const std::function<void(const EmIteration&)>& report);

@@ -82,8 +82,7 @@ TEST(MotionModelLearner, RecoversTheParametersOfHiddenMotionsAndTheLikelihoodRis
     EXPECT_GE(run.iterations.size(), 3u);  // more than one M-step would do
     for (size_t i = 1; i < run.iterations.size(); ++i)
       EXPECT_GT(run.iterations[i].logLikelihood, run.iterations[i - 1].logLikelihood) << i;
-    // Where it stops, less than 1e-4 nats a step are missing: 0.4 in all, or one standard error; so 5 of
-    // them.
+    // At the stop, less than 1e-4 nats per step are missing: 0.4 in total, or one standard error; so allow 5.
     const auto expectNear = [&](const MotionTerm& term, const MotionTerm& expected, double minStd,
                                 double noise) {
       const test::Parameters errors = test::standardErrors(expected, minStd, motions.odometry, noise);
@@ -100,7 +99,7 @@ TEST(MotionModelLearner, RecoversTheParametersOfHiddenMotionsAndTheLikelihoodRis
 
 TEST(MotionModelLearner, KeepsTheBestIterationWhenTheLikelihoodFalls) {
   const HiddenMotions motions(test::trueModel(), 100, 1);
-  // One fall may be the noise of the estimate, two in a row end it.
+  // One decrease may be noise of the estimate; two in a row end the iteration.
   const std::vector<double> likelihoods{-5, -4, -4.5, -3, -3.5, -4, 0};
   size_t call = 0;
   const Learning run = learn(
@@ -151,7 +150,7 @@ TEST(MotionModelLearner, AShortLogIsAnError) {
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("too short"));
     EXPECT_THAT(e.what(), HasSubstr(": log; "));
-    EXPECT_THAT(e.what(), HasSubstr("it takes 20"));
+    EXPECT_THAT(e.what(), HasSubstr("at least 20 needed"));
   }
 }
 

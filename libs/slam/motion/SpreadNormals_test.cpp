@@ -29,8 +29,8 @@ TEST(SpreadNormals, OneParticlesNumbersAreStandardNormalAndIndependent) {
   }
 }
 
-/// The copies that one particle leaves follow one another: wherever they stand, no two draw nearly the same.
-/// The nearest of 20 independent points of the unit cube are 0.096 apart in the median, of 50 0.049.
+/// Copies of a particle have consecutive indices: no two of them draw nearly the same. The nearest of 20
+/// independent points of the unit cube are 0.096 apart in the median, of 50 0.049.
 TEST(SpreadNormals, ParticlesInARowKeepApart) {
   for (const size_t first : {0u, 3u, 4000u})
     for (const auto& [count, apart] : {std::pair{4u, 0.5}, std::pair{20u, 0.28}, std::pair{50u, 0.19}}) {
@@ -52,8 +52,8 @@ TEST(SpreadNormals, ParticlesInARowKeepApart) {
     }
 }
 
-/// What it is for: what a scan says on average over the particles is near its expectation. The likelihood
-/// here is exp(-(D^2 + C^2 + T^2) / 2), with the mean m = 2^-1.5 and the variance 3^-1.5 - m^2.
+/// Purpose: the mean likelihood of a scan over the particles is close to its expectation. The likelihood here
+/// is exp(-(D^2 + C^2 + T^2) / 2), with the mean m = 2^-1.5 and the variance 3^-1.5 - m^2.
 TEST(SpreadNormals, TheMeanOfALikelihoodVariesLessThanOverIndependentDraws) {
   constexpr int kSteps = 2000;
   constexpr size_t kParticles = 20;

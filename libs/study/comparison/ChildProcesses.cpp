@@ -18,7 +18,7 @@ namespace hybrid_slam::comparison {
 namespace {
 
 pid_t start(const Command& command) {
-  // All that allocates comes before fork: the child of a program with threads may not.
+  // Allocate before fork: the child of a multithreaded program must not.
   std::vector<char*> arguments;
   for (const std::string& argument : command.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -41,7 +41,7 @@ pid_t start(const Command& command) {
   _exit(127);
 }
 
-/// The last line that says `error`, else the last one.
+/// The last line containing `error`, else the last line.
 std::string lastError(const std::filesystem::path& messages) {
   std::ifstream in(messages);
   std::string last, error;
@@ -88,8 +88,8 @@ bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std:
           ++it;
           continue;
         }
-        // There is no status where this program was started with SIGCHLD ignored.
-        const std::string error = ended < 0 ? "exit status not known: " + std::string(std::strerror(errno))
+        // No status is available if SIGCHLD was ignored at program start.
+        const std::string error = ended < 0 ? "exit status unknown: " + std::string(std::strerror(errno))
                                             : errorOf(status, commands[it->second]);
         const size_t command = it->second;
         it = running.erase(it);

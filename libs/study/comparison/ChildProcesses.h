@@ -1,5 +1,5 @@
 /// @file ChildProcesses.h
-/// @brief Commands side by side, each a process of its own.
+/// @brief Runs commands in parallel, each as a separate process.
 #pragma once
 
 #include <atomic>
@@ -11,18 +11,17 @@
 namespace hybrid_slam::comparison {
 
 struct Command {
-  std::vector<std::string> arguments;  ///< the program first; found along PATH if it has no slash
-  std::filesystem::path messages;      ///< takes its standard error; standard output goes nowhere
+  std::vector<std::string> arguments;  ///< program first; searched in PATH if it has no slash
+  std::filesystem::path messages;      ///< file for standard error; standard output is discarded
 };
 
-/// How a command ended: an empty text for exit 0, else its last error message, or how it ended, or that
-/// this is not known.
+/// Result of a command: empty for exit 0, else its last error message or its exit status.
 using CommandEnd = std::function<void(size_t command, const std::string& error)>;
 
 /// Runs all commands in their order, at most `atOnce` at a time; `onStart` before each, `onEnd` after each.
-/// Children are out of the terminal's reach (Ctrl-C is for the caller to handle) and do not outlive it.
-/// @param stop  set from outside: the children that run are ended, and `onEnd` is not called for them
-/// @returns whether all were run
+/// Children do not receive the terminal's signals (the caller handles Ctrl-C) and do not outlive the caller.
+/// @param stop  set externally: running children are killed, without `onEnd`
+/// @returns whether all commands ran
 bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std::atomic<bool>& stop,
                  const std::function<void(size_t)>& onStart, const CommandEnd& onEnd);
 

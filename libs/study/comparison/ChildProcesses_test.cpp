@@ -78,7 +78,7 @@ TEST_F(ChildProcessesTest, StoppingEndsTheChildrenAndStartsNoMore) {
   EXPECT_EQ(kill(child, 0), -1);
 }
 
-/// As a program finds it that a parent started with SIGCHLD ignored: the system keeps no exit status.
+/// As for a program started with SIGCHLD ignored: the system keeps no exit status.
 TEST_F(ChildProcessesTest, AnEndThatIsNotKnownIsNoSuccess) {
   const auto before = signal(SIGCHLD, SIG_IGN);
   EXPECT_TRUE(run({"exit 3"}, 1));

@@ -1,5 +1,5 @@
 /// @file Comparison.h
-/// @brief All runs of a comparison: what is left to do is done, in parallel and interruptible.
+/// @brief Executes the unfinished runs of a comparison, in parallel and interruptibly.
 #pragma once
 
 #include <atomic>
@@ -17,19 +17,19 @@ struct ComparisonRun {
   Run run;
   RunFolder folder;
   RunIdentity identity;
-  std::vector<std::string> command;  ///< hybrid-slam with all its arguments but the output folder
+  std::vector<std::string> command;  ///< hybrid-slam with all arguments except the output folder
 };
 
-/// How the runs of a sweep ended.
+/// Outcome of a sweep.
 struct SweepOutcome {
   size_t kept = 0, done = 0, failed = 0;
   bool isInterrupted = false;
 };
 
-/// Starts the runs that are not finished, seed by seed over all groups, so that a sweep that is stopped early
-/// has all groups alike.
-/// @param onEnd  told of each run that ended, with its error if it failed
-/// @throws InputError before anything is started, if a finished run is not the one that is asked for
+/// Starts the unfinished runs, seed by seed over all groups, so that an interrupted sweep covers all groups
+/// equally.
+/// @param onEnd  called for each ended run, with its error if it failed
+/// @throws InputError before any run starts, if a finished run differs from the requested one
 SweepOutcome runSweep(const std::vector<ComparisonRun>& runs, size_t atOnce, const std::atomic<bool>& stop,
                       const std::function<void(const ComparisonRun&, const std::string& error)>& onEnd);
 

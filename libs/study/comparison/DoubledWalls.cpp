@@ -14,16 +14,16 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kSampleStep = 0.1;             // m, along a wall
-constexpr double kNear = 0.15;                  // m, from a sample to an end point on it
+constexpr double kNear = 0.15;                  // m, between a sample and an end point on it
 constexpr double kLeastWay = 0.2;               // m, between scans
 constexpr double kLeastTurn = 10 * M_PI / 180;  // rad
 constexpr double kTimeTolerance = 0.001;        // s, from a scan to the run's pose
 constexpr double kPause = 30;                   // s, between two passes
-constexpr double kLargestSpread = 0.2;          // m: wider than a wall that was drawn once
+constexpr double kLargestSpread = 0.2;          // m: wider than a wall drawn once
 constexpr size_t kLeastScans = 3;               // in a pass
 constexpr size_t kLeastInARow = 3;
 
-/// The samples in the form that nanoflann asks for.
+/// The samples as a nanoflann data set.
 template <class Sample>
 struct SamplePoints {
   const std::vector<Sample>& samples;
@@ -59,7 +59,7 @@ class Images {
   }
   bool empty() const { return at_.empty(); }
 
-  /// Whether they are too far apart for one wall. A pass of too few scans to draw a wall is left out.
+  /// Whether they are too far apart for one wall. Passes with too few scans are ignored.
   bool areSpread() const {
     const TPoint2D across = normal_ * (1 / std::max(normal_.norm(), 1e-9));
     double low = INFINITY, high = -INFINITY;  // m, of the passes' medians
@@ -131,7 +131,7 @@ bool WallSightings::empty() const {
 
 std::optional<double> WallSightings::doubledShare(const files::Trajectory& run) const {
   const evaluation::StampIndex index(run);
-  std::vector<std::optional<TPose2D>> toMap;  // the plan's frame, as each scan has it in the map
+  std::vector<std::optional<TPose2D>> toMap;  // plan frame to map frame, per scan
   for (const Scan& scan : scans_) {
     const auto row = index.nearest(scan.timestamp, kTimeTolerance);
     toMap.push_back(row ? std::optional(run[*row].pose + (TPose2D() - scan.pose)) : std::nullopt);

@@ -1,5 +1,5 @@
 /// @file DoubledWalls.h
-/// @brief How much of the walls a run draws twice, told by where it saw them from.
+/// @brief Share of walls that a run's map shows twice.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -14,32 +14,31 @@
 
 namespace hybrid_slam::comparison {
 
-/// Which scans of a log saw which piece of wall, as the true poses tell: made once for all runs on the log.
+/// Which scans of a log saw which wall sample, from the true poses; computed once per log.
 ///
-/// Every wall is sampled each 0.1 m. A scan sees a sample if this is the nearest one to the end of one of its
-/// beams at the true pose, and within 0.15 m of it. Scans less than 0.2 m and 10 deg from the one before are
-/// passed over.
+/// Walls are sampled every 0.1 m. A scan sees a sample if it is the nearest one to an end point of the scan
+/// at the true pose, within 0.15 m. Scans less than 0.2 m and 10 deg from the previous one are skipped.
 class WallSightings {
  public:
   /// @param reference  true poses in the plan's frame
-  /// @param tolerance  s; between a scan and its true pose; scans without one are left out
+  /// @param tolerance  s; largest time difference between a scan and its true pose; scans without one are
+  ///                   skipped
   WallSightings(const simulation::FloorPlan& plan, const files::Trajectory& reference,
                 const std::vector<readings::EndPoints>& scans, double tolerance);
 
-  /// Whether no scan sees a wall.
+  /// True if no scan sees a wall.
   bool empty() const;
 
-  /// Doubled / shown samples, in [0, 1]; nothing for a run that shows none.
+  /// Doubled / shown samples, in [0, 1]; empty for a run that shows none.
   ///
-  /// A scan that was taken at the pose T and that the run places at R draws the sample w at R + inverse(T) +
-  /// w: its *image* in the run's map. No alignment of the map enters, and the laser's noise cancels. A sample
-  /// is *shown* if it has an image. Offsets between images are measured along the wall's normal, as these
-  /// scans drew it on average: what moves along a wall does not double it. A sighting more than 30 s after
-  /// the one before begins another *pass*; those of fewer than 3 scans draw no wall and are left out. The
-  /// sample is *spread* if the median offsets of two passes differ by more than 0.2 m, or if within a pass
-  /// the 10th and the 90th percentile do. It is *doubled* if it is one of at least 3 spread samples in a row
-  /// on its wall.
-  /// @param run  scans count that it has a pose for, within 0.001 s
+  /// A scan taken at the true pose T and placed at R by the run draws the sample w at R + inverse(T) + w: its
+  /// *image* in the run's map. No map alignment is needed, and laser noise cancels. A sample is *shown* if it
+  /// has an image. Offsets between images are measured along the mean wall normal in the run's map: an offset
+  /// along a wall does not double it. A sighting more than 30 s after the previous one begins a new *pass*;
+  /// passes of fewer than 3 scans are ignored. A sample is *spread* if the median offsets of two passes
+  /// differ by more than 0.2 m, or the 10th and 90th percentile within a pass do. It is *doubled* if it is
+  /// one of at least 3 consecutive spread samples of its wall.
+  /// @param run  scans count if it has a pose within 0.001 s
   std::optional<double> doubledShare(const files::Trajectory& run) const;
 
  private:
@@ -50,10 +49,10 @@ class WallSightings {
   struct Sample {
     mrpt::math::TPoint2D at, normal;
     size_t wall;                  ///< of the plan
-    std::vector<uint32_t> scans;  ///< that saw it, in the order of the log
+    std::vector<uint32_t> scans;  ///< that saw it, in log order
   };
   std::vector<Scan> scans_;
-  std::vector<Sample> samples_;  ///< wall by wall, along each
+  std::vector<Sample> samples_;  ///< wall by wall, in order along each
 };
 
 }  // namespace hybrid_slam::comparison

@@ -12,7 +12,7 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-/// What a laser all around sees of a plan from the true poses, and the poses that a run claims.
+/// Scans of a 360 deg laser in a plan from the true poses, and the poses of a run.
 struct Drive {
   simulation::FloorPlan plan;
   size_t beams = 360;
@@ -110,7 +110,7 @@ Drive turning(double (*headingError)(int pass, double progress)) {
   return drive;
 }
 
-// Turned by a about the middle of the room, a wall's point at s from the wall's middle moves by s a across
+// A rotation by a about the centre of the room moves a wall's point at s from the wall's middle by s a across
 // it.
 TEST(DoubledWalls, HeadingErrorsByHand) {
   // 0.05 rad between the passes: 0.2 m at 4 m, so that the outer 2 m of the long walls are doubled.
@@ -134,7 +134,7 @@ TEST(DoubledWalls, WhereNothingIsShownThereIsNoShare) {
   EXPECT_TRUE(WallSightings(drive.plan, late, drive.scans, 0.02).empty());
 }
 
-// The loop of the experiments: its last 14 m see again the south corridor, where it began.
+// The loop of the experiments: its last 14 m revisit the south corridor, where it began.
 TEST(DoubledWalls, TheCsieLoopsReturnIsFound) {
   Drive drive{simulation::FloorPlan::load(SOURCE_DIR "/datasets/csie/csie.plan")};
   const files::Trajectory truth = files::loadTum(SOURCE_DIR "/datasets/csie/csie-loop.tum");

@@ -15,13 +15,13 @@ enum class Figure {
   transMean,    ///< relations metric, translation
   rotMean,      ///< relations metric, rotation
   ate,          ///< after rigid alignment, root of the mean square
-  returnTrans,  ///< from the first scan's pose to the last one's
+  returnTrans,  ///< motion from the first to the last scan
   returnRot,
   wallMean,  ///< occupied cells to the nearest wall
   wallP95,
-  doubledShare,  ///< of the walls shown, that are drawn twice
+  doubledShare,  ///< of the shown walls
   success,       ///< 1 or 0
-  wallTime,      ///< of the clock
+  wallTime,      ///< elapsed
   cpuTime,
   peakMemory,
   realtimeFactor,
@@ -29,26 +29,26 @@ enum class Figure {
   stdAlong,  ///< particle spread: mean over the filter's updates
   stdAcross,
   stdPhi,
-  revisitMedian,  ///< where a scan sees again what earlier ones saw; nothing for a run without revisits
-  revisits        ///< scans that do
+  revisitMedian,  ///< at revisited places; empty for a run without revisits
+  revisits        ///< number of revisiting scans
 };
 constexpr size_t kFigures = 19;
 
 struct FigureName {
   Figure figure;
   const char* column;  ///< in results.csv
-  const char* title;   ///< for people
+  const char* title;   ///< in the report
   const char* unit;    ///< "m", "deg", ...; empty for shares and counts
-  bool isError;        ///< the smaller the better, and tested between groups
+  bool isError;        ///< smaller is better; tested between groups
 };
-/// In the order of the columns.
+/// In column order.
 extern const std::array<FigureName, kFigures> kFigureNames;
 
-/// What one run came to.
+/// Result of one run.
 struct RunResult {
   Run run;
   enum class Status { done, failed, missing } status = Status::missing;
-  std::string error;  ///< of a failed run
+  std::string error;  ///< if the run failed
   std::array<std::optional<double>, kFigures> figures;
 
   std::optional<double>& operator[](Figure f) { return figures[static_cast<size_t>(f)]; }
@@ -57,10 +57,10 @@ struct RunResult {
 
 const char* statusName(RunResult::Status status);
 
-/// A number as tables show it: 6 significant digits, empty for none.
+/// A number for tables: 6 significant digits, empty if missing.
 std::string cell(const std::optional<double>& value);
 
-/// `method,variant,particles,seed,status`, then a column for each figure; one row a run.
+/// `method,variant,particles,seed,status`, then one column per figure; one row per run.
 void writeResults(const std::vector<Group>& groups, const std::vector<RunResult>& results, std::ostream& out);
 
 }  // namespace hybrid_slam::comparison

@@ -34,9 +34,8 @@ void checkSetting(const std::string& setting, const std::string& where) {
   const bool isOfTheRunItself = section == "run" && key != "run.particles_every" && key != "run.refine";
   if (isOfTheRunItself || key == "particle_filter.particles" || key == "particle_filter.seed" ||
       key == "particle_filter.threads")
-    throw InputError(
-        "setting of `" + setting.substr(0, equals) + "`", where,
-        "expected one that the comparison does not vary itself (--methods, --particles, --seeds)");
+    throw InputError("setting of `" + setting.substr(0, equals) + "`", where,
+                     "expected a key that --methods, --particles and --seeds do not set");
 }
 
 Variant parseVariant(const std::string& text) {
@@ -102,11 +101,11 @@ std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std
   for (const ParticleCount& count : particles)
     if (!isCompared(count.method))
       throw InputError("particle count of the method `" + count.method + "`", "option --particles",
-                       "expected one of the methods that are compared");
+                       "expected one of the compared methods");
   for (const Variant& variant : variants)
     if (!isCompared(variant.method))
       throw InputError("variant `" + variant.name + "` of the method `" + variant.method + "`",
-                       "option --variant", "expected one of the methods that are compared");
+                       "option --variant", "expected one of the compared methods");
 
   std::vector<Group> groups;
   std::set<std::string> names;

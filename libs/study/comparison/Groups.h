@@ -1,5 +1,5 @@
 /// @file Groups.h
-/// @brief What is compared: methods x variants x particle counts, each over the same seeds.
+/// @brief The compared groups: methods x variants x particle counts, each over the same seeds.
 #pragma once
 
 #include <string>
@@ -10,23 +10,22 @@ namespace hybrid_slam::comparison {
 /// A named set of settings on top of the INI file.
 struct Variant {
   std::string name;
-  std::string method;                 ///< the only one it is run with; empty: all
-  std::string iniFile;                ///< instead of the comparison's own; empty: that one
+  std::string method;                 ///< only for this method; empty: all
+  std::string iniFile;                ///< replaces the comparison's INI file; empty: no change
   std::vector<std::string> settings;  ///< SECTION.KEY=VALUE
 };
 
-/// Reads `[METHOD/]NAME:ITEM[,ITEM...]`, an item being SECTION.KEY=VALUE or `@FILE` for another INI file.
-/// @throws InputError for another form, a name that no folder can have, and settings of what the comparison
-///         itself varies: [run] (but for particles_every), and the particles, seed and threads of
-///         [particle_filter]
+/// Parses `[METHOD/]NAME:ITEM[,ITEM...]`, an item being SECTION.KEY=VALUE or `@FILE` for another INI file.
+/// @throws InputError for a wrong format, a name unusable for a folder, and settings controlled by the
+///         comparison: [run] (except particles_every), and particles, seed and threads of [particle_filter]
 Variant parseVariant(const std::string& text);
-/// The same check for a setting of all runs.
+/// The same check for a setting common to all runs.
 void checkSetting(const std::string& setting, const std::string& where);
 
-/// Runs that differ by nothing but their seed.
+/// Runs that differ only in their seed.
 struct Group {
   std::string method;
-  Variant variant;  ///< without a name: the INI file as it is
+  Variant variant;  ///< without a name: the plain INI file
   int particles = 0;
 
   /// "hybrid-eq9": method and variant.
@@ -35,20 +34,18 @@ struct Group {
   std::string name() const { return label() + "-" + std::to_string(particles); }
 };
 
-/// How many particles a method is run with.
+/// Number of particles for a method.
 struct ParticleCount {
   std::string method;  ///< empty: all
   int particles = 0;
 };
 
-/// Reads `[METHOD:]N`. @throws InputError for another form, an unknown method, and a number below 1
+/// Parses `[METHOD:]N`. @throws InputError for a wrong format, an unknown method, and a number below 1
 ParticleCount parseParticleCount(const std::string& text);
 
-/// Method by method, each plain and then with every variant that applies, each with every particle count that
-/// is its.
-/// @throws InputError for an unknown or repeated method, a variant of a method that is not compared, two
-///         groups of the same name, a particle count of a method that is not compared, and a method without
-///         one
+/// Method by method: plain, then with each applicable variant, each with every particle count of the method.
+/// @throws InputError for an unknown or repeated method, a variant or particle count of a method not
+///         compared, two groups with the same name, and a method without a particle count
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
                               const std::vector<ParticleCount>& particles);
 
@@ -57,7 +54,7 @@ struct Run {
   int seed = 0;
 };
 
-/// Every group with every seed, group by group: the order of the tables.
+/// Every group with every seed, group by group (table order).
 std::vector<Run> makeRuns(size_t groups, int firstSeed, int seeds);
 
 }  // namespace hybrid_slam::comparison

@@ -39,7 +39,7 @@ TEST(Variant, EveryBadOneIsNamed) {
                            "eq9:a.=c", "eq9:.b=c", "eq9:a.b", "eq9:a.b=c,", "eq9:@", "eq9:@a,@b"}) {
     const std::string error = errorOf([&] { parseVariant(text); });
     if (std::string(text) == "eq9:a.b=c,")
-      EXPECT_EQ(error, "no error");  // nothing stands behind the comma
+      EXPECT_EQ(error, "no error");  // nothing after the comma
     else
       EXPECT_THAT(error, HasSubstr("--variant")) << text;
   }

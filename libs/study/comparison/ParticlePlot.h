@@ -1,5 +1,5 @@
 /// @file ParticlePlot.h
-/// @brief Where the particles are at chosen moments, as in the paper's Fig. 3.
+/// @brief Particle clouds at selected times, as in the paper's Fig. 3.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -22,19 +22,19 @@ struct ParticleSnapshot {
   double timestamp = 0;  ///< s
   std::vector<WeightedParticle> particles;
 
-  const mrpt::math::TPose2D& best() const;  ///< the pose of the highest weight
-  double radius() const;                    ///< m, from there to the farthest particle
+  const mrpt::math::TPose2D& best() const;  ///< the pose with the highest weight
+  double radius() const;                    ///< m, from best() to the farthest particle
 };
 
-/// Reads `particles.csv`; nothing if there is no such file.
+/// Reads `particles.csv`; empty if there is no such file.
 /// @throws std::runtime_error for a broken file
 std::vector<ParticleSnapshot> loadParticles(const std::string& file);
 
-/// One moment of each of `count` equal parts of a run: that at which the robot had turned most since the
-/// snapshot before, be it at a corner or in a doorway. Their timestamps.
+/// Timestamps of one snapshot in each of `count` equal parts of a run: the one with the largest turn since
+/// the previous snapshot, such as at a corner or doorway.
 std::vector<double> turningMoments(const std::vector<ParticleSnapshot>& run, size_t count);
 
-/// The snapshot that is nearest in time; `run` holds at least one.
+/// The snapshot nearest in time; `run` must not be empty.
 const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run, double timestamp);
 
 /// Particles red with their headings, the robot (the best particle) light blue, walls black. Of more than 200

@@ -67,34 +67,33 @@ void writeIntroduction(const ReportInput& input, std::ostream& out) {
     if (!group.variant.iniFile.empty()) out << escapeXml(group.variant.iniFile) << " ";
     for (const std::string& setting : group.variant.settings) out << escapeXml(setting) << " ";
   }
-  out << ". The number behind a name is that of the particles.</p>\n";
+  out << ". The number after a name is the number of particles.</p>\n";
 }
 
-/// What success asks for; empty where nothing does.
+/// Text of the success criterion; empty without one.
 std::string criterionNote(const GroundTruth& truth) {
   const SuccessCriterion& c = truth.criterion;
   std::vector<std::string> conditions;
   if (!truth.reference.empty()) {
     conditions.push_back(
-        "from the first scan to the last the estimated motion differs from the reference's by less than " +
+        "the motion from the first to the last scan differs from the reference by less than " +
         shortNumber(c.returnTrans) + " m and " + shortNumber(c.returnRot) + " deg");
     if (truth.plan)
       conditions.push_back("less than " + shortNumber(100 * c.doubledShare) +
-                           " % of the wall that the map shows is drawn twice");
+                           " % of the mapped wall is doubled");
   }
   if (!truth.relations.empty())
-    conditions.push_back("the relations' mean translation error is below " + shortNumber(c.relations) + " m");
+    conditions.push_back("the mean translation error of the relations is below " + shortNumber(c.relations) +
+                         " m");
   if (truth.revisits)
     conditions.push_back("scans revisit earlier ones, up to " + shortNumber(truth.revisits->distance) +
-                         " m apart, and the median of their errors is below " + shortNumber(c.revisits) +
-                         " m");
+                         " m apart, with a median error below " + shortNumber(c.revisits) + " m");
   if (conditions.empty()) return {};
   std::string note = "Success: " + conditions[0];
   for (size_t i = 1; i < conditions.size(); ++i) note += "; " + conditions[i];
   return note +
-         (truth.plan || truth.reference.empty() ? "."
-                                                : ". Without a floor plan nothing is asked of the walls.") +
-         " A run that fails has no success. The interval is Wilson's, 95 %.";
+         (truth.plan || truth.reference.empty() ? "." : ". Without a floor plan the walls are not tested.") +
+         " A failed run is not a success. Intervals: Wilson, 95 %.";
 }
 
 }  // namespace
@@ -107,7 +106,7 @@ std::string writeReport(const ReportInput& input, std::ostream& out) {
   const auto& [groups, results, summaries] = std::tie(input.groups, input.results, input.summaries);
   out << kHead;
   writeIntroduction(input, out);
-  section(out, "Failed runs", "They count as runs without success and have no figures.",
+  section(out, "Failed runs", "They count as unsuccessful and have no figures.",
           failureTable(groups, results));
 
   section(
@@ -130,17 +129,14 @@ std::string writeReport(const ReportInput& input, std::ostream& out) {
           drawn(errors));
   section(out, "Each group against the first",
           "Median of the group / median of " + groups[0].name() +
-              " over the seeds that both have finished: below 1 the group is better. Below it the 95 % "
-              "interval (percentile "
-              "bootstrap over seeds), then p of Wilcoxon's signed-rank test and of the sign test over the "
-              "seeds: two-sided, "
-              "exact, each for itself (not corrected for their number).",
+              " over the seeds that both finished; below 1 the group is better. Below: 95 % interval "
+              "(percentile bootstrap over seeds), then p of Wilcoxon's signed-rank test and of the sign test "
+              "over the seeds (two-sided, exact, not corrected for multiple tests).",
           pairedTable(groups, summaries));
 
   section(out, "Particle spread",
-          "Weighted standard deviation of the particles before resampling; mean over the updates of a run, "
-          "then median "
-          "and quartiles over the seeds.",
+          "Weighted standard deviation of the particles before resampling: mean over the updates of a run, "
+          "then median and quartiles over the seeds.",
           summaryTable(groups, summaries, {Figure::stdAlong, Figure::stdAcross, Figure::stdPhi}, false));
   section(out, "Particle spread over time",
           "Line: median over the seeds; band: quartiles. Colours stand for method and variant, dashes for "

@@ -1,5 +1,5 @@
 /// @file Report.h
-/// @brief report.html: one file with tables, plots and map pictures, without scripts or network.
+/// @brief report.html: one self-contained file with tables, plots and maps, without scripts.
 #pragma once
 
 #include <ostream>
@@ -12,17 +12,17 @@
 namespace hybrid_slam::comparison {
 
 struct ReportInput {
-  std::string command;  ///< as it was called
+  std::string command;  ///< command line
   std::string version;
   std::string config;  ///< the INI file
   std::string log;
   double logDuration = 0;             ///< s
-  std::vector<std::string> settings;  ///< of all runs, on top of the INI file
+  std::vector<std::string> settings;  ///< common to all runs, on top of the INI file
   std::vector<Group> groups;
   std::vector<RunResult> results;
   std::vector<GroupSummary> summaries;
   GroundTruth truth;
-  std::filesystem::path runs;  ///< the folder of the run folders
+  std::filesystem::path runs;  ///< parent of the run folders
 };
 
 /// The name of a run's folder: "hybrid-eq9-20-3".

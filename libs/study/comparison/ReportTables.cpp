@@ -25,7 +25,7 @@ std::string successCell(const GroupSummary& s) {
          "&#160;%</small>";
 }
 
-/// @param withSuccess  first of the successful runs, where there are others
+/// @param withSuccess  start with the median of the successful runs if some failed
 std::string figureCell(const GroupSummary& s, Figure figure, bool withSuccess) {
   const FigureSummary& f = s.figures[static_cast<size_t>(figure)];
   if (!f.quartiles) return kNothing;

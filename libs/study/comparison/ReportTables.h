@@ -9,13 +9,13 @@
 
 namespace hybrid_slam::comparison {
 
-/// Success, runs and, for each figure that any group has, median and quartiles; with success, an error of a
-/// group with successes and failures begins with the median over its successful runs.
+/// Success, number of runs, and median and quartiles of every figure present. With a success criterion, the
+/// errors of a group with successes and failures start with the median over its successful runs.
 std::string summaryTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                          const std::vector<Figure>& figures, bool withSuccess);
 
-/// A row for each group but the first: median ratios with their intervals, and the tests' p. Empty for one
-/// group.
+/// One row per group except the first: median ratios with intervals, and the p-values of the tests. Empty for
+/// one group.
 std::string pairedTable(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries);
 
 /// Failed runs with their errors; empty if there are none.

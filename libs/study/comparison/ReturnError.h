@@ -1,5 +1,5 @@
 /// @file ReturnError.h
-/// @brief How far off the robot believes to be when it comes back: the error that a loop closure has to undo.
+/// @brief Pose error on return to the start: the error that loop closure must correct.
 #pragma once
 
 #include "files/Trajectory.h"
@@ -11,8 +11,8 @@ struct ReturnError {
   double rotation = 0;     ///< rad, in [0, pi]
 };
 
-/// inverse(motion of the reference) + (motion of the estimate), both from the first pose that the two have in
-/// common to the last one: no alignment enters.
+/// inverse(motion of the reference) + (motion of the estimate), both from the first to the last common pose;
+/// needs no alignment.
 /// @param tolerance  s; between a pose and the reference pose it is compared with
 /// @throws InputError if the two do not overlap in time
 ReturnError returnError(const files::Trajectory& estimate, const files::Trajectory& reference,

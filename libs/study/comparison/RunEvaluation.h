@@ -1,5 +1,5 @@
 /// @file RunEvaluation.h
-/// @brief A finished run against what is known of the truth.
+/// @brief Evaluates a finished run against the ground truth.
 #pragma once
 
 #include <optional>
@@ -17,44 +17,44 @@
 
 namespace hybrid_slam::comparison {
 
-/// What a run must keep below to have closed the loop, the paper's Fig. 4 in figures.
+/// Upper bounds for a successful run, i.e. a closed loop: the paper's Fig. 4 in numbers.
 struct SuccessCriterion {
   double returnTrans = 0.5;    ///< m
   double returnRot = 2;        ///< deg
-  double doubledShare = 0.02;  ///< of the wall that the run shows
+  double doubledShare = 0.02;  ///< of the wall the run shows
   double relations = 0.1;      ///< m, mean translation error
   double revisits = 0.07;      ///< m, median of at least one revisit
 };
 
-/// What is known of the truth, and what the log tells without it; each part may be missing.
+/// Ground truth and reference-free criteria; each part may be missing.
 struct GroundTruth {
   files::Trajectory reference;                  ///< may be empty
   std::vector<evaluation::Relation> relations;  ///< may be empty
-  files::Trajectory odometry;                   ///< that carries poses to the relations' times; may be empty
-  std::optional<simulation::FloorPlan> plan;    ///< in the reference's frame
+  files::Trajectory odometry;                 ///< to extrapolate poses to the relations' times; may be empty
+  std::optional<simulation::FloorPlan> plan;  ///< in the reference's frame
   std::optional<evaluation::RevisitOptions> revisits;
-  std::vector<readings::EndPoints> scans;  ///< of the log; for the revisits
-  std::optional<WallSightings> sightings;  ///< of the same scans; for the share of doubled wall
+  std::vector<readings::EndPoints> scans;  ///< of the log, for the revisits
+  std::optional<WallSightings> sightings;  ///< of the same scans, for the share of doubled wall
   SuccessCriterion criterion;
 
-  /// s; between a pose and its reference pose
+  /// s; largest time difference between a pose and its reference pose
   static constexpr double kReferenceTolerance = 0.02;
-  /// s; between a relation's time and a pose or odometry row
+  /// s; largest time difference between a relation and a pose or odometry row
   static constexpr double kRelationTolerance = 0.006;
 
-  /// @throws InputError if the reference does not overlap `trajectory` in time, or none of the relations can
-  ///         be used with it
+  /// @throws InputError if the reference does not overlap `trajectory` in time, or no relation is usable with
+  ///         it
   void expectOverlap(const files::Trajectory& trajectory) const;
-  /// Takes the log's scans, which revisits and doubled walls are measured with.
-  /// @throws InputError if none of them sees a wall of the plan
+  /// Sets the log's scans, used for revisits and doubled walls.
+  /// @throws InputError if no scan sees a wall of the plan
   void takeScans(std::vector<readings::EndPoints> scans);
-  /// What success asks for: figures that all have to be below these bounds. Empty where nothing is known.
+  /// The success criterion: figures and their upper bounds. Empty without ground truth.
   std::vector<std::pair<Figure, double>> bounds() const;
 };
 
-/// Fills status and figures from the run's folder. There is a success where there are bounds; a figure that a
-/// run does not have is not below its own.
-/// @throws InputError, std::runtime_error for result files that cannot be read
+/// Fills status and figures from the run's folder. Success is evaluated if there are bounds; a missing figure
+/// fails its bound.
+/// @throws InputError, std::runtime_error for unreadable result files
 RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth);
 
 }  // namespace hybrid_slam::comparison

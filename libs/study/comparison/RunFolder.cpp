@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 const char* const kOrigin = "origin.json";
 const char* const kError = "error.txt";
 
-/// "[section] key" -> value. Lines of other forms do not stand in a config.ini.
+/// "[section] key" -> value. A config.ini has no other lines.
 std::map<std::string, std::string> settingsOf(std::istream& text) {
   std::map<std::string, std::string> settings;
   std::string section;
@@ -33,7 +33,7 @@ std::map<std::string, std::string> settingsOf(std::istream& text) {
 
 [[noreturn]] void differs(const fs::path& folder, const std::string& what) {
   throw InputError("finished run of another comparison", "folder " + folder.string() + ", " + what,
-                   "expected the same settings and log, or another -o");
+                   "expected the same settings and log, or a different -o");
 }
 
 std::string canonical(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)).string(); }

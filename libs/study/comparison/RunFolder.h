@@ -1,5 +1,5 @@
 /// @file RunFolder.h
-/// @brief The folder of one run: finished or not, and whether it is the run that is asked for.
+/// @brief The folder of one run: its state, and whether it is the requested run.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace hybrid_slam::comparison {
 
-/// What makes a run what it is: two runs of the same settings on the same log give the same results.
+/// Identity of a run: the same settings on the same log give the same results.
 struct RunIdentity {
-  std::string configuration;  ///< as hybrid-slam writes it to config.ini
-  std::string otherSections;  ///< of the INI file, where the method reads them (`stock`: MRPT's)
+  std::string configuration;  ///< as written to config.ini by hybrid-slam
+  std::string otherSections;  ///< of the INI file, if the method reads them (`stock`: MRPT's)
   std::string log;            ///< the rawlog's path, absolute
   uintmax_t logSize = 0;      ///< bytes
-  int64_t logTime = 0;        ///< of its last change, ns
+  int64_t logTime = 0;        ///< last modification, ns
 };
 
-/// Notes a log's path, size and time.
-/// @throws InputError if it is not there
+/// Sets a log's path, size and modification time.
+/// @throws InputError if there is no such file
 void noteLog(RunIdentity& identity, const std::string& log);
 
-/// DIR/runs/NAME, which hybrid-slam fills under another name, so that only what is whole has the final one.
+/// DIR/runs/NAME. hybrid-slam writes to a temporary name, so that only complete runs have the final name.
 class RunFolder {
  public:
   RunFolder(const std::filesystem::path& runs, const std::string& name)
@@ -29,27 +29,26 @@ class RunFolder {
 
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   const std::filesystem::path& path() const { return folder_; }
-  /// Where hybrid-slam is to write.
+  /// Output folder for hybrid-slam.
   const std::filesystem::path& partial() const { return partial_; }
 
   bool isFinished() const { return std::filesystem::exists(file("metrics.json")); }
-  /// @throws InputError naming the folder and the first difference if the finished run is not this one. The
-  ///         log's size and time are compared where they were noted: runs that slam-compare did not start
-  ///         itself have no note of them.
+  /// @throws InputError with the folder and the first difference if the finished run is another one. The
+  ///         log's size and time are compared if recorded; runs not started by slam-compare lack them.
   void expect(const RunIdentity& identity) const;
 
-  /// Makes the partial folder anew, with a note of the identity.
+  /// Recreates the partial folder and records the identity.
   void begin(const RunIdentity& identity) const;
-  /// The partial folder becomes the run's.
+  /// Renames the partial folder to its final name.
   void finish() const;
-  /// Nothing is left but a note of the error.
+  /// Removes everything except a record of the error.
   void fail(const std::string& error) const;
-  /// Nothing is left.
+  /// Removes everything.
   void abandon() const;
-  /// The note of a failed run; empty for others.
+  /// The error of a failed run; empty for others.
   std::string error() const;
 
-  /// Removes what the report does not need and would make a sweep large: map.simplemap.gz, map.pgm, map.yaml.
+  /// Removes large files not needed by the report: map.simplemap.gz, map.pgm, map.yaml.
   void dropLargeFiles() const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file SpreadTable.h
-/// @brief How the particles' spread goes over time: one run's steps.csv, and many runs together.
+/// @brief Particle spread over time, of one run (steps.csv) and over many runs.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ struct SpreadStep {
   Spread spread{};
 };
 
-/// The updates in a steps.csv, but for the first, which only begins the map: there is no spread yet.
-/// @throws std::runtime_error for a file that lacks a column or holds what is not a number
+/// The updates in a steps.csv except the first, which starts the map and has no spread.
+/// @throws std::runtime_error for a file with a missing column or a value that is not a number
 std::vector<SpreadStep> loadSpread(const std::string& file);
 
-/// Mean over the updates; zeros for none.
+/// Mean over the updates; zeros if there are none.
 Spread meanSpread(const std::vector<SpreadStep>& steps);
 
 /// Quartiles over runs at equally spaced times.
@@ -33,7 +33,7 @@ struct SpreadBands {
   std::array<std::vector<Quartiles>, kSpreads> bands;
 };
 
-/// At each time a run counts with its last update before; before its first, not at all.
+/// At each time a run contributes its last update so far, if any.
 SpreadBands spreadBands(const std::vector<std::vector<SpreadStep>>& runs, size_t times);
 
 }  // namespace hybrid_slam::comparison

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kZ95 = 1.959963984540054;  // of the normal distribution
 
-/// Twice the rank of each magnitude, so that mean ranks are whole numbers too.
+/// Twice the rank of each magnitude, so that mean ranks are integers.
 std::vector<size_t> doubledRanks(const std::vector<double>& magnitudes) {
   std::vector<size_t> ranks;
   for (const double m : magnitudes) {
@@ -53,7 +53,7 @@ double wilcoxonSignedRank(const std::vector<double>& differences) {
   size_t positive = 0, total = 0;
   for (size_t i = 0; i < ranks.size(); ++i) total += ranks[i], positive += isPositive[i] ? ranks[i] : 0;
 
-  // probability[s]: that the ranks with a plus add up to s if every sign is a fair coin's.
+  // probability[s]: that the positive ranks sum to s if all signs are equally likely.
   std::vector<double> probability(total + 1, 0);
   probability[0] = 1;
   for (const size_t rank : ranks)

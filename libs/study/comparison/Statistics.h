@@ -1,5 +1,5 @@
 /// @file Statistics.h
-/// @brief What a table over seeds is summarised by: quantiles, a rate's interval, paired tests.
+/// @brief Statistics over seeds: quantiles, interval of a rate, paired tests.
 #pragma once
 
 #include <cstddef>
@@ -24,16 +24,16 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// 95 % interval of a rate by Wilson's score (1927); [0, 1] for no trial.
+/// 95 % Wilson score interval of a rate (1927); [0, 1] without trials.
 Interval wilsonInterval(size_t successes, size_t trials);
 
-/// Two-sided p of Wilcoxon's signed-rank test (1945) on paired differences: exact, over all signs of the
-/// ranks that were seen, so that ties are no approximation; equal magnitudes share their mean rank, zeros are
-/// left out. 1 where nothing is left. Takes time in the third power of the number of differences.
+/// Two-sided p of Wilcoxon's signed-rank test (1945) on paired differences: exact over all signs of the
+/// observed ranks, also with ties. Equal magnitudes share their mean rank; zeros are dropped. 1 if no
+/// difference remains. Time is cubic in the number of differences.
 double wilcoxonSignedRank(const std::vector<double>& differences);
 
-/// Two-sided exact p of the sign test (for differences of 0/1 outcomes: McNemar's exact test); zeros are left
-/// out, 1 where nothing is left.
+/// Two-sided exact p of the sign test (for differences of 0/1 outcomes: McNemar's exact test); zeros are
+/// dropped; 1 if no difference remains.
 double signTest(const std::vector<double>& differences);
 
 /// median(a) / median(b) of paired samples.
@@ -42,9 +42,9 @@ struct MedianRatio {
   Interval interval;  ///< 95 %, by the percentile bootstrap over pairs
 };
 
-/// @param a,b   of equal length; a[i] and b[i] belong together
-/// @param seed  of the bootstrap's random numbers: same seed, same interval
-/// @returns nothing for no pair, or where a median to divide by is 0 in the sample or in a resample
+/// @param a,b   of equal length; a[i] and b[i] are paired
+/// @param seed  bootstrap seed; same seed, same interval
+/// @returns empty without pairs, or if the median of b is 0 in the sample or a resample
 std::optional<MedianRatio> medianRatio(const std::vector<double>& a, const std::vector<double>& b,
                                        uint64_t seed);
 

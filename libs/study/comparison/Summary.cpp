@@ -109,7 +109,7 @@ void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSumma
                     cell(s.successInterval.high), g > 0 ? cell(s.successSignP) : ""});
     else
       group.insert(group.end(), 5, "");
-    if (s.done == 0) {  // without figures, but not without a row
+    if (s.done == 0) {  // a row without figures
       row(group);
       out << std::string(13, ',') << '\n';
     }

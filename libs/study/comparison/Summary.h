@@ -1,5 +1,5 @@
 /// @file Summary.h
-/// @brief Groups of runs in figures, and each group against the first.
+/// @brief Summary of each group of runs, and its comparison with the first group.
 #pragma once
 
 #include <array>
@@ -16,14 +16,13 @@ namespace hybrid_slam::comparison {
 /// One figure over the finished runs of a group.
 struct FigureSummary {
   size_t runs = 0;
-  std::optional<Quartiles> quartiles;  ///< nothing for no run
-  /// Errors only: of these runs those that succeeded. Between runs that did and runs that did not, the median
-  /// over all says little of either.
+  std::optional<Quartiles> quartiles;  ///< empty without runs
+  /// Errors only: the successful ones of these runs. A median over successes and failures describes neither.
   size_t successfulRuns = 0;
   std::optional<double> successfulMedian;
 };
 
-/// One figure of a group against the first group's, over the seeds that both have finished.
+/// One figure of a group against the first group, over the seeds finished by both.
 struct PairedComparison {
   size_t pairs = 0;
   std::optional<MedianRatio> ratio;  ///< this group's median / the first group's
@@ -32,22 +31,22 @@ struct PairedComparison {
 
 struct GroupSummary {
   size_t done = 0, failed = 0;
-  /// Over finished and failed runs: a run that fails has not closed the loop. Nothing without a criterion.
+  /// Over finished and failed runs: a failed run is not a success. Empty without a criterion.
   std::optional<size_t> successes;
   double successRate = 0;
   Interval successInterval;  ///< Wilson, 95 %
-  double successSignP = 1;   ///< against the first group: McNemar's exact test over the seeds that both have
+  double successSignP = 1;   ///< against the first group: McNemar's exact test over common seeds
   std::array<FigureSummary, kFigures> figures;
-  std::array<std::optional<PairedComparison>, kFigures> paired;  ///< errors only; none in the first group
+  std::array<std::optional<PairedComparison>, kFigures> paired;  ///< errors only; empty for the first group
 
   size_t ended() const { return done + failed; }
   bool hasSuccessesAndFailures() const { return successes && *successes > 0 && *successes < ended(); }
 };
 
-/// @param results  all runs; the groups' order is that of their numbers
+/// @param results  all runs; groups are in order of their numbers
 std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>& results);
 
-/// One row for each group and figure.
+/// One row per group and figure.
 void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                   std::ostream& out);
 nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,

@@ -1,5 +1,5 @@
 /// @file TableLine.h
-/// @brief A line of a table that hybrid-slam wrote.
+/// @brief A line of a table written by hybrid-slam.
 #pragma once
 
 #include <sstream>

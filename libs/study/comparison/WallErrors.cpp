@@ -47,8 +47,8 @@ COccupancyGridMap2D loadGridMap(const std::string& file) {
     mrpt::io::CFileGZInputStream in;
     if (!in.open(file)) throw std::runtime_error("cannot be opened");
     mrpt::serialization::archiveFrom(in) >> map;
-  } catch (const std::exception&) {  // MRPT's texts run over many lines
-    throw std::runtime_error("no grid map can be read: " + file);
+  } catch (const std::exception&) {  // MRPT's messages span many lines
+    throw std::runtime_error("no readable grid map: " + file);
   }
   return map;
 }

@@ -1,5 +1,5 @@
 /// @file WallErrors.h
-/// @brief A grid map against the walls it should show: how far off its occupied cells are.
+/// @brief Distance of a grid map's occupied cells to the true walls.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,13 +19,13 @@ namespace hybrid_slam::comparison {
 /// row.
 std::vector<mrpt::math::TPoint2D> occupiedCells(const mrpt::maps::COccupancyGridMap2D& map);
 
-/// From the centres of the occupied cells to the nearest wall, m.
+/// Distances from the centres of the occupied cells to the nearest wall, m.
 struct WallErrors {
   double mean = 0, p95 = 0;
 };
 
-/// @param alignment  the map's frame in the floor plan's: the rigid alignment of the trajectory to the
-/// reference
+/// @param alignment  of the map's frame in the floor plan's: rigid alignment of the trajectory to the
+///                   reference
 /// @throws std::runtime_error for a map without occupied cells
 WallErrors wallErrors(const mrpt::maps::COccupancyGridMap2D& map, const simulation::FloorPlan& plan,
                       const mrpt::math::TPose2D& alignment);

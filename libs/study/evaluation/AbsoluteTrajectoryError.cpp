@@ -10,9 +10,9 @@ AteErrors absoluteTrajectoryError(const files::Trajectory& estimate, const files
                                   double tolerance) {
   const std::vector<PosePair> pairs = associate(estimate, reference, tolerance);
   if (pairs.size() < 2)
-    throw InputError("only one pose in common",
+    throw InputError("only one common pose",
                      "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
-                     "expected at least 2 to align them");
+                     "expected at least 2, to align the trajectories");
   AteErrors result;
   result.pairs = pairs.size();
   result.alignment = rigidAlignment(pairs);
@@ -34,7 +34,7 @@ mrpt::math::TPose2D rigidAlignment(const std::vector<PosePair>& pairs) {
     rx += pair.reference.x / n;
     ry += pair.reference.y / n;
   }
-  double dot = 0, cross = 0;  // of the estimate's and the reference's positions about their centroids
+  double dot = 0, cross = 0;  // of estimated and reference positions about their centroids
   for (const PosePair& pair : pairs) {
     const double ax = pair.estimate.x - ex, ay = pair.estimate.y - ey;
     const double bx = pair.reference.x - rx, by = pair.reference.y - ry;

@@ -1,5 +1,5 @@
 /// @file AbsoluteTrajectoryError.h
-/// @brief How far an estimated trajectory is from the reference as a whole.
+/// @brief Absolute trajectory error (ATE).
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,20 +14,20 @@
 namespace hybrid_slam::evaluation {
 
 struct AteErrors {
-  size_t pairs = 0;                 ///< poses of the estimate that have a reference
+  size_t pairs = 0;                 ///< poses with a reference pose
   ErrorStatistics translation;      ///< m
-  mrpt::math::TPose2D alignment{};  ///< the estimate's frame in the reference's frame; m, rad
+  mrpt::math::TPose2D alignment{};  ///< of the estimate's frame in the reference frame; m, rad
 };
 
-/// Distances between the positions of the reference and those of the estimate after the rigid motion (no
-/// scale) that makes their squares' sum least.
-/// @param tolerance  s; between a pose and the reference pose it is compared with
-/// @throws InputError if the two have fewer than 2 poses in common: any one position can be aligned away.
+/// Distances between reference and estimated positions after the rigid alignment (no scale) with the least
+/// sum of squares.
+/// @param tolerance  s; largest time difference between a pose and its reference pose
+/// @throws InputError if the two share fewer than 2 poses: a single position can always be aligned.
 AteErrors absoluteTrajectoryError(const files::Trajectory& estimate, const files::Trajectory& reference,
                                   double tolerance);
 
-/// The motion a of SE(2) with least sum |a + estimate - reference|^2 over the positions of the pairs: the
-/// planar case of Horn (1987) and Umeyama (1991).
+/// The rigid motion a in SE(2) that minimises sum |a + estimate - reference|^2 over the positions: the planar
+/// case of Horn (1987) and Umeyama (1991).
 mrpt::math::TPose2D rigidAlignment(const std::vector<PosePair>& pairs);
 
 }  // namespace hybrid_slam::evaluation

@@ -54,7 +54,7 @@ TEST(AbsoluteTrajectoryError, ByHand) {
 }
 
 TEST(AbsoluteTrajectoryError, DoesNotScale) {
-  // Twice as long: after alignment each end is half the difference away.
+  // Twice as long: after alignment each end is off by half the difference.
   const AteErrors e = absoluteTrajectoryError(alongX({0, 4}), alongX({0, 2}), 0.01);
   EXPECT_NEAR(e.translation.rmse, 1, 1e-12);
   EXPECT_NEAR(e.translation.max, 1, 1e-12);
@@ -140,7 +140,7 @@ TEST(AbsoluteTrajectoryError, NeedsTwoPosesInCommon) {
   EXPECT_EQ(errorOf({{1, {}}, {2, {}}}, {{5.5, {}}, {4, {}}}),
             "the reference does not overlap the trajectory in time: trajectory 1.000..2.000 s, reference "
             "4.000..5.500 s; expected poses within 0.02 s of each other");
-  EXPECT_THAT(errorOf({{1, {}}, {2, {}}}, {{1, {}}}), HasSubstr("only one pose in common"));
+  EXPECT_THAT(errorOf({{1, {}}, {2, {}}}, {{1, {}}}), HasSubstr("only one common pose"));
   EXPECT_THAT(errorOf({}, {{1, {}}}), HasSubstr("trajectory without poses"));
   EXPECT_THAT(errorOf({{1, {}}}, {}), HasSubstr("reference without poses"));
 }

@@ -1,5 +1,5 @@
 /// @file Association.h
-/// @brief Which pose of the reference belongs to which pose of the estimate.
+/// @brief Association of estimated and reference poses by time.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -13,16 +13,16 @@ namespace hybrid_slam::evaluation {
 
 struct PosePair {
   double timestamp = 0;                         ///< of the estimate, s
-  mrpt::math::TPose2D estimate{}, reference{};  ///< each in the frame of its own trajectory; m, rad
+  mrpt::math::TPose2D estimate{}, reference{};  ///< each in its trajectory's frame; m, rad
 };
 
-/// Each pose of the estimate, in its file order, with the pose of the reference that is nearest in time;
-/// poses without a reference within the tolerance (s) are left out.
-/// @throws InputError if none is left: the two do not overlap in time.
+/// Each estimated pose, in file order, with the reference pose nearest in time; poses without one within the
+/// tolerance (s) are skipped.
+/// @throws InputError if there is no pair: the trajectories do not overlap in time.
 std::vector<PosePair> associate(const files::Trajectory& estimate, const files::Trajectory& reference,
                                 double tolerance);
 
-/// "12.5..20.25 s", from the smallest to the largest stamp, for error messages.
+/// "12.5..20.25 s", from the smallest to the largest timestamp, for error messages.
 std::string timeSpan(const files::Trajectory& trajectory);
 
 }  // namespace hybrid_slam::evaluation

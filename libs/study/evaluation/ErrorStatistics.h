@@ -1,5 +1,5 @@
 /// @file ErrorStatistics.h
-/// @brief What is reported of a set of error magnitudes.
+/// @brief Statistics of error magnitudes.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@ namespace hybrid_slam::evaluation {
 struct ErrorStatistics {
   double rmse = 0;
   double mean = 0;
-  double median = 0;  ///< of an even number of errors the upper of the two in the middle
-  double std = 0;     ///< of these errors, not of a population they are drawn from: the sum is divided by n
+  double median = 0;  ///< for an even number, the upper of the two middle errors
+  double std = 0;     ///< of the errors themselves, not of a population: the sum is divided by n
   double max = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file OdometryBridge.h
-/// @brief Where the robot was between two poses of a trajectory, carried there by its odometry.
+/// @brief Interpolates a trajectory with odometry.
 #pragma once
 
 #include <map>
@@ -10,22 +10,22 @@
 
 namespace hybrid_slam::evaluation {
 
-/// A filter that updates every metre says nothing about the moments between. The bridge does: the pose at an
-/// odometry row r is the last trajectory pose a at or before it, composed with the odometry's motion from
-/// there; what then misses the next trajectory pose b is spread over the rows in between, in equal parts.
+/// A filter gives poses only at its updates. Between two of them, the pose at an odometry row is the last
+/// trajectory pose composed with the odometry since; the closing error at the next trajectory pose is spread
+/// equally over the rows in between.
 ///
-/// Before and after are meant in the odometry's file order, which is the truth where stamps step back.
+/// Order is the odometry's file order, since timestamps may step back.
 class OdometryBridge {
  public:
-  /// Dense odometry has a row at each time that is asked for; the next row is often only 0.01 s away, so
-  /// that a wider match would be a match with another reading. s.
+  /// s. Dense odometry has a row at each queried time, and the next row is often only 0.01 s away: a larger
+  /// tolerance would match the wrong reading.
   static constexpr double kWidestTolerance = 0.006;
 
-  /// @param odometry   `t x y theta` rows in the order the robot logged them; must outlive the bridge
-  /// @param tolerance  s; how far a stamp may be from its odometry row, at most kWidestTolerance
+  /// @param odometry   `t x y theta` rows in log order; must outlive the bridge
+  /// @param tolerance  s; largest time difference to an odometry row, at most kWidestTolerance
   OdometryBridge(const files::Trajectory& trajectory, const files::Trajectory& odometry, double tolerance);
 
-  /// Empty where no odometry row lies within the tolerance, and before the first pose of the trajectory.
+  /// Empty without an odometry row within the tolerance, and before the first trajectory pose.
   std::optional<mrpt::math::TPose2D> poseAt(double timestamp) const;
 
  private:

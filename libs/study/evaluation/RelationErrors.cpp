@@ -77,9 +77,9 @@ RelationErrors evaluateRelations(const files::Trajectory& trajectory, const std:
   }
   throw InputError("no usable relation",
                    "trajectory " + timeSpan(trajectory) + ", relations " + timeSpan(ends),
-                   odometry ? "expected both times of a relation at odometry rows after the first pose"
-                            : "expected poses at both times of a relation; a wider tolerance or odometry "
-                              "between the poses may help");
+                   odometry ? "expected odometry rows at both times of a relation, after the first pose"
+                            : "expected poses at both times of a relation; try a larger tolerance or "
+                              "odometry between the poses");
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -13,7 +13,7 @@
 
 namespace hybrid_slam::evaluation {
 
-/// What is known of the truth: how the robot stood at t2, seen from where it was at t1.
+/// A reference relation: the robot's pose at t2 relative to its pose at t1.
 struct Relation {
   double t1 = 0, t2 = 0;         ///< s
   mrpt::math::TPose2D motion{};  ///< pose at t2 in the robot frame at t1; m, rad
@@ -24,16 +24,16 @@ struct Relation {
 std::vector<Relation> loadRelations(const std::string& file);
 
 struct RelationErrors {
-  size_t relations = 0;         ///< that were given
-  size_t used = 0;              ///< whose two times have a pose
+  size_t relations = 0;         ///< given
+  size_t used = 0;              ///< relations with a pose at both times
   ErrorStatistics translation;  ///< m
   ErrorStatistics rotation;     ///< rad
 };
 
-/// The errors inverse(motion) + (inverse(p1) + p2) over the relations whose poses p1, p2 at t1, t2 are known.
+/// The errors inverse(motion) + (inverse(p1) + p2) over the relations with known poses p1, p2 at t1, t2.
 ///
-/// Without odometry a pose is the trajectory's nearest in time within the tolerance; of several with the same
-/// stamp the one that comes last in the order of (x, y, phi). With odometry it is that of the OdometryBridge.
+/// Without odometry, a pose is the trajectory pose nearest in time within the tolerance; of several with the
+/// same timestamp, the last in (x, y, phi) order. With odometry, OdometryBridge gives the pose.
 /// @param odometry   may be null
 /// @param tolerance  s
 /// @throws InputError if no relation can be used.

@@ -12,7 +12,7 @@
 namespace hybrid_slam::evaluation {
 namespace {
 
-/// Time (s) or way along the reference (m) at each pair; grows from pair to pair.
+/// Time (s) or distance along the reference (m) at each pair; ascending.
 std::vector<double> progressAlong(const std::vector<PosePair>& pairs, RpeDelta::Unit unit) {
   std::vector<double> result;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<double> progressAlong(const std::vector<PosePair>& pairs, RpeDelta::
   return result;
 }
 
-/// The index after i, which is not the last, whose progress is nearest to the target.
+/// The index after i (not the last) whose progress is closest to the target.
 size_t nearestAfter(const std::vector<double>& progress, size_t i, double target) {
   const auto first = std::next(progress.begin(), static_cast<std::ptrdiff_t>(i) + 1);
   auto nearest = std::lower_bound(first, progress.end(), target);
@@ -40,7 +40,7 @@ size_t nearestAfter(const std::vector<double>& progress, size_t i, double target
 RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Trajectory& reference,
                             const RpeDelta& delta, double tolerance) {
   constexpr double kLengthTolerance = 0.1;  // of delta
-  constexpr double kRounding = 1e-6;        // s or m; of stamps in files
+  constexpr double kRounding = 1e-6;        // s or m; of timestamps in files
   std::vector<PosePair> pairs = associate(estimate, reference, tolerance);
   if (delta.unit == RpeDelta::Unit::seconds)
     std::stable_sort(pairs.begin(), pairs.end(),
@@ -50,7 +50,7 @@ RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Traj
   std::vector<double> translations, rotations;
   for (size_t i = 0; i + 1 < pairs.size(); ++i) {
     const double target = at[i] + delta.length;
-    if (at.back() < target - kRounding) break;  // cut short by the end: these would all be too short
+    if (at.back() < target - kRounding) break;  // end of the trajectory: all later pairs would be too short
     const size_t j = nearestAfter(at, i, target);
     if (std::abs(at[j] - target) > kLengthTolerance * delta.length) continue;
     const PosePair &first = pairs[i], &last = pairs[j];
@@ -60,9 +60,10 @@ RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Traj
   }
   if (translations.empty()) {
     std::ostringstream what;
-    what << "no stretch of " << delta.length << (delta.unit == RpeDelta::Unit::seconds ? " s" : " m");
+    what << "no pose pairs " << delta.length << (delta.unit == RpeDelta::Unit::seconds ? " s" : " m")
+         << " apart";
     throw InputError(what.str(), "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
-                     "expected two poses that far apart, within 10 %");
+                     "expected two poses this far apart, within 10 %");
   }
   RpeErrors result;
   result.pairs = translations.size();

@@ -1,5 +1,5 @@
 /// @file RelativePoseError.h
-/// @brief How much an estimated trajectory drifts over a stretch of time or way.
+/// @brief Relative pose error (RPE): drift over a fixed time or distance.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::evaluation {
 
-/// The length of the stretch.
+/// The time or distance between the two poses of a pair.
 struct RpeDelta {
   enum class Unit { seconds, metres };
   double length = 1;
@@ -17,17 +17,17 @@ struct RpeDelta {
 };
 
 struct RpeErrors {
-  size_t pairs = 0;             ///< stretches
+  size_t pairs = 0;             ///< pose pairs
   ErrorStatistics translation;  ///< m
   ErrorStatistics rotation;     ///< rad
 };
 
 /// The errors inverse(inverse(r_i) + r_j) + (inverse(p_i) + p_j) of the estimate p against the reference r.
-/// Every pose i begins one stretch; it ends at the pose j whose time, or way along the reference, after i is
-/// nearest to delta, and counts if it is so within 10 % and the trajectory does not end before. Time is by
-/// stamp; way adds up in file order.
-/// @param tolerance  s; between a pose and the reference pose it is compared with
-/// @throws InputError if the two do not overlap in time or hold no stretch of that length.
+/// Each pose i is paired with the later pose j whose time, or distance along the reference, from i is closest
+/// to delta. A pair counts if it is within 10 % of delta and the trajectory does not end before. Distance
+/// adds up in file order.
+/// @param tolerance  s; largest time difference between a pose and its reference pose
+/// @throws InputError if the two do not overlap in time or have no poses that far apart.
 RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Trajectory& reference,
                             const RpeDelta& delta, double tolerance);
 

@@ -148,11 +148,12 @@ TEST(RelativePoseError, NoStretchOfThatLength) {
     }
     return "no error";
   };
-  EXPECT_EQ(errorOf(reference, {2, Unit::metres}),
-            "no stretch of 2 m: trajectory 0.000..1.000 s, reference 0.000..1.000 s; expected two poses that "
-            "far apart, within 10 %");
-  EXPECT_THAT(errorOf(reference, {5, Unit::seconds}), HasSubstr("no stretch of 5 s"));
-  EXPECT_THAT(errorOf({{0, {}}}, {1, Unit::seconds}), HasSubstr("no stretch of 1 s"));
+  EXPECT_EQ(
+      errorOf(reference, {2, Unit::metres}),
+      "no pose pairs 2 m apart: trajectory 0.000..1.000 s, reference 0.000..1.000 s; expected two poses this "
+      "far apart, within 10 %");
+  EXPECT_THAT(errorOf(reference, {5, Unit::seconds}), HasSubstr("no pose pairs 5 s apart"));
+  EXPECT_THAT(errorOf({{0, {}}}, {1, Unit::seconds}), HasSubstr("no pose pairs 1 s apart"));
   EXPECT_THAT(errorOf({{7, {}}}, {1, Unit::seconds}), HasSubstr("does not overlap"));
 }
 

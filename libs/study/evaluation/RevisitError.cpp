@@ -17,18 +17,18 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kTimeTolerance = 0.001;  // s
-constexpr double kReach = 0.5;            // m; no farther away is what a point is compared with
+constexpr double kReach = 0.5;            // m; largest distance to a compared point
 constexpr double kMaxGap = 0.3;           // m; between end points of neighbouring beams on one wall
-constexpr double kFewest = 0.3;           // share of a scan's points that are to be compared
+constexpr double kFewest = 0.3;           // least fraction of a scan's points compared
 
 struct PlacedScan {
   TPose2D pose;          // m, rad
-  double way = 0;        // m, driven up to here
-  size_t begin, end;     // its rows in PlacedPoints
-  bool earlier = false;  // revisited by the scan in hand
+  double way = 0;        // m, distance driven so far
+  size_t begin, end;     // rows in PlacedPoints
+  bool earlier = false;  // revisited by the current scan
 };
 
-/// The end points of all scans in the map, in the form that nanoflann asks for.
+/// The end points of all scans in the map, as a nanoflann data set.
 struct PlacedPoints {
   std::vector<TPoint2D> at;    // m
   std::vector<size_t> scanOf;  // row of the scan
@@ -44,7 +44,7 @@ struct PlacedPoints {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PlacedPoints>,
                                                  PlacedPoints, 2, size_t>;
 
-/// What nanoflann finds: the nearest point within kReach that belongs to an earlier scan.
+/// nanoflann result set: the nearest point within kReach that belongs to an earlier scan.
 class NearestEarlier {
  public:
   NearestEarlier(const PlacedPoints& points, const std::vector<PlacedScan>& scans)
@@ -73,7 +73,7 @@ double distanceToSegment(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b
   return (ap - ab * share).norm();
 }
 
-/// Distance (m) from p to the wall as the earlier scan saw it around its end point `i`.
+/// Distance (m) from p to the wall seen by the earlier scan around its end point `i`.
 double distanceToWall(const TPoint2D& p, const PlacedPoints& points, const PlacedScan& seen, size_t i) {
   const TPoint2D& nearest = points.at[i];
   double distance = (p - nearest).norm();
@@ -118,7 +118,7 @@ std::vector<PlacedScan> place(const files::Trajectory& trajectory,
   return placed;
 }
 
-/// Marks what the scan revisits; says if it is anything with end points.
+/// Marks the scans that this scan revisits. @return whether any has end points
 bool markEarlier(std::vector<PlacedScan>& scans, const PlacedScan& scan, const RevisitOptions& options) {
   bool any = false;
   for (PlacedScan& other : scans) {

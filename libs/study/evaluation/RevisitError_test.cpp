@@ -17,7 +17,7 @@ using mrpt::math::TPose2D;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// A drive: the poses that a trajectory claims, and what the robot saw at those where it really was.
+/// A drive: the poses of a trajectory, and the scans at the true poses.
 struct Drive {
   files::Trajectory trajectory;
   std::vector<readings::EndPoints> scans;
@@ -32,8 +32,8 @@ struct Drive {
   }
 };
 
-/// What a laser of 360 beams all around sees, up to `maxRange`, of walls at x = +-halfLength and
-/// y = +-halfWidth.
+/// Scan of a 360 deg laser with 360 beams, up to `maxRange`, of walls at x = +-halfLength and y =
+/// +-halfWidth.
 std::vector<TPoint2D> look(const TPose2D& robot, double halfLength, double halfWidth, double maxRange) {
   std::vector<TPoint2D> points;
   for (int degree = -180; degree < 180; ++degree) {
@@ -149,8 +149,8 @@ RevisitErrors seenAgain(const std::vector<TPoint2D>& first, const std::vector<st
 
 TEST(RevisitError, DistanceIsToTheWallBetweenBeamsNearEachOther) {
   const std::vector<TPoint2D> gapOf02{{0, 1}, {0.2, 1}}, gapOf04{{0, 1}, {0.4, 1}};
-  EXPECT_NEAR(seenAgain(gapOf02, {{{0.05, 1.03}}}).error.max, 0.03, 1e-12);   // to the next beam's
-  EXPECT_NEAR(seenAgain(gapOf02, {{{0.15, 1.03}}}).error.max, 0.03, 1e-12);   // to the one's before
+  EXPECT_NEAR(seenAgain(gapOf02, {{{0.05, 1.03}}}).error.max, 0.03, 1e-12);   // to the next beam's point
+  EXPECT_NEAR(seenAgain(gapOf02, {{{0.15, 1.03}}}).error.max, 0.03, 1e-12);   // to the previous beam's point
   EXPECT_NEAR(seenAgain(gapOf02, {{{-0.04, 1.03}}}).error.max, 0.05, 1e-12);  // beyond the wall's end
   EXPECT_NEAR(seenAgain(gapOf04, {{{0.04, 1.03}}}).error.max, 0.05, 1e-12);
 }
@@ -183,7 +183,7 @@ TEST(RevisitError, ThirtyPercentOfTheBeamsAreEnough) {
 TEST(RevisitError, FiguresOfSeveralRevisits) {
   std::vector<std::vector<TPoint2D>> again;
   for (int i = 20; i >= 1; --i) again.push_back({{0, 1 + 0.01 * i}});
-  again.push_back({});  // sees nothing: revisits nothing
+  again.push_back({});  // no end points: no revisit
   const RevisitErrors e = seenAgain({{0, 1}}, again);
   EXPECT_EQ(e.scans, 23u);
   EXPECT_EQ(e.revisits, 20u);

@@ -1,5 +1,5 @@
 /// @file StampIndex.h
-/// @brief The row of a table that is nearest in time.
+/// @brief Finds the row of a trajectory nearest in time.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace hybrid_slam::evaluation {
 
-/// Timestamps of a trajectory in order of time, each with the row where it stands.
+/// The timestamps of a trajectory in ascending order, each with its row.
 class StampIndex {
  public:
   explicit StampIndex(const files::Trajectory& trajectory);
 
-  /// The row nearest to `timestamp` if it is at most `tolerance` away (both in s). Of two rows equally far
-  /// the earlier one; of rows with the same stamp the last if it is not after `timestamp`, else the first.
+  /// The row nearest to `timestamp` within `tolerance` (both in s). Of two rows at equal distance, the
+  /// earlier; of rows with the same timestamp, the last if it is not after `timestamp`, else the first.
   std::optional<size_t> nearest(double timestamp, double tolerance) const;
 
  private:

@@ -13,7 +13,7 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-constexpr double kTolerance = 1e-3;  // m: what a person's typing may be off by
+constexpr double kTolerance = 1e-3;  // m: tolerance for hand-typed coordinates
 
 /// Points of a record whose numbers come in pairs.
 std::vector<TPoint2D> pointsOf(const Record& record, size_t atLeast) {
@@ -27,7 +27,7 @@ std::vector<TPoint2D> pointsOf(const Record& record, size_t atLeast) {
   return points;
 }
 
-/// Builds the walls record by record; doors and recesses wait until all walls are known.
+/// Builds the walls record by record; doors and recesses are applied after all walls are known.
 class WallBuilder {
  public:
   void add(const Record& record);
@@ -46,8 +46,8 @@ void WallBuilder::addChain(const std::vector<TPoint2D>& points, const Record& re
   for (size_t i = 1; i < points.size(); ++i) {
     if ((points[i] - points[i - 1]).norm() < kTolerance)
       throw InputError("wall of zero length", record.where,
-                       "expected two ends of each wall at least 1 mm apart (point " + std::to_string(i + 1) +
-                           " repeats the one before)");
+                       "expected the ends of each wall at least 1 mm apart (point " + std::to_string(i + 1) +
+                           " repeats the previous one)");
     walls_.push_back(Wall::straight(points[i - 1], points[i]));
   }
 }
@@ -92,7 +92,7 @@ void WallBuilder::add(const Record& record) {
   }
 }
 
-/// Takes the stretch from..to out of the straight walls that run along it.
+/// Removes the section from..to from the straight walls along it.
 void WallBuilder::cut(const TPoint2D& from, const TPoint2D& to, const Record& record) {
   double found = 0;
   std::vector<Wall> kept;

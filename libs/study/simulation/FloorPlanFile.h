@@ -1,5 +1,5 @@
 /// @file FloorPlanFile.h
-/// @brief Floor plans as text: the words of doc/simulation.md into walls.
+/// @brief Parses floor plan files (doc/simulation.md).
 #pragma once
 
 #include <string>

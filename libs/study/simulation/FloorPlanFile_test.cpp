@@ -90,7 +90,7 @@ TEST(FloorPlanFile, ErrorsNameTheLineAndWhatWasExpected) {
   EXPECT_THAT(errorOf("wall 0 0 1 0x\n"), HasSubstr("`0x` is not a number"));
   EXPECT_THAT(errorOf("wall 0 0 1 nan\n"), HasSubstr("`nan` is not a number"));
   EXPECT_THAT(errorOf("wall 1 2 1 2\n"), AllOf(HasSubstr("zero length"), HasSubstr(", line 1; ")));
-  EXPECT_THAT(errorOf("polyline 0 0 1 0 1 0 2 0\n"), HasSubstr("point 3 repeats the one before"));
+  EXPECT_THAT(errorOf("polyline 0 0 1 0 1 0 2 0\n"), HasSubstr("point 3 repeats the previous one"));
   EXPECT_THAT(errorOf("polyline 0 0 1\n"), HasSubstr("`polyline` with 3 numbers"));
   EXPECT_THAT(errorOf("wall 0 0 1 1\npolygon 0 0 3 0 3 4 0 1\n"),
               AllOf(HasSubstr("polygon is not closed"), HasSubstr(", line 2; ")));

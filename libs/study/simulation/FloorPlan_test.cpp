@@ -139,7 +139,7 @@ TEST(FloorPlan, TheIndexAgreesWithLookingAtEveryWall) {
     const FloorPlan plan(walls);
     const TPoint2D extent = plan.upperRight() - plan.lowerLeft();
     for (int i = 0; i < 200; ++i) {
-      // Half as far again as the walls on each side, so that rays start outside too.
+      // 1.5 times the extent of the walls, so that rays also start outside.
       const TPoint2D p(plan.lowerLeft().x + (2 * random.uniform() - 0.5) * extent.x,
                        plan.lowerLeft().y + (2 * random.uniform() - 0.5) * extent.y);
       const double heading = randomHeading(random), maxRange = random.uniform() * 3 * extent.norm();

@@ -15,13 +15,13 @@ namespace hybrid_slam::simulation {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kEdge = 0.1;  // m: surfaces closer than this in range are one to a beam
+constexpr double kEdge = 0.1;  // m: surfaces closer in range than this appear as one
 
 }  // namespace
 
 const LaserSpec& laserSpec(LaserType type) {
   static const LaserSpec lms100{"LMS-100", 270, {{0.5, 50}, {0.25, 25}}, 20, 0.012, 0.001, 0.015};
-  // In the 80 m mode, which reads whole centimetres.
+  // 80 m mode, with readings in whole centimetres.
   static const LaserSpec lms200{"LMS-200", 180, {{1, 75}, {0.5, 37.5}}, 80, 0.010, 0.01, 0.0044};
   return type == LaserType::lms100 ? lms100 : lms200;
 }
@@ -46,20 +46,20 @@ Laser::Laser(const LaserOptions& options) : options_(options), spec_(laserSpec(o
     if (mode.resolutionDeg != options.resolutionDeg) continue;
     if (options.rate > mode.rate)
       throw InputError(
-          "the " + std::string(spec_.name) + " is not that fast", "section [laser], key `rate`",
+          "the " + std::string(spec_.name) + " is slower", "section [laser], key `rate`",
           "expected at most " + numberText(mode.rate) + " Hz at " + numberText(mode.resolutionDeg) + " deg");
     beamCount_ = static_cast<size_t>(std::lround(spec_.apertureDeg / mode.resolutionDeg)) + 1;
   }
   if (beamCount_ == 0)
-    throw InputError("the " + std::string(spec_.name) + " has no such resolution",
+    throw InputError("the " + std::string(spec_.name) + " does not have this resolution",
                      "section [laser], key `resolution_deg`", "expected " + known + " deg");
 }
 
-/// @return m, before rounding; infinity for nothing within range
+/// @return m, before rounding; infinity if nothing is in range
 double Laser::reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
                       RandomStream& random) const {
   constexpr double kNothing = std::numeric_limits<double>::infinity();
-  // Beyond the maximum noise may still bring a reading back into range.
+  // Noise may bring a reading beyond the maximum back into range.
   const double reach = spec_.maxRange + 10 * spec_.sigma;
   double range = plan.castRay(origin, heading, reach).value_or(kNothing);
   if (options_.mixedPixels) {

@@ -22,7 +22,7 @@ class FloorPlan;
 
 enum class LaserType { lms100, lms200 };
 
-/// What the data sheet says.
+/// Data sheet values.
 struct LaserSpec {
   struct Mode {
     double resolutionDeg;  ///< between beams
@@ -33,8 +33,8 @@ struct LaserSpec {
   std::vector<Mode> modes;
   double maxRange;     ///< m
   double sigma;        ///< m, standard deviation of a reading
-  double readingStep;  ///< m, what readings are rounded to
-  double divergence;   ///< rad, full angle of one beam: it sees both sides of an edge
+  double readingStep;  ///< m, readings are rounded to this
+  double divergence;   ///< rad, full angle of a beam, which hits both sides of an edge
 };
 
 const LaserSpec& laserSpec(LaserType type);
@@ -50,15 +50,15 @@ struct LaserOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// Takes scans as snapshots: all beams of a scan belong to one moment.
+/// Takes scans as snapshots: all beams at the same time.
 class Laser {
  public:
-  /// @throws InputError for a resolution or a rate that the sensor does not have
+  /// @throws InputError for a resolution or rate the sensor does not support
   explicit Laser(const LaserOptions& options);
 
   size_t beamCount() const { return beamCount_; }
-  /// A scan from `robotPose` (frame of the plan), label LASER, right to left, without timestamp. Beams that
-  /// come back from nowhere within the maximum range hold that range and are marked invalid.
+  /// A scan from `robotPose` (frame of the plan), label LASER, right to left, without timestamp. Beams
+  /// without a return have the maximum range and are marked invalid.
   mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
                                           RandomStream& random) const;
 

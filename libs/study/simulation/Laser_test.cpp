@@ -45,7 +45,7 @@ TEST(Laser, BeamCountsApertureAndRangeAreTheSensors) {
   check(LaserType::lms200, 0.5, 361, 180, 80);
 }
 
-/// Seen with the project's own reading of a scan: every beam's end lies on a wall.
+/// Read with toLaserScan: every beam's end point is on a wall.
 TEST(Laser, WithoutNoiseEveryBeamEndsOnAWall) {
   const FloorPlan plan(room());
   LaserOptions options = exactLms100();
@@ -168,7 +168,7 @@ std::string errorOf(const LaserOptions& options) {
 TEST(Laser, ModesThatTheSensorDoesNotHaveAreErrors) {
   LaserOptions options;
   options.resolutionDeg = 1;
-  EXPECT_THAT(errorOf(options), HasSubstr("the LMS-100 has no such resolution: section [laser], key "
+  EXPECT_THAT(errorOf(options), HasSubstr("the LMS-100 does not have this resolution: section [laser], key "
                                           "`resolution_deg`; expected 0.5 or 0.25 deg"));
   options.resolutionDeg = 0.25;
   options.rate = 50;

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kCheckStep = 0.02;  // m between the points where the path's clearance is checked
+constexpr double kCheckStep = 0.02;  // m between clearance checks along the path
 
 std::string positionText(const TPose2D& pose) {
   return "at (" + fixedText(pose.x, 2) + ", " + fixedText(pose.y, 2) + ")";
@@ -24,7 +24,7 @@ std::string positionText(const TPose2D& pose) {
 
 TPose2D Route::Piece::poseAfter(double seconds) const {
   const double distance = v * seconds, turn = omega * seconds;
-  // The chord of the arc, along the middle of the two headings.
+  // The chord of the arc, along the mean of the two headings.
   const double chord = std::abs(turn) < 1e-9 ? distance : distance * std::sin(turn / 2) / (turn / 2);
   return {start.x + chord * std::cos(start.phi + turn / 2), start.y + chord * std::sin(start.phi + turn / 2),
           start.phi + turn};
@@ -65,11 +65,11 @@ void Route::checkClear(const FloorPlan& plan, double robotRadius) const {
     for (int i = 1; i <= steps; ++i) {
       const TPose2D next = piece.poseAfter(piece.duration * i / steps);
       check(next, piece, "path hits a wall");
-      // A radius of 0 is never too near to a wall, but still may not cross it.
+      // A robot of radius 0 is never too close to a wall, but must not cross one.
       const double dx = next.x - last.x, dy = next.y - last.y;
       if (plan.castRay({last.x, last.y}, std::atan2(dy, dx), std::hypot(dx, dy)))
         throw InputError("path crosses a wall " + positionText(next), piece.where,
-                         "expected a way through free space");
+                         "expected a path through free space");
       last = next;
     }
   }

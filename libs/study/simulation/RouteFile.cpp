@@ -14,7 +14,7 @@ namespace {
 
 double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
 
-/// Drives the robot from record to record, writing down the pieces.
+/// Builds the pieces of the route record by record.
 class RouteBuilder {
  public:
   void add(const Record& record);
@@ -39,7 +39,7 @@ class RouteBuilder {
   double time_ = 0;
   double speed_ = 0.5;                  // m/s
   double turnSpeed_ = 45 * M_PI / 180;  // rad/s
-  std::optional<Corner> corner_;        // to be rounded once the point after it is known
+  std::optional<Corner> corner_;        // rounded once the next point is known
   std::vector<Route::Piece> pieces_;
 };
 
@@ -59,29 +59,27 @@ void RouteBuilder::turnTo(double heading, const Record& record) {
 
 void RouteBuilder::straightTo(const TPoint2D& target, const Record& record) {
   if (distanceTo(target) < 1e-3)
-    throw InputError("way point repeats the one before", record.where,
-                     "expected a way point at least 1 mm away");
+    throw InputError("repeated way point", record.where, "expected a way point at least 1 mm away");
   turnTo(headingTo(target), record);
   drive(speed_, 0, distanceTo(target) / speed_, record);
   pose_.x = target.x;
   pose_.y = target.y;
 }
 
-/// Up to the corner's tangent point, then round it towards `next`.
+/// Drives to the corner's tangent point, then along the arc towards `next`.
 void RouteBuilder::roundCorner(const TPoint2D& next) {
   const Corner corner = *corner_;
   corner_.reset();
   const double before = distanceTo(corner.point);
   const double after = std::hypot(next.x - corner.point.x, next.y - corner.point.y);
   if (before < 1e-3 || after < 1e-3)
-    throw InputError("way point repeats the one before", corner.record.where,
-                     "expected way points at least 1 mm apart");
+    throw InputError("repeated way point", corner.record.where, "expected way points at least 1 mm apart");
   const double heading = headingTo(corner.point);
   const double nextHeading = std::atan2(next.y - corner.point.y, next.x - corner.point.x);
   const double turn = wrapped(nextHeading - heading);
   const double tangent = corner.radius * std::tan(std::abs(turn) / 2);
   if (tangent > before + 1e-9 || tangent > after + 1e-9)
-    throw InputError("the curve does not fit between its neighbours", corner.record.where,
+    throw InputError("curve does not fit between its neighbours", corner.record.where,
                      "expected a smaller RADIUS or way points farther apart");
   if (before - tangent > 1e-6)
     straightTo(corner.point - TPoint2D(std::cos(heading), std::sin(heading)) * tangent, corner.record);

@@ -96,7 +96,7 @@ TEST(Route, ErrorsNameTheLine) {
   EXPECT_THAT(errorOf("start 0 0 0\nturn_speed -1\ngo 1 0\n"), HasSubstr("`turn_speed` is not positive"));
   EXPECT_THAT(errorOf("start 0 0 0\nwait -1\n"), HasSubstr("`wait` is not positive"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 0\ngo 1 1\n"), HasSubstr("`via` is not positive"));
-  EXPECT_THAT(errorOf("start 0 0 0\ngo 1 0\ngo 1 0\n"), HasSubstr("repeats the one before"));
+  EXPECT_THAT(errorOf("start 0 0 0\ngo 1 0\ngo 1 0\n"), HasSubstr("repeated way point"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 2\ngo 1 5\n"), HasSubstr("does not fit"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\ngo 5 1\n"), HasSubstr("does not fit"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\ngo 0 0\n"), HasSubstr("does not fit"));

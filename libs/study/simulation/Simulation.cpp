@@ -12,9 +12,9 @@ namespace hybrid_slam::simulation {
 namespace {
 
 constexpr double kOdometryPhase = 0.03;                    // s
-constexpr uint64_t kLaserStream = 1, kOdometryStream = 2;  // in place of RandomStream's particle
+constexpr uint64_t kLaserStream = 1, kOdometryStream = 2;  // used as RandomStream's particle index
 
-/// A moment at which something is read, or the motion or the wheels' grip changes.
+/// A time at which a sensor is read, the motion changes or the wheels slip.
 struct Event {
   enum Kind { motionChanges, slip, odometry, scan };
   double time;

@@ -1,5 +1,5 @@
 /// @file Simulation.h
-/// @brief A robot driven along a route through a floor plan, into observations and ground truth.
+/// @brief Simulates a robot on a route through a floor plan: observations and ground truth.
 #pragma once
 
 #include <mrpt/core/Clock.h>
@@ -24,11 +24,11 @@ struct TruePose {
   mrpt::math::TPose2D pose;
 };
 
-/// Everything one run produces, for use without files. `scans`, `groundTruth` and `odometryAtScans` go
-/// together, one entry a scan; `odometry` has its own times.
+/// Output of a simulation run. `scans`, `groundTruth` and `odometryAtScans` have one entry per scan;
+/// `odometry` has its own times.
 struct SimulatedLog {
   std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> scans;
-  std::vector<mrpt::math::TPose2D> odometryAtScans;  ///< the odometry's pose at the moment of each scan
+  std::vector<mrpt::math::TPose2D> odometryAtScans;  ///< odometry pose at each scan
   std::vector<mrpt::obs::CObservationOdometry::Ptr> odometry;
   std::vector<TruePose> groundTruth;
 };
@@ -46,9 +46,9 @@ struct SimulationOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// Scans at 0, 1/rate, 2/rate ... s; odometry readings at their own rate, 30 ms later in phase, as two
-/// devices of one robot are. The same options and seed give the same log.
-/// @throws InputError for a route that touches walls, or ends before the number of scans asked for
+/// Scans at 0, 1/rate, 2/rate ... s; odometry readings at their own rate with a phase offset of 30 ms, as for
+/// two devices. The same options and seed give the same log.
+/// @throws InputError for a route that touches walls, or is too short for the number of scans
 SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
                       const LaserOptions& laser, const OdometryOptions& odometry);
 

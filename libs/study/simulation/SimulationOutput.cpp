@@ -23,11 +23,11 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-/// The action whose increment takes one odometry pose to the next.
+/// The action with the increment between two odometry poses.
 mrpt::obs::CActionCollection actionBetween(const mrpt::math::TPose2D& before,
                                            const mrpt::math::TPose2D& after,
                                            mrpt::Clock::time_point timestamp) {
-  // To 1 um and 1 urad: the bits below differ from one processor's sine to another's.
+  // To 1 um and 1 urad: lower bits depend on the processor's sine.
   const auto rounded = [](double v) { return std::round(v * 1e6) / 1e6; };
   const mrpt::math::TPose2D step = after - before;
   mrpt::obs::CActionRobotMovement2D movement;
@@ -94,7 +94,7 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
 
 namespace {
 
-/// The bytes of a gzip file, best compression, no name and no time in its head.
+/// A gzip file in memory, best compression, without name and time in the header.
 bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
   z_stream z{};
   constexpr int kGzip = 15 + 16, kMemoryLevel = 8;
@@ -116,7 +116,7 @@ void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
   auto archive = mrpt::serialization::archiveFrom(plain);
   for (const auto& entry : rawlog) archive << *entry;
   const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
-  // MRPT's own compressor goes through a temporary file that two programs at a time may share.
+  // MRPT's compressor uses a temporary file that concurrent programs may share.
   std::vector<uint8_t> zipped;
   const bool done = gzip({bytes, bytes + plain.getTotalBytesCount()}, zipped);
   std::ofstream out(file, std::ios::binary);

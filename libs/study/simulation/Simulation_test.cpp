@@ -42,7 +42,7 @@ struct TestDrive {
   }
 };
 
-/// The truth as odometry would show it: from the start's frame.
+/// The truth as ideal odometry: in the frame of the start.
 TPose2D fromStart(const TestDrive& drive, const TPose2D& pose) { return pose - drive.route.poseAt(0); }
 
 void expectSamePose(const TPose2D& a, const TPose2D& b, double position, double angle) {

@@ -11,7 +11,7 @@ using mrpt::math::TPoint2D;
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-/// Rays may not slip through the joint of two walls for want of the last bits of a product.
+/// Tolerance, so that rays do not slip through the joint of two walls by rounding.
 constexpr double kSlack = 1e-9;  // m
 
 double cross(const TPoint2D& a, const TPoint2D& b) { return a.x * b.y - a.y * b.x; }

@@ -8,7 +8,7 @@ namespace hybrid_slam::simulation {
 
 /// A wall without thickness, in the frame of the floor plan (m, rad).
 struct Wall {
-  mrpt::math::TPoint2D start, end;  ///< an arc's too
+  mrpt::math::TPoint2D start, end;  ///< also for an arc
   mrpt::math::TPoint2D centre;      ///< arc only
   double radius = 0;                ///< m; 0 for a straight wall
   double startAngle = 0;            ///< rad; arc only
@@ -20,11 +20,11 @@ struct Wall {
   bool isArc() const { return radius > 0; }
   double length() const;                                 ///< m
   mrpt::math::TPoint2D pointAt(double fraction) const;   ///< 0: start, 1: end
-  double distance(const mrpt::math::TPoint2D& p) const;  ///< m, from p to the wall's nearest point
+  double distance(const mrpt::math::TPoint2D& p) const;  ///< m, from p to the nearest point of the wall
 };
 
-/// Distance (m, >= 0) from `origin` along the unit vector `direction` to the wall; infinity for a miss.
-/// A ray along a straight wall meets its nearer end.
+/// Distance (m, >= 0) from `origin` along the unit vector `direction` to the wall; infinity for a miss. A ray
+/// along a straight wall hits its nearer end.
 double rayDistance(const Wall& wall, const mrpt::math::TPoint2D& origin,
                    const mrpt::math::TPoint2D& direction);
 

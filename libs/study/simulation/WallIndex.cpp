@@ -15,7 +15,7 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kMinCellSize = 0.5;  // m; about the length of the shortest walls, jambs and pillars
 constexpr double kMaxCells = 4e5;
 
-/// The axis-aligned box of a wall; an arc's is that of its whole circle, which is never too small.
+/// The axis-aligned box of a wall; for an arc, that of the full circle, which is conservative.
 std::pair<TPoint2D, TPoint2D> boxOf(const Wall& wall) {
   if (wall.isArc())
     return {wall.centre - TPoint2D(wall.radius, wall.radius),
@@ -43,7 +43,7 @@ WallIndex::WallIndex(std::vector<Wall> walls) : walls_(std::move(walls)) {
   cells_.resize(static_cast<size_t>(columns_) * rows_);
   for (size_t i = 0; i < walls_.size(); ++i) {
     const auto [low, high] = boxOf(walls_[i]);
-    // One cell more on each side: a wall on the border of two cells belongs to both.
+    // One more cell on each side: a wall on the border of two cells belongs to both.
     const int lastColumn = std::min(columns_ - 1, columnOf(high.x) + 1);
     const int lastRow = std::min(rows_ - 1, rowOf(high.y) + 1);
     for (int row = std::max(0, rowOf(low.y) - 1); row <= lastRow; ++row)
@@ -60,7 +60,7 @@ int WallIndex::rowOf(double y) const {
   return static_cast<int>(std::clamp(std::floor((y - low_.y) / cellSize_), 0.0, rows_ - 1.0));
 }
 
-/// Never a false no: the cell's circumscribed circle, a little larger than the cell, stands for the cell.
+/// No false negatives: tests the cell's circumscribed circle.
 bool WallIndex::mayTouch(const Wall& wall, int column, int row) const {
   const TPoint2D centre(low_.x + (column + 0.5) * cellSize_, low_.y + (row + 0.5) * cellSize_);
   return wall.distance(centre) <= cellSize_ * M_SQRT1_2 + 1e-6;
@@ -99,7 +99,7 @@ double WallIndex::rayDistance(const TPoint2D& origin, const TPoint2D& direction,
     for (const int i : cells_[cellNumber(column, row)])
       nearest = std::min(nearest, simulation::rayDistance(walls_[i], origin, direction));
     const double exit = std::min(nextColumn, nextRow);
-    // The margin keeps a hit on the border of two cells from being overtaken by one farther away.
+    // The margin keeps a farther hit from replacing one on the border of two cells.
     if (nearest <= exit - 1e-9 || exit > leave + 1e-9) break;
     if (nextColumn < nextRow) {
       column += columnStep;
@@ -118,8 +118,8 @@ double WallIndex::nearestDistance(const TPoint2D& p) const {
   if (walls_.empty()) return kNone;
   const int column = columnOf(p.x), row = rowOf(p.y);
   double nearest = kNone;
-  // Square rings of cells around p; every wall of ring k and beyond is at least (k - 1) cells away, also
-  // where p lies outside the grid and the rings are drawn around the nearest cell.
+  // Square rings of cells around p; every wall of ring k and beyond is at least (k - 1) cells away, even if p
+  // is outside the grid and the rings are centred on the nearest cell.
   for (int ring = 0; ring < std::max(columns_, rows_) && (ring - 1) * cellSize_ <= nearest; ++ring)
     for (int r = std::max(0, row - ring); r <= std::min(rows_ - 1, row + ring); ++r) {
       const bool whole = std::abs(r - row) == ring;

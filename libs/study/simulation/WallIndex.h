@@ -1,5 +1,5 @@
 /// @file WallIndex.h
-/// @brief A uniform grid over the walls of a plan, so that a ray looks only at the walls on its way.
+/// @brief A uniform grid over the walls of a plan, so that a ray tests only nearby walls.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -11,8 +11,8 @@
 
 namespace hybrid_slam::simulation {
 
-/// Each cell lists the walls that may touch it; a ray visits the cells in the order in which it crosses
-/// them (Amanatides & Woo 1987) and stops at the first hit that lies within the cell being visited.
+/// Each cell lists the walls that may touch it. A ray visits the cells in order of crossing (Amanatides & Woo
+/// 1987) and stops at the first hit inside the current cell.
 class WallIndex {
  public:
   explicit WallIndex(std::vector<Wall> walls);
@@ -21,10 +21,10 @@ class WallIndex {
   const mrpt::math::TPoint2D& low() const { return low_; }    ///< m, lower left corner of all walls
   const mrpt::math::TPoint2D& high() const { return high_; }  ///< m, upper right corner
 
-  /// m; infinity where no wall is met within maxRange
+  /// m; infinity without a hit within maxRange
   double rayDistance(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& direction,
                      double maxRange) const;
-  /// m; infinity where there are no walls
+  /// m; infinity without walls
   double nearestDistance(const mrpt::math::TPoint2D& p) const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file WheelOdometry.h
-/// @brief What the wheels of a Pioneer 3-DX tell about a motion: systematic and random error, and slips.
+/// @brief Wheel odometry of a Pioneer 3-DX with systematic and random errors and slips.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,14 +15,13 @@ class RandomStream;
 
 namespace hybrid_slam::simulation {
 
-/// Error parameters in the form of Eliazar and Parr: a true motion of d metres forwards and t radians reads
-/// as D forwards, C sideways (to the left), T of rotation. For X in {D, C, T}
+/// Error parameters after Eliazar and Parr: a true motion of d metres forwards and t radians is measured as D
+/// forwards, C sideways (to the left), T of rotation. For X in {D, C, T}
 ///
 ///     X ~ N(d meanXd + t meanXt,  |d| sigmaXd^2 + |t| sigmaXt^2).
 ///
-/// Unlike theirs, the variance grows with |d|, not with d^2, so that the error of a path does not depend on
-/// into how many readings it is cut. Over steps of one length d0 the two are the same with s_Xd = sigmaXd^2 /
-/// d0.
+/// Unlike theirs, the variance grows with |d|, not d^2, so that the error of a path does not depend on the
+/// number of readings. For steps of equal length d0 the two agree with s_Xd = sigmaXd^2 / d0.
 struct OdometryOptions : Options {
   double rate = 10;
   double meanDd = 1.01, meanDt = 0;         ///< m/m, m/rad
@@ -37,7 +36,7 @@ struct OdometryOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// At `time` (s from the start) the odometry shows so much rotation (rad) and forward motion (m) too much.
+/// At `time` (s from the start) the odometry gains this rotation (rad) and forward motion (m).
 struct Slip {
   double time = 0, rotation = 0, distance = 0;
 };
@@ -45,18 +44,18 @@ struct Slip {
 /// @throws InputError for text that is not "T DEG M, T DEG M, ..."
 std::vector<Slip> parseSlips(const std::string& text);
 
-/// Integrates true motions into the odometry's own pose, which starts at (0, 0, 0).
+/// Integrates true motions into the odometry pose, which starts at (0, 0, 0).
 class WheelOdometry {
  public:
   explicit WheelOdometry(const OdometryOptions& options) : options_(options) {}
 
-  /// The robot really moved `distance` (m) along an arc of `rotation` (rad).
+  /// The robot moved `distance` (m) along an arc of `rotation` (rad).
   void move(double distance, double rotation, RandomStream& random);
-  /// The wheels alone moved.
+  /// Only the wheels moved.
   void slip(const Slip& slip) { advance(slip.distance, 0, slip.rotation); }
 
   const mrpt::math::TPose2D& pose() const { return pose_; }
-  /// As the robot's controller reports it: whole millimetres, and 4096 parts of a full turn.
+  /// As reported by the robot's controller: whole millimetres, and 4096 units per turn.
   mrpt::math::TPose2D reading() const;
 
  private:

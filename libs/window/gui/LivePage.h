@@ -1,5 +1,5 @@
 /// @file LivePage.h
-/// @brief The filter fed by an observation-server: map, plots and what happens to the connection.
+/// @brief The live page: map, plots and connection events of a run from an observation-server.
 #pragma once
 
 #include <wx/button.h>
@@ -22,9 +22,9 @@ class LivePage : public wxPanel {
   explicit LivePage(wxWindow* parent);
 
   void setSettings(std::shared_ptr<const Settings> settings);
-  /// Starts a run with the server of the text field, or ends the one that runs.
+  /// Starts a run with the server in the text field, or ends the current run.
   void connectOrStop();
-  /// Looks what the session has got to; to be called several times a second.
+  /// Polls the session; call several times per second.
   void refresh();
   bool isRunning() const;
   void fit();
@@ -38,7 +38,7 @@ class LivePage : public wxPanel {
  private:
   void start();
 
-  std::shared_ptr<const Settings> settings_, used_;  ///< of the next run; of the present one
+  std::shared_ptr<const Settings> settings_, used_;  ///< of the next run; of the current run
   wxTextCtrl *server_, *output_;
   wxButton* button_;
   wxStaticText* text_;

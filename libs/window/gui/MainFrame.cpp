@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kRefreshInterval = 40;  // ms
 
-/// Runs what a menu asks for; what goes wrong becomes a dialog.
+/// Runs a menu action; errors are shown in a dialog.
 template <class Action>
 void orTell(wxWindow* parent, const Action& action) {
   try {
@@ -33,7 +33,7 @@ void orTell(wxWindow* parent, const Action& action) {
 }  // namespace
 
 MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), timer_(this) {
-  // GTK takes the user's locale; MRPT, which reads numbers by it, would take 0.5 for 0.
+  // GTK sets the user's locale, in which MRPT could read 0.5 as 0.
   std::setlocale(LC_NUMERIC, "C");
   SetSize(FromDIP(wxSize(1240, 760)));
   SetMinSize(FromDIP(wxSize(800, 560)));
@@ -68,9 +68,9 @@ void MainFrame::makeMenus() {
 
   auto* const replay = new wxMenu;
   replay->Append(kPlay, "&Play or pause\tF5");
-  replay->Append(kStep, "&Step\tF6", "One scan on");
-  replay->Append(kRestart, "&Restart\tF7", "Before the first scan");
-  replay->Append(kSeek, "&Go to scan...\tCtrl+G", "Scans that are passed are reached by starting anew");
+  replay->Append(kStep, "&Step\tF6", "One scan forward");
+  replay->Append(kRestart, "&Restart\tF7", "Back to before the first scan");
+  replay->Append(kSeek, "&Go to scan...\tCtrl+G", "Going back restarts the replay");
   replay->Append(kFaster, "&Faster\tCtrl+Up");
   replay->Append(kSlower, "S&lower\tCtrl+Down");
   replay->AppendSeparator();
@@ -82,7 +82,7 @@ void MainFrame::makeMenus() {
   view->Append(kFit, "&Whole map\tCtrl+0");
   view->AppendSeparator();
   for (const auto& [id, name] :
-       std::initializer_list<std::pair<int, const char*>>{{kGeneral, "&General filter beside\tCtrl+1"},
+       std::initializer_list<std::pair<int, const char*>>{{kGeneral, "Show &general filter\tCtrl+1"},
                                                           {kParticles, "&Particles\tCtrl+2"},
                                                           {kPath, "P&ath\tCtrl+3"},
                                                           {kLines, "&Lines and direction\tCtrl+4"},
@@ -183,7 +183,7 @@ void MainFrame::use(std::shared_ptr<Settings> settings) {
   SetTitle("hybrid-slam: " +
            (rawlog.empty() ? "no rawlog" : std::filesystem::path(rawlog).filename().string()));
   if (rawlog.empty()) return;
-  if (live_->isRunning()) throw InputError("a live run is going on", rawlog, "stop it first: Live, Stop");
+  if (live_->isRunning()) throw InputError("a live run is in progress", rawlog, "stop it first: Live, Stop");
   replay_->open(settings->configuration);
 }
 

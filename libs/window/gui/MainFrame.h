@@ -1,5 +1,5 @@
 /// @file MainFrame.h
-/// @brief The window: menus with their keys, the replay and the live page.
+/// @brief The main window: menus with shortcuts, the replay and the live page.
 #pragma once
 
 #include <wx/frame.h>
@@ -15,7 +15,7 @@
 
 namespace hybrid_slam::window {
 
-/// The menus' entries.
+/// Menu entries.
 enum Command {
   kOpenIni = wxID_HIGHEST + 1,
   kOpenRawlog,
@@ -46,13 +46,13 @@ class MainFrame : public wxFrame {
  public:
   MainFrame();
 
-  /// With dialogs for what is wrong with the files.
+  /// Shows errors in the files in a dialog.
   /// @param rawlog  empty: [run] rawlog of the INI file, if it names one
   void open(const std::string& ini, const std::string& rawlog);
   void applyChanges(const std::vector<std::string>& changes);
 
-  /// @name What the menus' entries do with the file that was chosen
-  /// @throws InputError if it cannot be written, or there is nothing to write yet
+  /// @name Menu actions with a chosen file
+  /// @throws InputError if it cannot be written, or there is nothing to write
   /// @{
   void saveIniTo(const std::string& file) const;
   void exportPictureTo(const std::string& file) const;  ///< PNG, 1600 x 1200

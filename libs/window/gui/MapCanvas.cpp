@@ -10,11 +10,11 @@ MapCanvas::MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr
     : CWxGLCanvasBase(parent), title_(title), shared_(std::move(shared)), onChange_(std::move(onChange)) {
   SetMinSize(FromDIP(wxSize(200, 200)));
   setUseCameraFromScene(true);
-  // What is bound last is asked first: these stand in for the handlers of the base, which turn the camera.
+  // Handlers bound last are called first: these replace the base class's, which rotate the camera.
   Bind(wxEVT_PAINT, [this](wxPaintEvent&) { paint(); });
   Bind(wxEVT_MOUSEWHEEL, &MapCanvas::onWheel, this);
   Bind(wxEVT_MOTION, &MapCanvas::onMotion, this);
-  Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base takes the focus
+  Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base class would take the focus
   Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { lastMouse_ = event.GetPosition(); });
   Bind(wxEVT_LEFT_DCLICK, [this](wxMouseEvent&) {
     shared_->fixed.reset();
@@ -38,7 +38,7 @@ MapView MapCanvas::view() const {
 
 void MapCanvas::zoom(double factor) { zoomAt({size().width / 2, size().height / 2}, factor); }
 
-/// The place under the mouse stays there.
+/// Keeps the position under the mouse fixed.
 void MapCanvas::zoomAt(const wxPoint& at, double factor) {
   MapView next = view();
   const auto before = next.toMap(at.x, at.y, size());

@@ -1,5 +1,5 @@
 /// @file MapCanvas.h
-/// @brief A pane of the window that shows one filter; the wheel zooms, dragging moves, a double click fits.
+/// @brief A pane that shows one filter; wheel: zoom, drag: move, double click: fit.
 #pragma once
 
 #include <mrpt/gui/CWxGLCanvasBase.h>
@@ -12,16 +12,16 @@
 
 namespace hybrid_slam::window {
 
-/// What panes side by side share, so that the same place of the map is at the same place in each.
+/// View shared by adjacent panes, so that they show the same part of the map.
 struct SharedView {
-  std::optional<MapView> fixed;  ///< as zoomed or moved by hand; nothing: each pane shows its whole map
+  std::optional<MapView> fixed;  ///< view set by the user; empty: each pane shows its whole map
   Layers layers;
 };
 
 class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
   /// @param title      shown while there is no map
-  /// @param onChange   called when the shared view was changed here, so that the other panes are drawn too
+  /// @param onChange   called after a change of the shared view, to redraw the other panes
   MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr<SharedView> shared,
             std::function<void()> onChange);
 
@@ -29,7 +29,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void zoom(double factor);
   const std::shared_ptr<const FilterSnapshot>& shown() const { return filter_; }
   MapView view() const;
-  /// In the window's units, which are larger than pixels where the screen is dense.
+  /// In window units, which are larger than pixels on a high-DPI screen.
   PictureSize size() const;
 
  private:

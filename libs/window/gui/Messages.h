@@ -1,5 +1,5 @@
 /// @file Messages.h
-/// @brief Dialogs that say what is wrong, where, and what was expected: the line that programs print.
+/// @brief Error dialogs with the one-line messages of the programs.
 #pragma once
 
 #include <wx/msgdlg.h>

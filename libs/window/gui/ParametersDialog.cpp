@@ -7,7 +7,7 @@
 namespace hybrid_slam::window {
 namespace {
 
-/// "a | b | c" apart; empty for other ranges.
+/// Splits "a | b | c"; empty for other ranges.
 wxArrayString choicesOf(const Option& option) {
   wxArrayString choices;
   if (option.range == "true or false") {

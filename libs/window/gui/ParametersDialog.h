@@ -1,5 +1,5 @@
 /// @file ParametersDialog.h
-/// @brief Every section and key of the INI file in a table, checked as the file is.
+/// @brief Table of all sections and keys of the INI file, checked like the file.
 #pragma once
 
 #include <wx/dialog.h>
@@ -16,9 +16,9 @@ class ParametersDialog : public wxDialog {
  public:
   ParametersDialog(wxWindow* parent, const Settings& settings);
 
-  /// What was edited, as SECTION.KEY=VALUE.
+  /// The edits, as SECTION.KEY=VALUE.
   const std::vector<std::string>& changes() const { return changes_; }
-  /// What is wrong with a value, or nothing: where, what was expected.
+  /// Error text for a value, empty if valid.
   static std::string fault(const Settings& settings, const std::string& section, const std::string& key,
                            const std::string& value);
 
@@ -26,7 +26,7 @@ class ParametersDialog : public wxDialog {
   void onChanging(wxPropertyGridEvent& event);
   void onChanged(wxPropertyGridEvent& event);
 
-  std::shared_ptr<Settings> settings_;  ///< takes the values, so that each is checked
+  std::shared_ptr<Settings> settings_;  ///< receives the values, which checks them
   wxPropertyGrid* grid_;
   std::vector<std::string> changes_;
 };

@@ -1,5 +1,5 @@
 /// @file PlotPanel.h
-/// @brief The spread of the particles and the effective sample size over time, a curve for each filter.
+/// @brief Particle spread and effective sample size over time, one curve per filter.
 #pragma once
 
 #include <wx/panel.h>
@@ -13,7 +13,7 @@ class wxGraphicsContext;
 
 namespace hybrid_slam::window {
 
-/// Four plots in a row: std x (m), std y (m), std phi (deg), ESS (share).
+/// Four plots in a row: std x (m), std y (m), std phi (deg), ESS (fraction).
 class PlotPanel : public wxPanel {
  public:
   explicit PlotPanel(wxWindow* parent);

@@ -72,7 +72,7 @@ void ReplayPage::addControls(wxSizer* to) {
 }
 
 void ReplayPage::open(const run::Configuration& configuration) {
-  session_.reset();  // the maps of the old one go before the new ones come
+  session_.reset();  // free the old maps before creating new ones
   told_ = 0;
   shown_.reset();
   view_->fixed.reset();
@@ -99,7 +99,7 @@ void ReplayPage::refresh() {
       wxString::Format("scan %zu of %zu, %.1f s, %s", now->scans, now->total, now->time, nameOf(now->state)));
   if (now->messages == told_) return;
   told_ = now->messages;
-  const auto keep = now;  // a dialog lets the timer go on
+  const auto keep = now;  // the timer continues during a dialog
   keep->isError ? showError(this, keep->message) : showNotice(this, keep->message);
 }
 

@@ -1,5 +1,5 @@
 /// @file ReplayPage.h
-/// @brief The hybrid filter beside the general one on the same log, with a player's controls.
+/// @brief The hybrid and the general filter side by side on the same log, with player controls.
 #pragma once
 
 #include <wx/button.h>
@@ -21,9 +21,9 @@ class ReplayPage : public wxPanel {
  public:
   explicit ReplayPage(wxWindow* parent);
 
-  /// Starts to read configuration.run.rawlog.
+  /// Starts reading configuration.run.rawlog.
   void open(const run::Configuration& configuration);
-  /// Looks what the session has got to; to be called several times a second.
+  /// Polls the session; call several times per second.
   void refresh();
 
   void playOrPause();
@@ -50,7 +50,7 @@ class ReplayPage : public wxPanel {
   wxStaticText* text_ = nullptr;
   std::unique_ptr<ReplaySession> session_;
   std::shared_ptr<const ReplaySnapshot> shown_;
-  size_t told_ = 0;  ///< messages of the session that were shown
+  size_t told_ = 0;  ///< number of session messages shown
   bool isSliding_ = false;
 };
 

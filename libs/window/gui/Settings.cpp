@@ -11,7 +11,7 @@ std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
 
 std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes) const {
   const files::TemporaryFolder folder;
-  auto present = configuration;  // its text is not made of a const one
+  auto present = configuration;  // text() is not const
   return fromFile(folder.write("settings.ini", present.text()), changes);
 }
 

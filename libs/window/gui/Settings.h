@@ -1,5 +1,5 @@
 /// @file Settings.h
-/// @brief The INI file that the window works with: shared, and replaced rather than changed.
+/// @brief The window's INI settings: shared and immutable.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace hybrid_slam::window {
 
-/// A run's configuration with section [live]. Sessions in other threads keep what they were started with.
+/// A run's configuration with section [live]. Sessions in other threads keep the settings they started with.
 struct Settings {
   live::LiveOptions live;
   run::Configuration configuration;
@@ -18,7 +18,7 @@ struct Settings {
   /// @throws InputError as Configuration does
   static std::shared_ptr<Settings> fromFile(const std::string& file,
                                             const std::vector<std::string>& changes = {});
-  /// The same settings, to be changed. @param changes  SECTION.KEY=VALUE each
+  /// A modified copy. @param changes  SECTION.KEY=VALUE each
   std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {}) const;
 
  private:

@@ -22,9 +22,9 @@ namespace {
 const TColor kRed(220, 0, 0), kGreen(0, 150, 0), kBlue(0, 70, 230), kOrange(245, 130, 0),
     kViolet(150, 0, 180), kLightBlue(80, 180, 255);
 
-/// Seen from above, without perspective; a viewport of `size` shows `scale` pixels for each m.
+/// Seen from above, without perspective; a viewport of `size` shows `scale` pixels per m.
 void lookDown(COpenGLViewport& viewport, double x, double y, double scale, PictureSize size) {
-  // MRPT's orthogonal camera shows half of its distance across the shorter side.
+  // MRPT's orthogonal camera shows half its distance across the shorter side.
   const double distance = 2 * std::min(size.width, size.height) / scale;
   auto& camera = viewport.getCamera();
   camera.setOrthogonal(true);
@@ -39,11 +39,11 @@ TPoint2D ahead(const TPoint2D& from, double heading, double distance) {
   return {from.x + distance * std::cos(heading), from.y + distance * std::sin(heading)};
 }
 
-/// Figures of one colour and pen, of triangles: mrpt-opengl draws lines one pixel wide.
+/// Shapes of one colour and pen, made of triangles: mrpt-opengl draws lines one pixel wide.
 class Strokes {
  public:
-  /// @param width  of the pen, m
-  /// @param height above the grid, m
+  /// @param width  pen width, m
+  /// @param height  above the grid, m
   Strokes(const char* name, const TColor& colour, double width, double height)
       : colour_(colour), half_(width / 2), height_(static_cast<float>(height)) {
     triangles_->setName(name);
@@ -57,7 +57,7 @@ class Strokes {
     corners.setColor(colour_);
     triangles_->insertTriangle(corners);
   }
-  /// As long as the pen is wide at both ends, so that segments in a row meet.
+  /// Extended by the pen width at both ends, so that consecutive segments join.
   void segment(const TPoint2D& a, const TPoint2D& b) {
     const double heading = std::atan2(b.y - a.y, b.x - a.x);
     const TPoint2D from = ahead(a, heading, -half_), to = ahead(b, heading, half_);
@@ -65,7 +65,7 @@ class Strokes {
     triangle(ahead(from, left, half_), ahead(from, left, -half_), ahead(to, left, -half_));
     triangle(ahead(from, left, half_), ahead(to, left, -half_), ahead(to, left, half_));
   }
-  /// @param a,b  half axes, m
+  /// @param a,b  semi-axes, m
   void ellipse(const TPoint2D& centre, double a, double b, double direction) {
     constexpr int kCorners = 48;
     const auto corner = [&](int i) {
@@ -163,7 +163,7 @@ class ScenePainter {
   const COpenGLScene::Ptr& scene() const { return scene_; }
 
  private:
-  /// In the scene, above what was drawn before. @param width  pixels
+  /// Adds a layer above the previous ones. @param width  pixels
   Strokes strokes(const char* name, const TColor& colour, double width) {
     height_ += pixel_;
     const Strokes added(name, colour, width * pixel_, height_);
@@ -188,7 +188,7 @@ MapView wholeMap(const MapImage& map, PictureSize size) {
   if (map.width == 0) return view;
   view.centreX = (map.left + map.right()) / 2;
   view.centreY = (map.bottom + map.top()) / 2;
-  const double free = std::max(size.height - 60, 1);  // the caption above, and as much below
+  const double free = std::max(size.height - 60, 1);  // space for the caption above, and the same below
   view.scale = std::min(size.width / (map.right() - map.left), free / (map.top() - map.bottom));
   view.scale = std::max(view.scale, 0.01);
   return view;
@@ -200,7 +200,7 @@ CTexturedPlane::Ptr mapPlane(const MapImage& map) {
                           mrpt::img::CH_RGB);
   for (int y = 0; y < map.height; ++y) {
     const uint8_t* const row = &map.grey[static_cast<size_t>(
-        (map.height - 1 - y) * map.width)];  // a plane's first row is its lowest
+        (map.height - 1 - y) * map.width)];  // a plane's first row is the lowest
     uint8_t* to = image.ptrLine<uint8_t>(static_cast<unsigned>(y));
     for (int x = 0; x < map.width; ++x) to = std::fill_n(to, 3, row[x]);
   }

@@ -1,6 +1,5 @@
 /// @file FilterScene.h
-/// @brief One filter's state as a scene of mrpt-opengl: the same on the screen, in a picture and in
-/// SceneViewer3D.
+/// @brief A filter's state as an mrpt-opengl scene, for the screen, pictures and SceneViewer3D.
 #pragma once
 
 #include <mrpt/img/CImage.h>
@@ -16,7 +15,7 @@ struct PictureSize {
   int width = 0, height = 0;
 };
 
-/// Which part of the map frame a picture shows, from above.
+/// The part of the map frame that a picture shows, from above.
 struct MapView {
   double centreX = 0, centreY = 0;  ///< m, map frame, at the middle of the picture
   double scale = 20;                ///< pixels per m; y points up in the map, down on the screen
@@ -29,29 +28,27 @@ struct MapView {
   }
 };
 
-/// What is drawn over the grid.
+/// Layers drawn over the grid.
 struct Layers {
   bool particles = true, path = true, lines = true, scanLines = true, ellipse = true;
 };
 
-/// The view that holds the whole map.
+/// The view of the whole map.
 MapView wholeMap(const MapImage& map, PictureSize size);
 
-/// The grid as a plane, to be used for many scenes: its texture goes to the graphics card once. Null for an
-/// empty map.
+/// The grid as a plane, reusable in many scenes: its texture is uploaded once. Null for an empty map.
 mrpt::opengl::CTexturedPlane::Ptr mapPlane(const MapImage& map);
 
 /// Grid, path (red), particles (red), line database (green) with the dominating direction, lines of the scan
 /// (blue matched, orange not), uncertainty (violet, 3 sigma), robot (light blue circle), and a caption.
-/// Everything is in m in the map frame, with the camera above; marks are as large as their pixels are at this
-/// scale.
+/// Everything is in m in the map frame, with the camera above; marker sizes are in pixels at this scale.
 /// @param map      mapPlane(filter.map)
-/// @param density  pixels of the screen for one of `size`
+/// @param density  screen pixels per pixel of `size`
 mrpt::opengl::COpenGLScene::Ptr filterScene(const FilterSnapshot& filter,
                                             const mrpt::opengl::CTexturedPlane::Ptr& map, const MapView& view,
                                             const Layers& layers, PictureSize size, double density = 1);
 
-/// The whole map as a picture of this many pixels, drawn without a screen.
+/// The whole map as a picture of this size, rendered off-screen.
 /// @throws std::runtime_error if there is no OpenGL
 mrpt::img::CImage pictureOf(const FilterSnapshot& filter, PictureSize size, const Layers& layers);
 

@@ -79,7 +79,7 @@ TEST(FilterScene, AnEmptyMapIsNoPlane) {
   EXPECT_TRUE(filterScene(nothing, nullptr, {}, {}, {200, 100}));
 }
 
-/// Drawn without a screen, and looked at.
+/// Rendered off-screen and checked.
 TEST(FilterScene, ThePictureHasEverythingWhereItIs) {
   const FilterSnapshot filter = room();
   const PictureSize size{600, 480};

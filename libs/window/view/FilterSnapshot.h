@@ -1,5 +1,5 @@
 /// @file FilterSnapshot.h
-/// @brief What a window shows of a running filter: taken in the filter's thread, never changed after that.
+/// @brief Immutable snapshot of a running filter for display, taken in the filter's thread.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -19,31 +19,31 @@
 
 namespace hybrid_slam::window {
 
-/// One update of the filter in the plots.
+/// One filter update in the plots.
 struct PlotRow {
   double time = 0;                        ///< s since the first scan
   double stdX = 0, stdY = 0, stdPhi = 0;  ///< m, m, rad
-  double ess = 1;                         ///< share in [0, 1]
+  double ess = 1;                         ///< fraction in [0, 1]
 };
 
-/// A line of the present scan in the map frame, placed by the best particle.
+/// A line of the current scan in the map frame, by the best particle's pose.
 struct ScanLine {
   LineSegment segment;
-  bool isMatched = false;  ///< as w_line counts: in direction, with the database as it was before this scan
+  bool isMatched = false;  ///< as in w_line: in direction, with the database before this scan
 };
 
-/// The 1-sigma ellipse of the particles' places.
+/// The 1-sigma ellipse of the particle positions.
 struct UncertaintyEllipse {
   mrpt::math::TPoint2D centre;  ///< m, map frame: the weighted mean
-  double major = 0, minor = 0;  ///< m, half axes
+  double major = 0, minor = 0;  ///< m, semi-axes
   double direction = 0;         ///< rad, of the major axis
 };
 
 struct FilterSnapshot {
   std::string method;  ///< "hybrid", "general", "stock"
   size_t updates = 0;
-  MapImage map;                           ///< of the best particle, as are the next three
-  std::vector<mrpt::math::TPose2D> path;  ///< one pose for each update; the last is the robot's
+  MapImage map;                           ///< of the best particle, like the next three
+  std::vector<mrpt::math::TPose2D> path;  ///< one pose per update; the last is the current one
   std::vector<DatabaseLine> lines;
   std::optional<double> dominatingDirection;  ///< rad, modulo a right angle
   std::vector<WeightedPose> particles;
@@ -53,15 +53,15 @@ struct FilterSnapshot {
   FilterStep step;  ///< the last update
 };
 
-/// Watches one filter in the thread that runs it.
+/// Collects snapshots of one filter in its thread.
 class FilterWatch {
  public:
-  /// @param configuration  that of the filter
+  /// @param configuration  of the filter
   explicit FilterWatch(const run::Configuration& configuration);
 
-  /// After each scan. @param isUpdate  whether the filter was updated with it
+  /// Call after each scan. @param isUpdate  whether it caused an update
   void saw(const FilterView& view, const readings::Reading& reading, bool isUpdate);
-  /// Copies the grid, which takes some ms: call it as often as there is something to look at.
+  /// Copies the grid, which takes some ms: call only when needed for display.
   std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view) const;
 
  private:
@@ -78,7 +78,7 @@ class FilterWatch {
 /// "hybrid", "general" or "stock".
 std::string nameOf(run::RunOptions::Method method);
 
-/// The ellipse of weighted poses.
+/// The uncertainty ellipse of weighted poses.
 UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses);
 
 }  // namespace hybrid_slam::window

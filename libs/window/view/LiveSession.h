@@ -1,5 +1,5 @@
 /// @file LiveSession.h
-/// @brief The filter fed by an observation-server, for a window.
+/// @brief A live run from an observation-server, for a window.
 #pragma once
 
 #include <atomic>
@@ -20,23 +20,23 @@ struct LiveSnapshot {
   State state = State::running;
   size_t scans = 0;
   std::vector<std::string> events;               ///< of the connection and the filter, one line each
-  std::string message;                           ///< what the run came to, or why it failed
+  std::string message;                           ///< summary of the run, or why it failed
   std::shared_ptr<const FilterSnapshot> filter;  ///< null before the first update
 };
 
-/// hybrid-slam-live in two threads: cycles are taken by one, filtered by the other. The recording and the
-/// results go to the configuration's folder.
+/// hybrid-slam-live in two threads: one receives cycles, the other filters. Recording and results go to the
+/// configuration's folder.
 class LiveSession {
  public:
-  /// @param server  HOST:PORT @throws InputError if it is none
+  /// @param server  HOST:PORT @throws InputError if malformed
   LiveSession(const run::Configuration& configuration, const live::LiveOptions& options,
               const std::string& server);
-  /// Stops, and waits for the results.
+  /// Stops and waits for the results.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
 
-  /// Ends the run; its results are written, and then the state is done.
+  /// Ends the run; the state becomes done after the results are written.
   void stop() { isStopping_ = true; }
   std::shared_ptr<const LiveSnapshot> snapshot() const;
 

@@ -7,7 +7,7 @@ namespace hybrid_slam::window {
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid) {
   constexpr int kMargin = 10;
   const int width = static_cast<int>(grid.getSizeX()), height = static_cast<int>(grid.getSizeY());
-  int x0 = width, y0 = height, x1 = -1, y1 = -1;  // of the known cells, both ends included
+  int x0 = width, y0 = height, x1 = -1, y1 = -1;  // bounds of the known cells, inclusive
   for (int y = 0; y < height; ++y) {
     const auto* row = grid.getRow(y);
     for (int x = 0; x < width; ++x)

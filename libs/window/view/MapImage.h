@@ -1,5 +1,5 @@
 /// @file MapImage.h
-/// @brief The known part of an occupancy grid as a grey picture with its place in the map frame.
+/// @brief The known part of an occupancy grid as a grey image, with its position in the map frame.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -9,18 +9,18 @@
 
 namespace hybrid_slam::window {
 
-/// Grey values row by row, the first row being the one of the largest y: as screens have it.
+/// Grey values row by row, from the largest y, as on screens.
 struct MapImage {
-  int width = 0, height = 0;    ///< pixels, one for each cell
+  int width = 0, height = 0;    ///< pixels, one per cell
   double resolution = 0;        ///< m, of a cell
-  double left = 0, bottom = 0;  ///< m, map frame: the outer edges of the picture
+  double left = 0, bottom = 0;  ///< m, map frame: outer edges of the picture
   std::vector<uint8_t> grey;    ///< 0 occupied, 255 free, about 127 unknown
 
   double right() const { return left + width * resolution; }
   double top() const { return bottom + height * resolution; }
 };
 
-/// The cells that anything is known of, with a margin of 10 cells; an empty picture where nothing is known.
+/// The known cells with a margin of 10 cells; an empty picture if there are none.
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid);
 
 }  // namespace hybrid_slam::window

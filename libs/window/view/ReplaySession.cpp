@@ -16,10 +16,10 @@ namespace {
 using State = ReplaySnapshot::State;
 using Clock = std::chrono::steady_clock;
 
-/// Between two pictures while the replay runs: copying the grids takes time that the filters would use.
+/// Interval between snapshots during a replay: copying the grids takes time from the filters.
 constexpr auto kPictureInterval = std::chrono::milliseconds(80);
 
-/// One filter, its results in a folder of its own until they are asked for.
+/// One filter, with its results in a temporary folder until an export.
 struct Lane {
   Lane(const run::Configuration& all, run::RunOptions::Method method, const std::string& folder)
       : configuration(withMethod(all, method, folder)), run(configuration), watch(configuration) {}
@@ -32,9 +32,9 @@ struct Lane {
     return c;
   }
 
-  /// Writes the results to its folder, with the first call.
-  /// @param target  their folder in the end, as config.ini is to say
-  /// @throws InputError if that failed, with this call or the first
+  /// On the first call, writes the results to its folder.
+  /// @param target  final folder, for config.ini
+  /// @throws InputError if that failed, now or on the first call
   void finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target) {
     if (!std::exchange(isFinished, true)) {
       configuration.run.output = target;
@@ -50,13 +50,13 @@ struct Lane {
   run::Configuration configuration;
   run::FilterRun run;
   FilterWatch watch;
-  bool isFinished = false;     ///< it takes no more scans
+  bool isFinished = false;     ///< accepts no more scans
   std::exception_ptr failure;  ///< why the results could not be written
 };
 
 }  // namespace
 
-/// Once through the log, from its start.
+/// One pass through the log.
 struct ReplaySession::Pass {
   Pass(const run::Configuration& configuration, const std::vector<Method>& methods,
        const readings::RawlogSummary& summary)
@@ -73,9 +73,9 @@ struct ReplaySession::Pass {
   files::TemporaryFolder folder;
   std::vector<std::unique_ptr<Lane>> lanes;
   std::optional<readings::Reading> next;
-  double start = 0, time = 0;  ///< s: of the first scan; since then
+  double start = 0, time = 0;  ///< s: time of the first scan; time since
   size_t scans = 0;
-  bool isOutdated = true;  ///< the published maps are not the last ones
+  bool isOutdated = true;  ///< the published maps are not current
   Clock::time_point lastScan, lastPicture;
   std::vector<std::shared_ptr<const FilterSnapshot>> pictures;
 
@@ -112,7 +112,7 @@ void ReplaySession::pause() {
 
 void ReplaySession::step() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  // Several steps asked for in quick succession add up.
+  // Steps requested in quick succession add up.
   target_ = (goal_ == Goal::reach ? target_ : snapshot_->scans) + 1;
   goal_ = Goal::reach;
   wake_.notify_all();
@@ -169,12 +169,12 @@ void ReplaySession::runPass() {
   publish(pass, State::paused, false);
   if (!pass.log.defect.empty())
     tell("log " + pass.log.defect + ": entry " + std::to_string(pass.log.entries + 1) + " of " + pass.file +
-             "; the replay ends there",
+             "; the replay ends at this entry",
          true, State::paused);
   while (hasWork(pass)) advance(pass);
 }
 
-/// Waits until the next scan is due. @return false if this pass through the log is to be left
+/// Waits until the next scan is due. @return false to abort this pass
 bool ReplaySession::hasWork(Pass& pass) {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
@@ -205,10 +205,10 @@ bool ReplaySession::hasWork(Pass& pass) {
   }
 }
 
-/// @return whether the scan is due; else something was asked for meanwhile, or the maps were published
+/// @return whether the scan is due; otherwise there was a request, or the maps were published
 bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass) {
   if (speed_ <= 0) return true;
-  // A pause in the log is not sat through.
+  // Skip pauses in the log.
   const double gap = std::clamp(pass.next->timestamp - pass.start - pass.time, 0.0, 2.0);
   const auto due = pass.lastScan +
                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gap / speed_));
@@ -240,7 +240,7 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
-    for (const auto& lane : pass.lanes)  // checks that all can be written to
+    for (const auto& lane : pass.lanes)  // checks that all are writable
       files::OutputFolder(folder + "/" + nameOf(lane->configuration.run.method));
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method), target = folder + "/" + name;

@@ -1,5 +1,5 @@
 /// @file ReplaySession.h
-/// @brief A rawlog through two filters in step, in a thread of its own, under a player's buttons.
+/// @brief Replays a rawlog through two filters in lockstep, in a separate thread, with player controls.
 #pragma once
 
 #include <condition_variable>
@@ -15,43 +15,43 @@
 
 namespace hybrid_slam::window {
 
-/// Where a replay stands: never changed once it is published.
+/// Immutable state of a replay.
 struct ReplaySnapshot {
   enum class State { loading, paused, playing, ended, failed };
   State state = State::loading;
-  size_t scans = 0, total = 0;  ///< through the filters; of the log
+  size_t scans = 0, total = 0;  ///< processed; in the log
   double time = 0;              ///< s, from the first scan
-  size_t run = 0;               ///< counts the starts from the log's beginning
-  std::string message;          ///< one line: what failed, or what an export came to
-  bool isError = false;         ///< the message is one of a failure
-  size_t messages = 0;          ///< counts them, so that each is shown once
-  std::vector<std::shared_ptr<const FilterSnapshot>> filters;  ///< one for each method; null before a scan
+  size_t run = 0;               ///< number of starts from the beginning of the log
+  std::string message;          ///< one line: an error, or the result of an export
+  bool isError = false;         ///< the message is an error
+  size_t messages = 0;          ///< number of messages, so that each is shown once
+  std::vector<std::shared_ptr<const FilterSnapshot>> filters;  ///< one per method; null before the first scan
 };
 
-/// All calls return at once; what they ask for is done by the session's thread between two scans.
+/// All calls return immediately; the session's thread executes them between scans.
 class ReplaySession {
  public:
   using Method = run::RunOptions::Method;
 
-  /// Starts to read configuration.run.rawlog, and stands before its first scan.
-  /// @param methods  one filter for each, with the same settings but for the lines
+  /// Starts reading configuration.run.rawlog; paused before the first scan.
+  /// @param methods  one filter each, with the same settings except for the lines
   ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods);
-  /// Waits for the scan that is being processed, or the results that are being written.
+  /// Waits for the current scan or export to finish.
   ~ReplaySession();
   ReplaySession(const ReplaySession&) = delete;
   ReplaySession& operator=(const ReplaySession&) = delete;
 
   void play();
   void pause();
-  /// One scan on, then paused.
+  /// One scan forward, then paused.
   void step();
-  /// Runs to just after the scan of this number (from 1) as fast as it can, then paused; a scan that is
-  /// passed already is reached by starting anew, which gives the same maps. 0: before the first scan.
+  /// Runs at full speed until just after this scan (from 1), then paused. Going back restarts the replay,
+  /// which gives the same maps. 0: before the first scan.
   void seek(size_t scan);
-  /// @param factor  of the log's own pace; 0: as fast as the filters go
+  /// @param factor  of real time; 0: as fast as possible
   void setSpeed(double factor);
-  /// Writes the results of doc/results.md to folder/METHOD as if the log ended here, with a note in the
-  /// snapshot; the replay has then ended, and goes on from its start only.
+  /// Writes the results of doc/results.md to folder/METHOD as if the log ended here, with a message in the
+  /// snapshot. This ends the replay; it can only be restarted.
   void exportResults(const std::string& folder);
 
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
@@ -82,7 +82,7 @@ class ReplaySession {
   std::optional<std::string> exportTo_;
   std::shared_ptr<const ReplaySnapshot> snapshot_ = std::make_shared<ReplaySnapshot>();
   /// @}
-  /// @name Of the session's thread
+  /// @name Used by the session's thread only
   /// @{
   std::optional<readings::RawlogSummary> log_;
   size_t runs_ = 0;

@@ -1,4 +1,4 @@
-/// A replay under a player's buttons, without a window.
+/// A replay with player controls, without a window.
 #include "window/view/ReplaySession.h"
 
 #include <gmock/gmock.h>
@@ -92,7 +92,7 @@ TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
   ReplaySession session(c, {Method::hybrid, Method::general});
   session.seek(20);
   ASSERT_TRUE(reaches(session, State::paused, 20));
-  session.seek(5);  // by starting anew
+  session.seek(5);  // by restarting
   ASSERT_TRUE(reaches(session, State::paused, 5));
   EXPECT_EQ(session.snapshot()->run, 2u);
   session.setSpeed(0);
@@ -134,7 +134,7 @@ TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayStartsAnew) {
   session.exportResults("/proc/nowhere");
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
   EXPECT_TRUE(session.snapshot()->isError);
-  session.seek(31);  // nothing was written: it can go on
+  session.seek(31);  // nothing was written: it can continue
   ASSERT_TRUE(reaches(session, State::paused, 31));
   EXPECT_EQ(session.snapshot()->run, 1u);
   session.exportResults(folder.path("out"));
@@ -177,7 +177,7 @@ TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
   const auto start = Clock::now();
   summarise(c.run.rawlog, c.input);
   const auto whole = Clock::now() - start;
-  bool isQuick = false;  // once in three times: machines may be busy
+  bool isQuick = false;  // one of three times: the machine may be busy
   for (int attempt = 0; attempt < 3 && !isQuick; ++attempt) {
     const auto opened = Clock::now();
     { const ReplaySession session(c, {Method::hybrid}); }
