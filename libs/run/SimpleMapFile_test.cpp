@@ -34,7 +34,8 @@ TEST(SimpleMapFile, HasTheScansOfTheUpdatesAtTheirPoses) {
   ASSERT_TRUE(map.loadFromFile(folder.path("map.simplemap.gz")));
   ASSERT_EQ(map.size(), 3u);
   for (size_t i = 0; i < map.size(); ++i) {
-    const auto [pose, frame] = map.getAsPair(i);
+    const auto pose = map.begin()[i].pose;
+    const auto frame = map.begin()[i].sf;
     const mrpt::math::TPose2D error = mrpt::math::TPose2D(pose->getMeanVal().asTPose()) - path[i];
     EXPECT_LT(error.norm() + std::abs(error.phi), 1e-9);
     ASSERT_EQ(frame->size(), 1u);

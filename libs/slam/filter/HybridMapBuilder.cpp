@@ -37,11 +37,10 @@ void HybridMapBuilder::initialize(const mrpt::maps::CSimpleMap& initialMap, cons
   scans_.clear();
   initialMap_ = initialMap;
   TPose2D start;
-  for (size_t i = 0; i < initialMap.size(); ++i) {
-    const auto [posePdf, frame] = initialMap.getAsPair(i);
-    const Scans scans = scansOf(*frame);
+  for (const auto& keyframe : initialMap) {
+    const Scans scans = scansOf(*keyframe.sf);
     if (scans.empty()) continue;
-    start = TPose2D(posePdf->getMeanVal().asTPose());
+    start = TPose2D(keyframe.pose->getMeanVal().asTPose());
     insertAt(start, scans);
   }
   startPathAt(x0 ? x0->getMeanVal().asTPose() : start);
@@ -62,13 +61,13 @@ void HybridMapBuilder::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const {
   map = initialMap_;
   const std::vector<TPose2D> path = bestPath();
   for (const auto& [update, scans] : scans_)
-    map.insert(mrpt::poses::CPose3DPDFGaussian(mrpt::poses::CPose3D(path[update])), *scans);
+    map.insert(mrpt::poses::CPose3DPDFGaussian::Create(mrpt::poses::CPose3D(path[update])), scans);
 }
 
-const mrpt::maps::CMultiMetricMap* HybridMapBuilder::getCurrentlyBuiltMetricMap() const {
+BuiltMetricMap HybridMapBuilder::getCurrentlyBuiltMetricMap() const {
   metricMap_.maps.clear();
   metricMap_.maps.push_back(mrpt::maps::COccupancyGridMap2D::Create(bestGrid()));
-  return &metricMap_;
+  return builtMetricMap(metricMap_);
 }
 
 void HybridMapBuilder::saveCurrentEstimationToImage(const std::string& file, bool /*formatEmfBmp*/) {

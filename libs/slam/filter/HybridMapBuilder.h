@@ -5,6 +5,7 @@
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/slam/CMetricMapBuilder.h>
 
+#include "base/MrptVersion.h"
 #include "slam/filter/HybridFilter.h"
 
 namespace hybrid_slam {
@@ -28,7 +29,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilt
   /// The initial map, and the remembered scans of the updates at the best particle's poses.
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& map) const override;
   /// The best particle's grid; valid until the next call.
-  const mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;
+  BuiltMetricMap getCurrentlyBuiltMetricMap() const override;
   unsigned int getCurrentlyBuiltMapSize() override {
     return static_cast<unsigned int>(initialMap_.size() + scans_.size());
   }

@@ -182,13 +182,13 @@ TEST(HybridMapBuilder, GivesTheViewsOfMrptsOwnBuilder) {
   const auto path = builder.bestPath();
   ASSERT_EQ(scans.size(), path.size());
   for (size_t i = 0; i < path.size(); ++i) {
-    const auto [pose, frame] = scans.getAsPair(i);
-    expectPose(TPose2D(pose->getMeanVal().asTPose()), path[i], 1e-9);
-    EXPECT_TRUE(frame->getObservationByClass<mrpt::obs::CObservation2DRangeScan>());
+    const auto& keyframe = scans.begin()[i];
+    expectPose(TPose2D(keyframe.pose->getMeanVal().asTPose()), path[i], 1e-9);
+    EXPECT_TRUE(keyframe.sf->getObservationByClass<mrpt::obs::CObservation2DRangeScan>());
   }
 
-  const auto* maps = face.getCurrentlyBuiltMetricMap();
-  const auto grid = maps->mapByClass<mrpt::maps::COccupancyGridMap2D>();
+  const auto& maps = asReference(face.getCurrentlyBuiltMetricMap());
+  const auto grid = maps.mapByClass<mrpt::maps::COccupancyGridMap2D>();
   ASSERT_TRUE(grid);
   EXPECT_TRUE(isWallAt(*grid, 8, 0));
   EXPECT_FALSE(isWallAt(*grid, 5, 0));
@@ -234,8 +234,8 @@ TEST(HybridMapBuilder, ScansRememberedForAWhileKeepTheirPoses) {
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), remembered.size());
   const auto path = builder.bestPath();
   for (size_t i = 0; i < scans.size(); ++i) {
-    const auto [pose, frame] = scans.getAsPair(i);
-    expectPose(TPose2D(pose->getMeanVal().asTPose()), path.at(remembered[i]), 1e-9);
+    const auto& pose = *scans.begin()[i].pose;
+    expectPose(TPose2D(pose.getMeanVal().asTPose()), path.at(remembered[i]), 1e-9);
   }
 }
 
@@ -283,8 +283,8 @@ TEST(HybridMapBuilder, GoesOnFromAMapOfScans) {
   EXPECT_EQ(whole.size(), old.size() + second.updates());
   EXPECT_EQ(second.getCurrentlyBuiltMapSize(), whole.size());
   EXPECT_EQ(second.bestPath().size(), second.updates());
-  const auto [last, frame] = whole.getAsPair(whole.size() - 1);
-  expectPose(TPose2D(last->getMeanVal().asTPose()), second.bestPath().back(), 1e-9);
+  const auto& last = *whole.rbegin()->pose;
+  expectPose(TPose2D(last.getMeanVal().asTPose()), second.bestPath().back(), 1e-9);
   // Back at the start, in the first map's frame; odometry alone has failed by then.
   expectPose(second.bestPath().back(), steps.back().truth, 0.2);
 }

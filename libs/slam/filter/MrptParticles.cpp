@@ -1,12 +1,11 @@
 #include "slam/filter/MrptParticles.h"
 
-// PF_implementations.h of MRPT 2.5.8 needs these two before it.
+// PF_implementations.h of MRPT 2.5.8 needs these before it.
 #include <mrpt/bayes/CParticleFilterCapable.h>
 #include <mrpt/obs/CSensoryFrame.h>
 namespace mrpt::slam {
 using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 }
-#include <mrpt/slam/PF_aux_structs.h>
 #include <mrpt/slam/PF_implementations.h>
 
 #include <cmath>
@@ -15,24 +14,26 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include "base/Errors.h"
 #include "slam/filter/Resampling.h"
 
+namespace hybrid_slam {
+/// MRPT's templates ask for the bins of KLD sampling. The number of particles is fixed here, so one bin is
+/// enough.
+struct OneBin {
+  struct lt_operator {
+    bool operator()(const OneBin&, const OneBin&) const { return false; }
+  };
+};
+}  // namespace hybrid_slam
+
 namespace mrpt::slam {
-/// Where a particle falls in the bins of KLD sampling; the number of particles is fixed here, but the
-/// templates ask for it.
 template <>
-void KLF_loadBinFromParticle(detail::TPoseBin2D& bin, const TKLDParams& options,
-                             const hybrid_slam::Particle* particle, const mrpt::math::TPose3D* newPose) {
-  const mrpt::math::TPose2D pose = newPose ? mrpt::math::TPose2D(*newPose) : particle->path.back();
-  bin.x = static_cast<int>(std::lround(pose.x / options.KLD_binSize_XY));
-  bin.y = static_cast<int>(std::lround(pose.y / options.KLD_binSize_XY));
-  bin.phi = static_cast<int>(std::lround(pose.phi / options.KLD_binSize_PHI));
-}
+void KLF_loadBinFromParticle(hybrid_slam::OneBin&, const TKLDParams&, const hybrid_slam::Particle*,
+                             const mrpt::math::TPose3D*) {}
 }  // namespace mrpt::slam
 
 namespace hybrid_slam {
 
 using mrpt::bayes::CParticleFilter;
 using mrpt::math::TPose2D;
-using mrpt::slam::detail::TPoseBin2D;
 using Proposal = ParticleFilterOptions::Proposal;
 
 namespace {
@@ -89,9 +90,9 @@ void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOpti
   const mrpt::obs::CSensoryFrame unused;  // logWeightAt has the scan
   logWeightAt_ = &logWeightAt;
   if (options_.PF_algorithm == CParticleFilter::pfAuxiliaryPFOptimal)
-    PF_SLAM_implementation_pfAuxiliaryPFOptimal<TPoseBin2D>(&action, &unused, options_, {});
+    PF_SLAM_implementation_pfAuxiliaryPFOptimal<OneBin>(&action, &unused, options_, {});
   else
-    PF_SLAM_implementation_pfAuxiliaryPFStandard<TPoseBin2D>(&action, &unused, options_, {});
+    PF_SLAM_implementation_pfAuxiliaryPFStandard<OneBin>(&action, &unused, options_, {});
   logWeightAt_ = nullptr;
 }
 

@@ -1,5 +1,5 @@
 /// @file Resampling.h
-/// @brief Residual resampling (Liu & Chen 1998), which is wrong in MRPT 2.5.8 (doc/mrpt-notes.md).
+/// @brief Residual resampling (Liu & Chen 1998), which MRPT gets wrong (doc/mrpt-notes.md).
 #pragma once
 
 #include <cstddef>

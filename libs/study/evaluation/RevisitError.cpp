@@ -44,9 +44,12 @@ struct PlacedPoints {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PlacedPoints>,
                                                  PlacedPoints, 2, size_t>;
 
-/// nanoflann result set: the nearest point within kReach that belongs to an earlier scan.
+/// nanoflann result set: the nearest point within kReach that belongs to an earlier scan. nanoflann 1.7 asks
+/// for DistanceType and sort() as well, 1.4 for neither.
 class NearestEarlier {
  public:
+  using DistanceType = double;
+
   NearestEarlier(const PlacedPoints& points, const std::vector<PlacedScan>& scans)
       : points_(points), scans_(scans) {}
 
@@ -56,6 +59,7 @@ class NearestEarlier {
   }
   double worstDist() const { return best_; }
   bool full() const { return found_.has_value(); }
+  void sort() {}
   std::optional<size_t> found() const { return found_; }
 
  private:

@@ -1,0 +1,27 @@
+/// @file MrptVersion.h
+/// @brief Where the interfaces of MRPT 2.5.8 (Debian 12) and 2.14.7 (Debian 13) differ.
+#pragma once
+
+#include <mrpt/version.h>  // MRPT_VERSION: 0x258 for 2.5.8, 0x20e07 for 2.14.7
+
+namespace mrpt::maps {
+class CMultiMetricMap;
+}
+
+namespace hybrid_slam {
+
+/// @name CMetricMapBuilder::getCurrentlyBuiltMetricMap returns a pointer in 2.5.8, a reference in 2.14.7.
+/// @{
+#if MRPT_VERSION >= 0x20e00
+using BuiltMetricMap = const mrpt::maps::CMultiMetricMap&;
+inline BuiltMetricMap builtMetricMap(const mrpt::maps::CMultiMetricMap& map) { return map; }
+#else
+using BuiltMetricMap = const mrpt::maps::CMultiMetricMap*;
+inline BuiltMetricMap builtMetricMap(const mrpt::maps::CMultiMetricMap& map) { return &map; }
+#endif
+
+inline const mrpt::maps::CMultiMetricMap& asReference(const mrpt::maps::CMultiMetricMap& map) { return map; }
+inline const mrpt::maps::CMultiMetricMap& asReference(const mrpt::maps::CMultiMetricMap* map) { return *map; }
+/// @}
+
+}  // namespace hybrid_slam
