@@ -26,10 +26,12 @@ void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
-  // MRPT draws from its thread's generator.
-  std::swap(mrpt::random::getRandomGenerator(), random_);
-  CMetricMapBuilderRBPF::processActionObservation(action, observations);
-  std::swap(mrpt::random::getRandomGenerator(), random_);
+  oneThread_.execute([&] {
+    // MRPT draws from its thread's generator.
+    std::swap(mrpt::random::getRandomGenerator(), random_);
+    CMetricMapBuilderRBPF::processActionObservation(action, observations);
+    std::swap(mrpt::random::getRandomGenerator(), random_);
+  });
   if (mapPDF.m_particles.front().d->robotPath.size() == before) return;
   ++updates_;
   step_ = FilterStep();

@@ -4,6 +4,7 @@
 
 #include <mrpt/random/RandomGenerators.h>
 #include <mrpt/slam/CMetricMapBuilderRBPF.h>
+#include <tbb/task_arena.h>
 
 #include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
@@ -34,6 +35,7 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
 
   MotionModelOptions motion_;
   mrpt::random::CRandomGenerator random_;
+  tbb::task_arena oneThread_{1};  ///< MRPT 2.14.7 would weigh the particles on all cores, 2.5.8 does on one
   size_t updates_ = 0;
   FilterStep step_;
 };

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/random/RandomGenerators.h>
+#include <tbb/global_control.h>
 
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
 #include "testing/TestRoom.h"
@@ -94,6 +97,18 @@ TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
   }
   EXPECT_EQ(builder.bestPath(), alone.bestPath());
   EXPECT_NE(beside.bestPath(), alone.bestPath());
+}
+
+/// MRPT 2.14.7 weighs the particles on all cores.
+TEST(StockMapBuilder, StartsNoThreads) {
+  const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  };
+  const auto before = threads();
+  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
+  feed(builder, builder, test::drive(1));
+  EXPECT_LE(threads(), before);
 }
 
 }  // namespace
