@@ -76,7 +76,7 @@ def data(name, points):
 COLOURS = {"graded": "#0072b2", "dominating": "#e69f00", "eq9": "#d55e00", "general": "#888888",
            "general-best": "#000000", "stock": "#cc79a7"}
 LABELS = {"graded": "graded", "dominating": "dominating direction", "eq9": "eq. (9)",
-          "general": "without lines", "general-best": "without lines, its best", "stock": "MRPT's own"}
+          "general": "without lines", "general-best": "without lines, its best", "stock": "MRPT"}
 
 
 def swept(name):

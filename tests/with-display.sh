@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a program of the window with a screen of its own (Xvfb); exits with 77, which ctest takes for skipped,
+# Runs a program of the window on a virtual screen (Xvfb); exits with 77, which ctest takes for skipped,
 # where there is none. SCREEN: its size, 1280x800; GDK_SCALE=2 makes it one of twice the density.
 if command -v xvfb-run >/dev/null && command -v xauth >/dev/null; then
   exec env NO_AT_BRIDGE=1 GTK_A11Y=none GDK_BACKEND=x11 xvfb-run -a -s "-screen 0 ${SCREEN:-1280x800}x24" "$@"

@@ -28,20 +28,9 @@ CLI::Validator within(double low, double high) {
           range.str()};
 }
 
-const char* formatName(readings::LogFormat format) {
-  switch (format) {
-    case readings::LogFormat::gfs:
-      return "GMapping .gfs";
-    case readings::LogFormat::dpslam:
-      return "DP-SLAM";
-    default:
-      return "CARMEN";
-  }
-}
-
 void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("%s: %s log, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken lines",
-              output.c_str(), formatName(s.format), s.scans, s.odometryReadings, s.latest - s.earliest,
+              output.c_str(), s.format->name, s.scans, s.odometryReadings, s.latest - s.earliest,
               s.pathLength, s.brokenLines);
   const char* separator = "; skipped: ";
   for (const auto& [name, count] : s.otherRecords) {
@@ -66,13 +55,16 @@ int convert(int argc, char** argv) {
   std::optional<double> angularStepDeg;
   std::string format, time = "ipc";
 
+  std::vector<std::string> keys;
+  for (const readings::LogFormat* known : readings::logFormats()) keys.push_back(known->key);
+
   CLI::App app{
       "Converts a robot's text log (CARMEN, GMapping .gfs, DP-SLAM; plain or gzipped) into a rawlog."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
   app.add_option("input", input, "the log")->required()->type_name("in.clf[.gz]");
   app.add_option("output", output, "the rawlog to write")->required()->type_name("out.rawlog");
   app.add_option("--format", format, "log format (default: detected from the content)")
-      ->check(CLI::IsMember({"carmen", "gfs", "dpslam"}));
+      ->check(CLI::IsMember(keys));
   app.add_option("--time", time,
                  "CARMEN: use the message's own timestamp (ipc) or its arrival at the logger (logger)")
       ->capture_default_str()
@@ -101,10 +93,7 @@ int convert(int argc, char** argv) {
   app.add_flag("--strict", options.strict, "stop at the first broken line");
 
   if (const auto code = parse(app, argc, argv)) return *code;
-  const std::map<std::string, readings::LogFormat> formats{{"carmen", readings::LogFormat::carmen},
-                                                           {"gfs", readings::LogFormat::gfs},
-                                                           {"dpslam", readings::LogFormat::dpslam}};
-  if (!format.empty()) options.format = formats.at(format);
+  options.format = readings::formatNamed(format);  // null: detected
   options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
   if (angularStepDeg) options.angularStep = *angularStepDeg * M_PI / 180;
 

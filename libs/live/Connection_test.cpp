@@ -253,7 +253,7 @@ TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
   FakeServer server({bytesOf(7, 1, 1), bytesOf(7, 5, 5) + endOf(7, 6)});
   Listener listener(server.port(), events);
   ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
-  EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 5)) << "its odometry did not start anew";
+  EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 5)) << "its odometry was not restarted";
   EXPECT_EQ(listener.client().lost(), 4u) << "2 to 4, and 6";
   EXPECT_EQ(listener.client().connections(), 2u);
 }

@@ -43,17 +43,23 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
   return observation;
 }
 
-LogFormat recogniseFormat(files::LineReader& lines) {
+/// `CARMEN: FLASER, RLASER, ROBOTLASER1; DP-SLAM: Laser`.
+std::string formatList() {
+  std::string all;
+  for (const LogFormat* format : logFormats())
+    all += (all.empty() ? "" : "; ") + std::string(format->name) + ": " + format->rows;
+  return all;
+}
+
+const LogFormat* recogniseFormat(files::LineReader& lines) {
   std::string line;
   while (lines.next(line)) {
-    if (const auto format = formatOf(line)) {
+    if (const LogFormat* format = formatOf(line)) {
       lines.rewind();
-      return *format;
+      return format;
     }
   }
-  throw InputError("not a robot log", lines.path(),
-                   "expected a CARMEN log (FLASER rows), a GMapping .gfs (LASER_READING) or a DP-SLAM log "
-                   "(Odometry, Laser)");
+  throw InputError("not a robot log", lines.path(), "expected rows of scans (" + formatList() + ")");
 }
 
 /// Writes records as rawlog entries, in either format, and gathers the summary.
@@ -138,9 +144,9 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
     throw InputError("the output is the input", rawlogPath, "expected two different files");
   files::RawlogWriter writer(rawlogPath);
 
-  const LogFormat format = options.format ? *options.format : recogniseFormat(lines);
-  const double maxRange = options.maxRange.value_or(format == LogFormat::dpslam ? 8.18 : 80);
-  LogParser parser(format, options);
+  const LogFormat* format = options.format ? options.format : recogniseFormat(lines);
+  const double maxRange = options.maxRange.value_or(format->maxRange);
+  const auto parser = format->makeParser(options);
   Conversion conversion(writer, maxRange, options.actionObservation);
   LogSummary& summary = conversion.summary;
   summary.format = format;
@@ -148,7 +154,7 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   while (lines.next(line)) {
     LogRecord record;
     try {
-      record = parser.parse(line);
+      record = parser->parse(line);
     } catch (const BrokenLine& broken) {
       if (options.strict)
         throw InputError("broken line", logPath + ", line " + std::to_string(lines.number()), broken.what());
@@ -158,8 +164,7 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
     std::visit(conversion, record);
   }
   if (summary.scans == 0)
-    throw InputError("no laser scan", logPath,
-                     "expected whole FLASER, RLASER, ROBOTLASER1, LASER_READING or Laser rows");
+    throw InputError("no laser scan", logPath, "expected whole rows of scans (" + formatList() + ")");
   writer.finish();
   return summary;
 }

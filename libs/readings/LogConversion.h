@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "readings/LogParser.h"
+#include "readings/LogFormats.h"
 
 namespace hybrid_slam::readings {
 
 struct LogConversionOptions : LogParserOptions {
-  std::optional<LogFormat> format;  ///< empty: detected from the content
+  const LogFormat* format = nullptr;  ///< null: detected from the content
   /// m; readings at or beyond this are no returns. Empty: 80 m, since a SICK laser in 80 m mode reports no
   /// return as 81.83 or 81.91 m; 8.18 m for DP-SLAM, whose laser ran in 8 m mode (8.183 to 8.191 m).
   std::optional<double> maxRange;
@@ -21,7 +21,7 @@ struct LogConversionOptions : LogParserOptions {
 };
 
 struct LogSummary {
-  LogFormat format = LogFormat::carmen;
+  const LogFormat* format = nullptr;
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
   std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name
   double earliest = 0, latest = 0;             ///< s

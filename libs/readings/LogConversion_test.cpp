@@ -195,7 +195,7 @@ TEST(LogConversion, DpslamsLaserEndsAtEightMetres) {
   EXPECT_THAT(result.entries(), ElementsAre("ODOMETRY 0", "LASER 0", "ODOMETRY 1", "LASER 1"));
   EXPECT_THAT(validity(*result.scan(1)), ElementsAre(true, false, true));
   EXPECT_NEAR(result.scan(1)->sensorPose.x(), 0.4, 1e-12);
-  EXPECT_EQ(result.summary.format, LogFormat::dpslam);
+  EXPECT_EQ(result.summary.format, formatNamed("dpslam"));
 }
 
 TEST(LogConversion, GfsLogFromItsContent) {
@@ -211,7 +211,7 @@ TEST(LogConversion, GfsLogFromItsContent) {
   EXPECT_THAT(result.entries(), ElementsAre("ODOMETRY 100", "ODOMETRY 100", "ODOMETRY 101",
                                             "LASER_READING 101", "ODOMETRY 102"));
   EXPECT_THAT(validity(*result.scan(3)), ElementsAre(true, true, false));
-  EXPECT_EQ(result.summary.format, LogFormat::gfs);
+  EXPECT_EQ(result.summary.format, formatNamed("gfs"));
   EXPECT_EQ(result.summary.otherRecords.at("FRAME"), 2u);
 }
 
@@ -242,7 +242,7 @@ TEST(LogConversion, OtherRecordsAreCountedByName) {
 
 TEST(LogConversion, ATellingFormatOverridesTheContent) {
   LogConversionOptions options;
-  options.format = LogFormat::dpslam;
+  options.format = formatNamed("dpslam");
   EXPECT_THROW(convert(laser("FLASER", 181, "0 0 0", "1"), options), InputError);
 }
 

@@ -1,5 +1,5 @@
 /// @file LogParser.h
-/// @brief Parses the records of CARMEN, GMapping and DP-SLAM logs.
+/// @brief The records of text logs, and what the parsers of all formats share.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -15,12 +15,6 @@
 namespace hybrid_slam::readings {
 
 class LogFields;
-
-enum class LogFormat {
-  carmen,  ///< CARMEN's logger: `ODOM`, `FLASER`, `RLASER`, `ROBOTLASER1`, `PARAM`
-  gfs,     ///< GMapping's output: `ODOM`, `LASER_READING`
-  dpslam   ///< DP-SLAM: `Odometry`, `Laser`; without times
-};
 
 /// Which of the two timestamps of a CARMEN row to use.
 enum class LogTime {
@@ -59,37 +53,28 @@ struct LogParserOptions {
   std::optional<double> angularStep;  ///< rad, for scans whose row does not state it
 };
 
-/// The log format that a line implies; empty if it could be in any.
-std::optional<LogFormat> formatOf(std::string_view line);
-
-/// Parses line by line; parameters and DP-SLAM's clock persist between lines.
+/// Parses the lines of one log; what a line sets, such as a parameter, holds for those after it. Each format
+/// derives its own parser (LogFormats.h).
 class LogParser {
  public:
-  LogParser(LogFormat format, const LogParserOptions& options) : format_(format), options_(options) {}
+  explicit LogParser(const LogParserOptions& options) : options_(options) {}
+  virtual ~LogParser() = default;
 
+  /// Blank lines and comments (`#`) are no records.
   /// @throws BrokenLine for a wrong number of fields, a field that is not a number, no ranges, or a number of
   ///         beams with unknown angles
   LogRecord parse(std::string_view line);
 
- private:
-  LogRecord carmen(std::string_view name, LogFields& fields);
-  LogRecord gfs(std::string_view name, LogFields& fields);
-  LogRecord dpslam(std::string_view name, LogFields& fields);
-  LogRecord carmenLaser(std::string_view name, LogFields& fields) const;
-  LogRecord carmenRobotLaser(std::string_view name, LogFields& fields) const;
-  LogRecord gfsOdometry(LogFields& fields);
-  void parameter(LogFields& fields);
-  double carmenTime(LogFields& fields) const;
+ protected:
+  /// @param fields  those after the record's name
+  virtual LogRecord record(std::string_view name, LogFields& fields) = 0;
+  /// A record that is not used. @throws BrokenLine if that is not a record's name
+  static LogRecord otherRecord(std::string_view name);
+  static std::vector<float> ranges(size_t beams, LogFields& fields);
+  /// A scan whose row has ranges only; the angles follow from their number or the options.
   LaserRecord scan(std::string_view name, size_t beams, LogFields& fields) const;
 
-  LogFormat format_;
   LogParserOptions options_;
-  double frontOffset_ = 0, rearOffset_ = 0;  // m
-  // GMapping
-  std::optional<double> lastOdometryTime_, lastScanTime_;
-  // DP-SLAM: a step is an odometry row and the scans after it, up to the second scan.
-  int step_ = -1;
-  bool stepHasScan_ = true;
 };
 
 }  // namespace hybrid_slam::readings

@@ -1,4 +1,4 @@
-#include "readings/LogParser.h"
+#include "readings/LogFormats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,15 +28,15 @@ Record parseAs(LogParser& parser, const std::string& line) {
 }
 
 template <class Record>
-Record parseAs(LogFormat format, const std::string& line) {
-  LogParser parser(format, threeBeamOptions());
-  return parseAs<Record>(parser, line);
+Record parseAs(const LogFormat* format, const std::string& line) {
+  const auto parser = format->makeParser(threeBeamOptions());
+  return parseAs<Record>(*parser, line);
 }
 
-std::string whyBroken(LogFormat format, const std::string& line) {
-  LogParser parser(format, threeBeamOptions());
+std::string whyBroken(const LogFormat* format, const std::string& line) {
+  const auto parser = format->makeParser(threeBeamOptions());
   try {
-    parser.parse(line);
+    parser->parse(line);
   } catch (const BrokenLine& e) {
     return e.what();
   }
@@ -53,18 +53,18 @@ const std::string kFlaser = "FLASER 3 1.5 81.83 2.25 9 9 9 -1.5 2 0.75 976052857
 
 TEST(LogParserCarmen, Odometry) {
   const std::string line = "ODOM 1.5 -2.25 0.5 0.1 -0.2 0 976052857.348896 host 12.5";
-  const auto record = parseAs<OdometryRecord>(LogFormat::carmen, line);
+  const auto record = parseAs<OdometryRecord>(formatNamed("carmen"), line);
   EXPECT_DOUBLE_EQ(record.time, 976052857.348896);
   expectPose(record.pose, 1.5, -2.25, 0.5);
 
   LogParserOptions options;
   options.time = LogTime::logger;
-  LogParser parser(LogFormat::carmen, options);
-  EXPECT_DOUBLE_EQ(parseAs<OdometryRecord>(parser, line).time, 12.5);
+  const auto parser = formatNamed("carmen")->makeParser(options);
+  EXPECT_DOUBLE_EQ(parseAs<OdometryRecord>(*parser, line).time, 12.5);
 }
 
 TEST(LogParserCarmen, FrontLaser) {
-  const auto record = parseAs<LaserRecord>(LogFormat::carmen, kFlaser);
+  const auto record = parseAs<LaserRecord>(formatNamed("carmen"), kFlaser);
   EXPECT_EQ(record.label, "FLASER");
   EXPECT_DOUBLE_EQ(record.time, 976052857.348896);
   EXPECT_THAT(record.ranges, ElementsAre(1.5f, 81.83f, 2.25f));
@@ -77,30 +77,30 @@ TEST(LogParserCarmen, FrontLaser) {
 }
 
 TEST(LogParserCarmen, RearLaserLooksBackwards) {
-  const auto record = parseAs<LaserRecord>(LogFormat::carmen, "R" + kFlaser.substr(1));
+  const auto record = parseAs<LaserRecord>(formatNamed("carmen"), "R" + kFlaser.substr(1));
   EXPECT_EQ(record.label, "RLASER");
   expectPose(record.laserPose, 0, 0, M_PI);
 }
 
 TEST(LogParserCarmen, ParametersMountTheLasersFromThereOn) {
-  LogParser parser(LogFormat::carmen, threeBeamOptions());
-  expectPose(parseAs<LaserRecord>(parser, kFlaser).laserPose, 0, 0, 0);
-  parseAs<std::monostate>(parser, "PARAM robot_frontlaser_offset 0.40 nohost 0");
-  parseAs<std::monostate>(parser, "PARAM robot_rearlaser_offset -0.25 976052857.3 host 0.1");
-  parseAs<std::monostate>(parser, "PARAM robot_name pioneer nohost 0");
-  parseAs<std::monostate>(parser, "PARAM joystick_names");
-  expectPose(parseAs<LaserRecord>(parser, kFlaser).laserPose, 0.4, 0, 0);
-  expectPose(parseAs<LaserRecord>(parser, "R" + kFlaser.substr(1)).laserPose, -0.25, 0, M_PI);
+  const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+  expectPose(parseAs<LaserRecord>(*parser, kFlaser).laserPose, 0, 0, 0);
+  parseAs<std::monostate>(*parser, "PARAM robot_frontlaser_offset 0.40 nohost 0");
+  parseAs<std::monostate>(*parser, "PARAM robot_rearlaser_offset -0.25 976052857.3 host 0.1");
+  parseAs<std::monostate>(*parser, "PARAM robot_name pioneer nohost 0");
+  parseAs<std::monostate>(*parser, "PARAM joystick_names");
+  expectPose(parseAs<LaserRecord>(*parser, kFlaser).laserPose, 0.4, 0, 0);
+  expectPose(parseAs<LaserRecord>(*parser, "R" + kFlaser.substr(1)).laserPose, -0.25, 0, M_PI);
 }
 
 TEST(LogParserCarmen, LaserXOverridesTheFrontOffsetAlone) {
   LogParserOptions options = threeBeamOptions();
   options.laserX = 0.1;
-  LogParser parser(LogFormat::carmen, options);
-  parser.parse("PARAM robot_frontlaser_offset 0.40 nohost 0");
-  parser.parse("PARAM robot_rearlaser_offset -0.25 nohost 0");
-  expectPose(parseAs<LaserRecord>(parser, kFlaser).laserPose, 0.1, 0, 0);
-  expectPose(parseAs<LaserRecord>(parser, "R" + kFlaser.substr(1)).laserPose, -0.25, 0, M_PI);
+  const auto parser = formatNamed("carmen")->makeParser(options);
+  parser->parse("PARAM robot_frontlaser_offset 0.40 nohost 0");
+  parser->parse("PARAM robot_rearlaser_offset -0.25 nohost 0");
+  expectPose(parseAs<LaserRecord>(*parser, kFlaser).laserPose, 0.1, 0, 0);
+  expectPose(parseAs<LaserRecord>(*parser, "R" + kFlaser.substr(1)).laserPose, -0.25, 0, M_PI);
 }
 
 /// The robot stands at (2, 1) facing +y; the laser, 0.3 m ahead and 0.1 m to the left, at (1.9, 1.3).
@@ -110,7 +110,7 @@ TEST(LogParserCarmen, RobotLaserCarriesItsOwnGeometry) {
       " 1.9 1.3 1.670796326794897 2 1 1.570796326794897 0.2 0.1 0.55 0.375 1000000.0 "
       "100.25 host 7.5";
   for (const std::string remissions : {"0", "2 17 18"}) {
-    const auto record = parseAs<LaserRecord>(LogFormat::carmen, head + remissions + tail);
+    const auto record = parseAs<LaserRecord>(formatNamed("carmen"), head + remissions + tail);
     EXPECT_EQ(record.label, "ROBOTLASER1");
     EXPECT_EQ(record.time, 100.25);
     EXPECT_THAT(record.ranges, ElementsAre(4, 5, 6));
@@ -121,21 +121,21 @@ TEST(LogParserCarmen, RobotLaserCarriesItsOwnGeometry) {
     ASSERT_TRUE(record.odometry);
     expectPose(*record.odometry, 2, 1, M_PI / 2);
   }
-  EXPECT_THAT(whyBroken(LogFormat::carmen, head + "1" + tail), HasSubstr("fields where"));
-  EXPECT_THAT(whyBroken(LogFormat::carmen, head), HasSubstr("truncated line"));
-  EXPECT_THAT(whyBroken(LogFormat::carmen, "ROBOTLASER1 0 -1.0 2.0 0 30.0 0.01 0 3 4 5 6 0" + tail),
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), head + "1" + tail), HasSubstr("fields where"));
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), head), HasSubstr("truncated line"));
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), "ROBOTLASER1 0 -1.0 2.0 0 30.0 0.01 0 3 4 5 6 0" + tail),
               HasSubstr("angular resolution"));
 }
 
 TEST(LogParserCarmen, CommentsBlanksAndOtherRecordsPass) {
   for (const char* line : {"", "   \t\r", "# message_name [message contents]", "#FLASER 1"})
-    parseAs<std::monostate>(LogFormat::carmen, line);
-  EXPECT_EQ(parseAs<OtherRecord>(LogFormat::carmen, "SYNC tag 0 host 0").name, "SYNC");
-  EXPECT_EQ(parseAs<OtherRecord>(LogFormat::carmen, "RAWLASER2 0 1 2").name, "RAWLASER2");
+    parseAs<std::monostate>(formatNamed("carmen"), line);
+  EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "SYNC tag 0 host 0").name, "SYNC");
+  EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "RAWLASER2 0 1 2").name, "RAWLASER2");
 }
 
 TEST(LogParserCarmen, WindowsLineEndsAndTabsPass) {
-  EXPECT_EQ(parseAs<OdometryRecord>(LogFormat::carmen, "ODOM\t1 2 3  0 0 0 +5 host 6\r").time, 5);
+  EXPECT_EQ(parseAs<OdometryRecord>(formatNamed("carmen"), "ODOM\t1 2 3  0 0 0 +5 host 6\r").time, 5);
 }
 
 TEST(LogParserCarmen, BrokenLines) {
@@ -167,22 +167,23 @@ TEST(LogParserCarmen, BrokenLines) {
                            "flaser 1 2",
                            "0.75 1 2",
                            "F\x01\xff 1"})
-    EXPECT_THAT(whyBroken(LogFormat::carmen, line), testing::Not(HasSubstr("not broken"))) << line;
+    EXPECT_THAT(whyBroken(formatNamed("carmen"), line), testing::Not(HasSubstr("not broken"))) << line;
 }
 
 /// A row truncated anywhere before its last number is never accepted.
 TEST(LogParserCarmen, EveryCutRowIsBroken) {
   for (size_t kept = kFlaser.rfind(' '); kept > 6; --kept)
-    EXPECT_THAT(whyBroken(LogFormat::carmen, kFlaser.substr(0, kept)), testing::Not(HasSubstr("not broken")));
+    EXPECT_THAT(whyBroken(formatNamed("carmen"), kFlaser.substr(0, kept)),
+                testing::Not(HasSubstr("not broken")));
 }
 
 TEST(LogParserCarmen, ReasonsNameWhatIsWrong) {
-  EXPECT_EQ(whyBroken(LogFormat::carmen, "ODOM 1 2 3 0 0 0 5 host"),
+  EXPECT_EQ(whyBroken(formatNamed("carmen"), "ODOM 1 2 3 0 0 0 5 host"),
             "8 fields where 9 were expected: x y theta tv rv acceleration ipc_time host logger_time");
-  EXPECT_EQ(whyBroken(LogFormat::carmen, "ODOM 1 two 3 0 0 0 5 host 6"), "`two` is not a number");
-  LogParser parser(LogFormat::carmen, {});
+  EXPECT_EQ(whyBroken(formatNamed("carmen"), "ODOM 1 two 3 0 0 0 5 host 6"), "`two` is not a number");
+  const auto parser = formatNamed("carmen")->makeParser({});
   try {
-    parser.parse(kFlaser);
+    parser->parse(kFlaser);
     FAIL() << "three beams and no angular step told";
   } catch (const BrokenLine& e) {
     EXPECT_THAT(e.what(), HasSubstr("3 beams: the angular step must be given"));
@@ -190,60 +191,60 @@ TEST(LogParserCarmen, ReasonsNameWhatIsWrong) {
 }
 
 TEST(LogParserCarmen, UnusualReadingsAreNotBroken) {
-  const auto record = parseAs<LaserRecord>(LogFormat::carmen, "FLASER 3 nan inf -1 9 9 9 1 2 3 5 host 6");
+  const auto record = parseAs<LaserRecord>(formatNamed("carmen"), "FLASER 3 nan inf -1 9 9 9 1 2 3 5 host 6");
   EXPECT_TRUE(std::isnan(record.ranges[0]));
   EXPECT_TRUE(std::isinf(record.ranges[1]));
   EXPECT_EQ(record.ranges[2], -1);
 }
 
 TEST(LogParserGfs, LaserReading) {
-  const auto record =
-      parseAs<LaserRecord>(LogFormat::gfs, "LASER_READING 3 1.50 2.25 81.83 0.5 -0.25 1.25 976052857.348896");
+  const auto record = parseAs<LaserRecord>(formatNamed("gfs"),
+                                           "LASER_READING 3 1.50 2.25 81.83 0.5 -0.25 1.25 976052857.348896");
   EXPECT_EQ(record.label, "LASER_READING");
   EXPECT_THAT(record.ranges, ElementsAre(1.5f, 2.25f, 81.83f));
   EXPECT_DOUBLE_EQ(record.time, 976052857.348896);
   ASSERT_TRUE(record.odometry);
   expectPose(*record.odometry, 0.5, -0.25, 1.25);
-  EXPECT_THAT(whyBroken(LogFormat::gfs, "LASER_READING 3 1.50 2.25 81.83 0.5 -0.25 1.25"),
+  EXPECT_THAT(whyBroken(formatNamed("gfs"), "LASER_READING 3 1.50 2.25 81.83 0.5 -0.25 1.25"),
               HasSubstr("6 fields where 7 were expected"));
 }
 
 /// GMapping combines the previous reading's pose with the new one's time.
 TEST(LogParserGfs, OdometryGoesBackToItsOwnTime) {
-  LogParser parser(LogFormat::gfs, threeBeamOptions());
-  auto record = parseAs<OdometryRecord>(parser, "ODOM 0 0 0 100");  // the first reading, right as it is
+  const auto parser = formatNamed("gfs")->makeParser(threeBeamOptions());
+  auto record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 100");  // the first reading, right as it is
   EXPECT_EQ(record.time, 100);
-  parser.parse("ODO_UPDATE 1 0 0 0 1 100");
-  record = parseAs<OdometryRecord>(parser, "ODOM 0 0 0 101");
+  parser->parse("ODO_UPDATE 1 0 0 0 1 100");
+  record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 101");
   EXPECT_EQ(record.time, 100);
-  record = parseAs<OdometryRecord>(parser, "ODOM 1 0 0 102");  // where the robot was at 101
+  record = parseAs<OdometryRecord>(*parser, "ODOM 1 0 0 102");  // where the robot was at 101
   EXPECT_EQ(record.time, 101);
   EXPECT_EQ(record.pose.x, 1);
-  parser.parse("FRAME 3 0.5 0.1");
-  const auto scan = parseAs<LaserRecord>(parser, "LASER_READING 3 4 5 6 2.0004 0 0 102");
+  parser->parse("FRAME 3 0.5 0.1");
+  const auto scan = parseAs<LaserRecord>(*parser, "LASER_READING 3 4 5 6 2.0004 0 0 102");
   EXPECT_EQ(scan.odometry->x, 2.0004);
-  parseAs<std::monostate>(parser, "ODOM 2.000 0 0 103");  // the scan's pose again, rounded
-  record = parseAs<OdometryRecord>(parser, "ODOM 3 0 0 104");
+  parseAs<std::monostate>(*parser, "ODOM 2.000 0 0 103");  // the scan's pose again, rounded
+  record = parseAs<OdometryRecord>(*parser, "ODOM 3 0 0 104");
   EXPECT_EQ(record.time, 103);
-  EXPECT_THAT(whyBroken(LogFormat::gfs, "ODOM 3 0 0"), HasSubstr("3 fields where 4"));
+  EXPECT_THAT(whyBroken(formatNamed("gfs"), "ODOM 3 0 0"), HasSubstr("3 fields where 4"));
 }
 
 TEST(LogParserGfs, StateOfTheParticlesIsPassedOver) {
   for (const std::string name :
        {"ODO_UPDATE", "SM_UPDATE", "FRAME", "RESAMPLE", "NEFF", "ENTROPY", "SIMULATOR_POS", "COMMENT"})
-    EXPECT_EQ(parseAs<OtherRecord>(LogFormat::gfs, name + " 1 2 3").name, name);
+    EXPECT_EQ(parseAs<OtherRecord>(formatNamed("gfs"), name + " 1 2 3").name, name);
 }
 
 TEST(LogParserDpslam, OneStepForEachPairOfRows) {
   LogParserOptions options = threeBeamOptions();
   options.period = 0.5;
   options.laserX = 0.4;
-  LogParser parser(LogFormat::dpslam, options);
+  const auto parser = formatNamed("dpslam")->makeParser(options);
   for (int step = 0; step < 3; ++step) {
-    const auto odometry = parseAs<OdometryRecord>(parser, "Odometry -2.5 4.75 2.5 ");
+    const auto odometry = parseAs<OdometryRecord>(*parser, "Odometry -2.5 4.75 2.5 ");
     EXPECT_EQ(odometry.time, 0.5 * step);
     expectPose(odometry.pose, -2.5, 4.75, 2.5);
-    const auto scan = parseAs<LaserRecord>(parser, "Laser 3 0.642 8.183 1.5 ");
+    const auto scan = parseAs<LaserRecord>(*parser, "Laser 3 0.642 8.183 1.5 ");
     EXPECT_EQ(scan.time, 0.5 * step);
     EXPECT_EQ(scan.label, "LASER");
     EXPECT_THAT(scan.ranges, ElementsAre(0.642f, 8.183f, 1.5f));
@@ -253,27 +254,26 @@ TEST(LogParserDpslam, OneStepForEachPairOfRows) {
 }
 
 TEST(LogParserDpslam, AMissingRowDoesNotStopTheClock) {
-  LogParser parser(LogFormat::dpslam, threeBeamOptions());
-  EXPECT_EQ(parseAs<LaserRecord>(parser, "LASER 3 1 2 3").time, 0);
-  EXPECT_EQ(parseAs<OdometryRecord>(parser, "ODOMETRY 0 0 0").time, 1);
-  EXPECT_THROW(parser.parse("Laser 3 1 2"), BrokenLine);
-  EXPECT_EQ(parseAs<OdometryRecord>(parser, "Odometry 0 0 0").time, 2);
-  EXPECT_EQ(parseAs<LaserRecord>(parser, "Laser 3 1 2 3").time, 2);
-  EXPECT_EQ(parseAs<LaserRecord>(parser, "Laser 3 1 2 3").time, 3);
-  EXPECT_THAT(whyBroken(LogFormat::dpslam, "SYNC"), HasSubstr("neither Odometry nor Laser"));
-  EXPECT_THAT(whyBroken(LogFormat::dpslam, "Odometry 1 2"), HasSubstr("2 fields where 3"));
+  const auto parser = formatNamed("dpslam")->makeParser(threeBeamOptions());
+  EXPECT_EQ(parseAs<LaserRecord>(*parser, "LASER 3 1 2 3").time, 0);
+  EXPECT_EQ(parseAs<OdometryRecord>(*parser, "ODOMETRY 0 0 0").time, 1);
+  EXPECT_THROW(parser->parse("Laser 3 1 2"), BrokenLine);
+  EXPECT_EQ(parseAs<OdometryRecord>(*parser, "Odometry 0 0 0").time, 2);
+  EXPECT_EQ(parseAs<LaserRecord>(*parser, "Laser 3 1 2 3").time, 2);
+  EXPECT_EQ(parseAs<LaserRecord>(*parser, "Laser 3 1 2 3").time, 3);
+  EXPECT_THAT(whyBroken(formatNamed("dpslam"), "SYNC"), HasSubstr("neither Odometry nor Laser"));
+  EXPECT_THAT(whyBroken(formatNamed("dpslam"), "Odometry 1 2"), HasSubstr("2 fields where 3"));
 }
 
 TEST(FormatOf, IsGivenAwayByTheFirstRecordThatCan) {
-  using F = std::optional<LogFormat>;
-  EXPECT_EQ(formatOf("ODOM 1 2 3 0 0 0 5 host 6"), F(LogFormat::carmen));
-  EXPECT_EQ(formatOf(kFlaser), F(LogFormat::carmen));
-  EXPECT_EQ(formatOf("ROBOTLASER1 0"), F(LogFormat::carmen));
-  EXPECT_EQ(formatOf("PARAM robot_frontlaser_offset 0.0 nohost 0"), F(LogFormat::carmen));
-  EXPECT_EQ(formatOf("ODOM 1 2 3 5"), F(LogFormat::gfs));
-  EXPECT_EQ(formatOf("LASER_READING 180 1"), F(LogFormat::gfs));
-  EXPECT_EQ(formatOf("Odometry 1 2 3"), F(LogFormat::dpslam));
-  EXPECT_EQ(formatOf("LASER 181 1"), F(LogFormat::dpslam));
+  EXPECT_EQ(formatOf("ODOM 1 2 3 0 0 0 5 host 6"), formatNamed("carmen"));
+  EXPECT_EQ(formatOf(kFlaser), formatNamed("carmen"));
+  EXPECT_EQ(formatOf("ROBOTLASER1 0"), formatNamed("carmen"));
+  EXPECT_EQ(formatOf("PARAM robot_frontlaser_offset 0.0 nohost 0"), formatNamed("carmen"));
+  EXPECT_EQ(formatOf("ODOM 1 2 3 5"), formatNamed("gfs"));
+  EXPECT_EQ(formatOf("LASER_READING 180 1"), formatNamed("gfs"));
+  EXPECT_EQ(formatOf("Odometry 1 2 3"), formatNamed("dpslam"));
+  EXPECT_EQ(formatOf("LASER 181 1"), formatNamed("dpslam"));
   for (const char* line : {"", "# FLASER", "NEFF 20", "ODOM 1 2", "hello", "<html>"})
     EXPECT_FALSE(formatOf(line)) << line;
 }

@@ -17,12 +17,12 @@ std::vector<std::string> warningsOf(const readings::RawlogSummary& log) {
       all.push_back(std::to_string(odd.count) + " " + what + ": first at entry " + std::to_string(odd.first) +
                     "; " + done);
   };
-  add(log.empty, "scans without beams (or aperture or sensor pose)", "left out");
-  add(log.tilted, "scans of a tilted plane", "left out");
-  add(log.unstamped, "scans without timestamp", "they take that of the scan before");
-  add(log.repeatedStamps, "timestamps repeat that of the scan before", "kept as they are");
-  add(log.stepsBack, "timestamps step back", "the order of the log holds");
-  add(log.wrongOdometry, "odometry readings that are not numbers", "left out");
+  add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
+  add(log.tilted, "scans of a tilted plane", "skipped");
+  add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
+  add(log.repeatedStamps, "timestamps equal that of the previous scan", "kept");
+  add(log.stepsBack, "timestamps step back", "log order kept");
+  add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
   all.insert(all.end(), log.ignored.begin(), log.ignored.end());
   return all;
 }

@@ -24,7 +24,7 @@ class ParticleSet : public MrptParticles {
 
   /// All particles at `start` with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
-  /// Starts the next step: the random streams of its number, no weights of its own yet.
+  /// Starts the next step: new random streams, and its record in lastStep.
   void beginStep();
   /// Moves every particle by `motion` without sampling or weighing: while there is no map.
   void appendPose(const mrpt::math::TPose2D& motion);

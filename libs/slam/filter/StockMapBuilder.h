@@ -13,7 +13,7 @@ namespace hybrid_slam {
 
 class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter {
  public:
-  /// @param seed  same seed, same result, whichever thread the filter runs in and whatever runs beside it
+  /// @param seed  same seed, same result, in any thread and beside any other filter
   /// @param motion  of the actions that `process` makes of odometry
   StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed);
 

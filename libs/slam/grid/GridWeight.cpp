@@ -78,7 +78,7 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScans& scans,
     const size_t step = decimation(scan.beams.size(), options_.beams);
     options.LF_decimation = static_cast<uint32_t>(step);
     options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);
-    // A scan of its own for each call: MRPT keeps the scan's points in it, unguarded against other threads.
+    // A separate scan for each call: MRPT caches the points in it without a lock.
     const double logLikelihood =
         local.computeObservationLikelihood(toObservation(scan), mrpt::poses::CPose3D(robot));
     sum += isMean ? logLikelihood * static_cast<double>(valid) : logLikelihood;

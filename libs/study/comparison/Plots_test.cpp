@@ -90,7 +90,7 @@ TEST_F(PlotsTest, SuccessShowsRatesAndCounts) {
 
 TEST_F(PlotsTest, ParticlesMakeALineForEachMethod) {
   const Plot plot = plotAgainstParticles(name(Figure::cpuTime), groups, summaries);
-  EXPECT_EQ(plot.description, "processor time (s) against particles");
+  EXPECT_EQ(plot.description, "CPU time (s) against particles");
   EXPECT_THAT(plot.script, HasSubstr("$line0 << EOD\n20 2.5 1.75 3.25\n50 2.5 1.75 3.25\nEOD\n"));
   const std::string svg = drawn(plot);
   EXPECT_EQ(count(svg, ">hybrid</text>"), 1u);

@@ -152,7 +152,7 @@ std::string writeReport(const ReportInput& input, std::ostream& out) {
       "between two snapshots.",
       particles);
   section(
-      out, "Time and memory", "Each run is a process of its own with one thread.",
+      out, "Time and memory", "Each run is a separate process with one thread.",
       summaryTable(
           groups, summaries,
           {Figure::wallTime, Figure::cpuTime, Figure::realtimeFactor, Figure::peakMemory, Figure::lines},
