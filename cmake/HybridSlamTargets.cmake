@@ -1,6 +1,6 @@
 # One CMake target per folder: libs/NAME -> hybrid_slam::NAME, its *_test.cpp -> hybrid_slam_NAME_test.
 
-find_package(GTest REQUIRED)
+include(GNUInstallDirs)
 include(GoogleTest)
 
 # s; of one test, on a machine that is busy. A test that hangs ends.
@@ -11,7 +11,7 @@ endif()
 
 add_library(hybrid_slam_flags INTERFACE)
 target_compile_options(hybrid_slam_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<BOOL:${HYBRID_SLAM_WERROR}>:-Werror>
   $<$<CONFIG:Release>:-O3>
   # The same bytes on every run and for every number of threads: no contraction that depends on inlining.
   -ffp-contract=off)
@@ -22,17 +22,31 @@ if(HYBRID_SLAM_SANITIZE)
   target_link_options(hybrid_slam_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
-# hybrid_slam_library(NAME TARGET...): every .cpp of the folder but the tests, linked with TARGET...
+# hybrid_slam_install_library(NAME): hybrid_slam::NAME of the installed package.
+function(hybrid_slam_install_library name)
+  set_target_properties(hybrid_slam_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS hybrid_slam_${name} EXPORT hybrid_slam)
+endfunction()
+
+# hybrid_slam_library(NAME TARGET...): every .cpp of the folder but the tests, linked with TARGET..., all whose headers
+# the folder includes (tests/declared-dependencies.py).
 function(hybrid_slam_library name)
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS *.h)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   add_library(hybrid_slam_${name} STATIC ${sources})
   add_library(hybrid_slam::${name} ALIAS hybrid_slam_${name})
-  target_include_directories(hybrid_slam_${name} PUBLIC ${PROJECT_SOURCE_DIR}/libs)
-  target_link_libraries(hybrid_slam_${name} PUBLIC ${ARGN} PRIVATE hybrid_slam_flags)
-  if(tests)
+  target_compile_features(hybrid_slam_${name} PUBLIC cxx_std_17)
+  target_include_directories(hybrid_slam_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/libs> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam>)
+  # The flags are for our own sources, not for those of programs that use the installed library.
+  target_link_libraries(hybrid_slam_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:hybrid_slam_flags>)
+  hybrid_slam_install_library(${name})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/libs ${CMAKE_CURRENT_SOURCE_DIR})
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam/${folder})
+  if(tests AND HYBRID_SLAM_TESTS)
     hybrid_slam_test(${name} ${tests})
     target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam::${name})
   endif()
@@ -54,7 +68,7 @@ function(hybrid_slam_app name)
   target_compile_definitions(${name} PRIVATE
     HYBRID_SLAM_PROGRAM="${name}" HYBRID_SLAM_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARGN} CLI11::CLI11 hybrid_slam_flags)
-  install(TARGETS ${name} RUNTIME DESTINATION bin)
+  install(TARGETS ${name})
 endfunction()
 
 # hybrid_slam_program_test(FILE PROGRAM MACRO TARGET...): FILE.cpp runs PROGRAM, whose path MACRO holds.

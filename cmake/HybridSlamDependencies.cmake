@@ -1,0 +1,38 @@
+# Everything the build looks for. What the libraries need, the installed package looks for as well.
+
+# hybrid_slam_find(PACKAGE...): find_package, also in hybrid_slamConfig.cmake.
+macro(hybrid_slam_find)
+  find_package(${ARGN} REQUIRED)
+  string(REPLACE ";" " " package "${ARGN}")
+  string(APPEND hybrid_slam_find_dependencies "find_dependency(${package})\n")
+endmacro()
+
+foreach(module core system serialization config comms math random poses img bayes obs maps slam hwdrivers io)
+  hybrid_slam_find(mrpt-${module} 2.5)
+endforeach()
+hybrid_slam_find(Eigen3)
+hybrid_slam_find(TBB)
+hybrid_slam_find(ZLIB)
+hybrid_slam_find(Threads)
+hybrid_slam_find(nlohmann_json)
+hybrid_slam_find(OpenCV COMPONENTS core imgcodecs)
+find_package(CLI11 REQUIRED)
+
+if(HYBRID_SLAM_STUDY)
+  hybrid_slam_find(nanoflann)
+  hybrid_slam_find(OpenCV COMPONENTS core imgproc)
+endif()
+
+if(HYBRID_SLAM_GUI)
+  hybrid_slam_find(mrpt-opengl 2.5)
+  hybrid_slam_find(mrpt-gui 2.5)
+  find_package(wxWidgets 3.2 REQUIRED COMPONENTS gl propgrid core base)
+endif()
+
+if(HYBRID_SLAM_TESTS)
+  find_package(GTest REQUIRED)
+  find_package(Python3 3.9 COMPONENTS Interpreter REQUIRED)
+  if(HYBRID_SLAM_GUI)
+    find_package(X11 REQUIRED)
+  endif()
+endif()
