@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Installs a build, moves it elsewhere, and builds and runs tests/consumer with it.
+#   tests/install.sh PROJECT BUILD CONFIGURATION COMPILER GENERATOR
+set -euo pipefail
+project=$1 build=$2 configuration=$3 compiler=$4 generator=$5
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "error: $*" >&2; exit 1; }
+
+cmake --install "$build" --config "$configuration" --prefix "$folder/at-first" >/dev/null
+mv "$folder/at-first" "$folder/prefix"
+cp -r "$project/tests/consumer" "$folder/consumer"
+prefix=$folder/prefix
+
+# What is installed names neither the source nor the build, and demands none of our flags.
+! grep -rn --include="*.cmake" -e "$project" -e "$build" -e -Werror "$prefix" || fail "the package is not for others"
+! find "$prefix" -name '*_test*' -o -name testing | grep . || fail "tests are installed"
+for file in bin/hybrid-slam share/hybrid_slam/{config-ini/lms-logs.ini,datasets/csie/csie.plan} \
+  share/doc/hybrid_slam/{README.md,LICENSE,doc/architecture.md,doc/images/malaga.png}; do
+  [[ -f $prefix/$file ]] || fail "$file is not installed"
+done
+
+cmake -S "$folder/consumer" -B "$folder/build" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE="$configuration" >/dev/null
+cmake --build "$folder/build"
+output=$("$folder/build/consumer" "$prefix/share/hybrid_slam/datasets/csie/csie-corridor.rawlog")
+echo "$output"
+[[ $output =~ ^pose\ .*,\ [1-9][0-9]*\ lines$ ]] || fail "expected a pose and lines"
