@@ -16,10 +16,14 @@ target_compile_options(hybrid_slam_flags INTERFACE
   # The same bytes on every run and for every number of threads: no contraction that depends on inlining.
   -ffp-contract=off)
 if(HYBRID_SLAM_SANITIZE)
-  # Not alignment: MRPT's own operator new aligns its classes to 16 bytes, where some ask for 32.
-  target_compile_options(hybrid_slam_flags INTERFACE
-    -fsanitize=address,undefined -fno-sanitize=alignment -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(hybrid_slam_flags INTERFACE -fsanitize=address,undefined)
+  # With the assertions of Eigen (no NDEBUG: CMakePresets.json) and of libstdc++.
+  target_compile_options(hybrid_slam_flags INTERFACE -fsanitize=${HYBRID_SLAM_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_definitions(hybrid_slam_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  target_link_options(hybrid_slam_flags INTERFACE -fsanitize=${HYBRID_SLAM_SANITIZE})
+  if(HYBRID_SLAM_SANITIZE MATCHES undefined)
+    # Not alignment: MRPT's own operator new aligns its classes to 16 bytes, where some ask for 32.
+    target_compile_options(hybrid_slam_flags INTERFACE -fno-sanitize=alignment -fno-sanitize-recover=undefined)
+  endif()
 endif()
 
 # hybrid_slam_install_library(NAME): hybrid_slam::NAME of the installed package.

@@ -1,7 +1,5 @@
 #include "slam/filter/ParticleSet.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,9 +48,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
 
 template <class Body>
 void ParticleSet::forEachParticle(const Body& body) {
-  arena_.execute([&] {
-    tbb::parallel_for(size_t{0}, m_particles.size(), [&](size_t i) { body(i, *m_particles[i].d); });
-  });
+  parallelFor(arena_, 0, m_particles.size(), [&](size_t i) { body(i, *m_particles[i].d); });
 }
 
 void ParticleSet::reset(const TPose2D& start) {

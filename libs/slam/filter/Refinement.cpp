@@ -1,7 +1,6 @@
 #include "slam/filter/Refinement.h"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <tbb/parallel_for.h>
 
 #include "slam/filter/PreparedScan.h"
 #include "slam/filter/Threads.h"
@@ -43,17 +42,15 @@ void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configura
   tbb::task_arena arena(arenaThreads(configuration.filter.threads));
   for (int pass = 0; pass < passes; ++pass) {
     const OccupancyGrid grid = gridOf(scans, configuration.grid);
-    arena.execute([&] {
-      tbb::parallel_for(size_t{1}, scans.size(), [&](size_t i) {
-        TPose2D& pose = scans[i].pose;
-        const LaserScans seen = toLaserScans(scans[i].scans, configuration.grid.maxRange);
-        const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));
-        const Prior prior = [&, before = pose](const TPose2D& at) {
-          return gaussianLogDensity(at, before, information);
-        };
-        const ScanMatch match = matcher.match(beams, pose, grid, prior);
-        if (match.fit >= configuration.improved.minFit) pose = match.pose;
-      });
+    parallelFor(arena, 1, scans.size(), [&](size_t i) {
+      TPose2D& pose = scans[i].pose;
+      const LaserScans seen = toLaserScans(scans[i].scans, configuration.grid.maxRange);
+      const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));
+      const Prior prior = [&, before = pose](const TPose2D& at) {
+        return gaussianLogDensity(at, before, information);
+      };
+      const ScanMatch match = matcher.match(beams, pose, grid, prior);
+      if (match.fit >= configuration.improved.minFit) pose = match.pose;
     });
   }
 }

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Checks what the latest commits touched in libs/, as far as the time goes: clang-format on all files, clang-tidy on
+# the touched ones, the tests of the touched libraries under ASan and UBSan, and under TSan if they use threads.
+#   scripts/check-touched.sh [MINUTES]     MINUTES defaults to 20
+# Touched: by HEAD and the commits of the six hours before it. Libraries in build order, those that need least first.
+# What does not fit into the time is named and is no failure. Exit status 1 if a check failed.
+source "$(dirname "$0")/lib.sh"
+deadline=$((SECONDS + 60 * ${1:-20}))
+mkdir -p build
+log=build/check-touched.log
+failed=0 missed=()
+
+# step NAME COMMAND...: prints the outcome and the time, and the end of the output if it failed.
+step() {
+  local name=$1 left=$((deadline - SECONDS)) start=$SECONDS status=0
+  shift
+  [[ $left -gt 0 ]] || { missed+=("$name"); return; }
+  timeout -k 10 "$left" "$@" >$log 2>&1 </dev/null || status=$?
+  case $status in
+    0) echo "passed  $name, $((SECONDS - start)) s" ;;
+    124 | 137) missed+=("$name") ;;
+    *) failed=1 && echo "FAILED  $name, $((SECONDS - start)) s" && tail -n 60 $log ;;
+  esac
+}
+
+step "clang-format" scripts/check.sh format
+
+head=$(git log -1 --format=%ct) || { echo "not run: the touched libraries: no git history" && exit $failed; }
+mapfile -t touched < <(git log --since="@$((head - 6 * 3600))" --name-only --format= -- libs | sort -u)
+# The folders of libs/ in the order in which CMake adds them, where libraries come after those that they need.
+cmake --preset release >/dev/null
+mapfile -t folders < <(sed -nE 's|^ *"file": ".*/(libs/.*)/[^/]*"$|\1|p' build/release/compile_commands.json | uniq)
+mapfile -t threaded < <(scripts/check.sh threaded)
+for folder in "${folders[@]}"; do
+  files=()
+  for file in "${touched[@]}"; do
+    source=${file%.h}
+    source=${source%.cpp}.cpp
+    [[ $(dirname "$file") == "$folder" && -f $source && " ${files[*]} " != *" $source "* ]] && files+=("$source")
+  done
+  [[ " ${touched[*]}" == *" $folder/"* ]] || continue
+  step "$folder under ASan and UBSan" scripts/check.sh sanitize "$folder"
+  [[ " ${threaded[*]} " != *" $folder "* ]] || step "$folder under TSan" scripts/check.sh tsan "$folder"
+  [[ ${#files[@]} -eq 0 ]] || step "$folder under clang-tidy" scripts/check.sh tidy "${files[@]}"
+done
+for name in "${missed[@]}"; do echo "not run: out of time: $name"; done
+exit $failed

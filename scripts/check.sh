@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# One check, over the whole tree or over some of it. Exit status 0 if it finds nothing.
+#   scripts/check.sh format             clang-format would change no file
+#   scripts/check.sh tidy [FILE...]     clang-tidy reports nothing (.clang-tidy); all .cpp files by default
+#   scripts/check.sh sanitize [LIB...]  the tests under ASan and UBSan, with the assertions of Eigen and libstdc++
+#   scripts/check.sh tsan [LIB...]      the tests of the libraries with threads under TSan
+# LIB is a folder of libs/ (libs/base); without one, `sanitize` runs the whole suite and `tsan` every such library.
+source "$(dirname "$0")/lib.sh"
+
+threaded=(libs/slam/grid libs/slam/filter libs/live libs/live_run libs/window/view)
+export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}
+
+# Builds and runs the test program of each LIB that has one.
+test_libraries() {
+  local preset=$1 folder name failed=0
+  shift
+  install_packages "${packages[@]}"
+  cmake --preset "$preset"
+  for folder in "$@"; do
+    name=hybrid_slam_$(basename "$folder")_test
+    compgen -G "$folder/*_test.cpp" >/dev/null || { echo "$folder has no tests"; continue; }
+    cmake --build --preset "$preset" --target "$name"
+    echo "-- $name, $preset"
+    "build/$preset/bin/$name" --gtest_brief=1 || failed=1
+  done
+  return $failed
+}
+
+check_format() {
+  install_packages clang-format
+  find apps benchmarks libs testing tests \( -name '*.h' -o -name '*.cpp' \) -exec clang-format --dry-run --Werror {} +
+}
+
+check_tidy() {
+  install_packages "${packages[@]}" clang-tidy
+  cmake --preset release
+  [[ $# -gt 0 ]] || mapfile -t files < <(find apps libs tests -name '*.cpp')
+  printf '%s\n' "${@:-${files[@]}}" | xargs -n 1 -P "$(nproc)" clang-tidy -p build/release --quiet 2>&1 |
+    sed -E '/^[0-9]+ (warning|error)s?( and [0-9]+ errors?)? generated\.$/d'
+}
+
+check_sanitize() {
+  if [[ $# -gt 0 ]]; then test_libraries sanitize "$@"; else HYBRID_SLAM_PRESET=sanitize scripts/test.sh; fi
+}
+
+check_tsan() { test_libraries tsan "${@:-${threaded[@]}}"; }
+
+part=${1:-}
+case $part in
+  format | tidy | sanitize | tsan) shift && "check_$part" "$@" ;;
+  threaded) printf '%s\n' "${threaded[@]}" ;;  # for check-touched.sh
+  *) echo "error: unknown check '$part', expected format, tidy, sanitize or tsan" >&2 && exit 2 ;;
+esac
