@@ -8,7 +8,8 @@
 source "$(dirname "$0")/lib.sh"
 
 threaded=(libs/slam/grid libs/slam/filter libs/live libs/live_run libs/window/view)
-export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}
+export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
+export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
 
 # Builds and runs the test program of each LIB that has one.
 test_libraries() {

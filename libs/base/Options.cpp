@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
@@ -86,8 +87,8 @@ void OptionTable::addName(const std::string& key, const std::vector<std::string>
   const std::string list =
       std::accumulate(names.begin() + 1, names.end(), names.front(),
                       [](const std::string& all, const std::string& name) { return all + " | " + name; });
-  options_.push_back({key, "", list, why, [names, get] { return names.at(get()); },
-                      [names, set, list](const std::string& text) -> std::string {
+  options_.push_back({key, "", list, why, [names, get = std::move(get)] { return names.at(get()); },
+                      [names, set = std::move(set), list](const std::string& text) -> std::string {
                         const auto found = std::find(names.begin(), names.end(), text);
                         if (found == names.end()) return "expected one of " + list;
                         set(static_cast<size_t>(found - names.begin()));

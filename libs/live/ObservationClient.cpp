@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 #include "live/ObservationWire.h"
 #include "live/TcpSocket.h"
@@ -14,10 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kShortestPause = 0.1, kLongestPause = 2;  // s
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 

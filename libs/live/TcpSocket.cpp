@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 
 namespace hybrid_slam::live {
@@ -25,10 +26,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kStopInterval = 0.1;  // s
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 [[noreturn]] void fail(int error) { throw std::runtime_error(std::strerror(error)); }
 

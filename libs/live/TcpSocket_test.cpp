@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 #include "live/LiveOptions.h"
 #include "live/ObservationClient.h"
@@ -40,10 +41,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using test::Events;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Listens, but has no room for one more connection: attempts are not answered.
 class FullListener {

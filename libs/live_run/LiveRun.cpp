@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 #include "base/Numbers.h"
 
@@ -14,10 +15,6 @@ namespace {
 
 /// Number of observations, about one second: sensors do not start at the same time.
 constexpr size_t kEarly = 5;
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Quantile: the smallest value that at least `share` of all values do not exceed.
 double quantile(std::vector<double> values, double share) {
@@ -90,8 +87,8 @@ void LiveRun::filter() {
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
-      latencies_.push_back(millisecondsSince(next->arrival));
-      if (!isQuiet_ && millisecondsSince(lastState_) >= 10000) tellState();
+      latencies_.push_back(1000 * secondsSince(next->arrival));
+      if (!isQuiet_ && secondsSince(lastState_) >= 10) tellState();
     }
   } catch (...) {
     failure_ = std::current_exception();

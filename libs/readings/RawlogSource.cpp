@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "readings/Timestamps.h"
 
 namespace hybrid_slam::readings {
 
@@ -19,9 +20,6 @@ namespace {
 void note(Oddity& oddity, size_t entry) {
   if (oddity.count++ == 0) oddity.first = entry;
 }
-
-bool isStamped(const CObservation2DRangeScan& scan) { return scan.timestamp != INVALID_TIMESTAMP; }
-double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
 
 using Uses = std::map<std::string, std::map<ScanGrouper::Use, size_t>>;  ///< scans of each laser, by use
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "readings/Timestamps.h"
 #include "slam/motion/OdometryIncrement.h"
 
 namespace hybrid_slam::readings {
@@ -25,9 +26,6 @@ void markInvalidBeams(CObservation2DRangeScan& scan) {
       scan.setScanRangeValidity(i, false);
   }
 }
-
-bool isStamped(const CObservation2DRangeScan& scan) { return scan.timestamp != INVALID_TIMESTAMP; }
-double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
 
 TPose2D interpolate(const TPose2D& a, const TPose2D& b, double share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
@@ -90,7 +88,7 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   const TPose2D pose = odometry.odometry.asTPose();
-  const bool isStampedOdometry = odometry.timestamp != INVALID_TIMESTAMP;
+  const bool isStampedOdometry = isStamped(odometry);
   const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
   for (const Waiting& scan : waiting_) {
     const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;

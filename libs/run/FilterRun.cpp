@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "run/MapFiles.h"
@@ -22,10 +23,6 @@ namespace hybrid_slam::run {
 namespace {
 
 using Method = RunOptions::Method;
-
-double secondsSince(FilterRun::Clock::time_point start) {
-  return std::chrono::duration<double>(FilterRun::Clock::now() - start).count();
-}
 
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
   if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
@@ -131,7 +128,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     refineResult(result, scans);
   }
   const auto& [trajectory, path, grid, lines] = result;
-  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(trajectory, out); });
+  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
   savePicture(folder_, grid, trajectory, lines);
   saveRosMap(folder_, grid);
   saveGridMap(folder_, grid);

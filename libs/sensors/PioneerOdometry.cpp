@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 
 IMPLEMENTS_GENERIC_SENSOR(PioneerOdometry, hybrid_slam::sensors)
@@ -13,10 +14,6 @@ namespace {
 
 constexpr double kConnectTimeout = 3, kAnswerTimeout = 0.5, kSilence = 3, kPulseInterval = 1;  // s
 constexpr int kAttempts = 5;
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 

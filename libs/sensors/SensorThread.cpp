@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 #include "live/OdometryContinuity.h"
 #include "sensors/PioneerOdometry.h"
@@ -22,10 +23,6 @@ using mrpt::obs::CObservation;
 
 constexpr double kShortestPause = 0.2, kLongestPause = 10;  // s
 std::atomic<size_t> countLeftBehind{0};
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// CLMS100Eth returns scans without beams once its connection is lost.
 bool isEmptyScan(const CObservation& observation) {

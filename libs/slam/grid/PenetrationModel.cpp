@@ -76,6 +76,7 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
   static constexpr std::array<double, kBlock> kFarFromReading{};
   static constexpr Tile::Cells kUnknown{};
   const int window = static_cast<int>(density_.size());
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): range >= 0
   int left = static_cast<int>(range + 0.5) + behind_;  // steps
   const double start = range + behind_ - left + 0.5;
   RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);

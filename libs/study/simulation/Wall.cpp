@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hybrid_slam::simulation {
 
@@ -10,7 +9,6 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
 /// Tolerance, so that rays do not slip through the joint of two walls by rounding.
 constexpr double kSlack = 1e-9;  // m
 
@@ -21,14 +19,14 @@ double rayToSegment(const Wall& wall, const TPoint2D& origin, const TPoint2D& di
   const TPoint2D along = wall.end - wall.start, toStart = wall.start - origin;
   const double length = along.norm(), sine = cross(direction, along) / length;
   if (std::abs(sine) < 1e-12) {  // parallel
-    if (std::abs(cross(direction, toStart)) > kSlack) return kNone;
+    if (std::abs(cross(direction, toStart)) > kSlack) return kNoHit;
     const double a = dot(direction, toStart), b = dot(direction, wall.end - origin);
-    if (std::max(a, b) < 0) return kNone;
+    if (std::max(a, b) < 0) return kNoHit;
     return std::max(0.0, std::min(a, b));
   }
   const double t = cross(toStart, along) / (sine * length);
   const double s = cross(toStart, direction) / sine;  // m from the wall's start
-  return t >= 0 && s >= -kSlack && s <= length + kSlack ? t : kNone;
+  return t >= 0 && s >= -kSlack && s <= length + kSlack ? t : kNoHit;
 }
 
 /// Whether an angle lies within the arc, with kSlack of length at both ends.
@@ -43,12 +41,12 @@ double rayToArc(const Wall& wall, const TPoint2D& origin, const TPoint2D& direct
   const TPoint2D fromCentre = origin - wall.centre;
   const double half = dot(fromCentre, direction), offset = cross(direction, fromCentre);
   const double root = (wall.radius - offset) * (wall.radius + offset);
-  if (root < 0) return kNone;
+  if (root < 0) return kNoHit;
   for (const double t : {-half - std::sqrt(root), -half + std::sqrt(root)}) {
     const TPoint2D p = fromCentre + direction * t;
     if (t >= 0 && onArc(wall, std::atan2(p.y, p.x))) return t;
   }
-  return kNone;
+  return kNoHit;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <limits>
+
 namespace hybrid_slam::simulation {
 
 /// A wall without thickness, in the frame of the floor plan (m, rad).
@@ -23,7 +25,10 @@ struct Wall {
   double distance(const mrpt::math::TPoint2D& p) const;  ///< m, from p to the nearest point of the wall
 };
 
-/// Distance (m, >= 0) from `origin` along the unit vector `direction` to the wall; infinity for a miss. A ray
+/// Distance to a wall that is not there, m.
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/// Distance (m, >= 0) from `origin` along the unit vector `direction` to the wall; kNoHit for a miss. A ray
 /// along a straight wall hits its nearer end.
 double rayDistance(const Wall& wall, const mrpt::math::TPoint2D& origin,
                    const mrpt::math::TPoint2D& direction);

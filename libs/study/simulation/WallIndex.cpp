@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hybrid_slam::simulation {
@@ -11,7 +10,6 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kMinCellSize = 0.5;  // m; about the length of the shortest walls, jambs and pillars
 constexpr double kMaxCells = 4e5;
 
@@ -28,8 +26,8 @@ std::pair<TPoint2D, TPoint2D> boxOf(const Wall& wall) {
 
 WallIndex::WallIndex(std::vector<Wall> walls) : walls_(std::move(walls)) {
   if (walls_.empty()) return;
-  low_ = {kNone, kNone};
-  high_ = {-kNone, -kNone};
+  low_ = {kNoHit, kNoHit};
+  high_ = {-kNoHit, -kNoHit};
   for (const Wall& wall : walls_) {
     const auto [low, high] = boxOf(wall);
     low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y)};
@@ -67,26 +65,26 @@ bool WallIndex::mayTouch(const Wall& wall, int column, int row) const {
 }
 
 double WallIndex::rayDistance(const TPoint2D& origin, const TPoint2D& direction, double maxRange) const {
-  if (walls_.empty()) return kNone;
+  if (walls_.empty()) return kNoHit;
   // The part of the ray inside the grid, by slabs.
   double enter = 0, leave = maxRange;
   for (const int axis : {0, 1}) {
     const double o = origin[axis] - low_[axis], d = direction[axis];
     const double extent = (axis == 0 ? columns_ : rows_) * cellSize_;
     if (std::abs(d) < 1e-15) {
-      if (o < -1e-9 || o > extent + 1e-9) return kNone;
+      if (o < -1e-9 || o > extent + 1e-9) return kNoHit;
       continue;
     }
     enter = std::max(enter, std::min(-o / d, (extent - o) / d));
     leave = std::min(leave, std::max(-o / d, (extent - o) / d));
   }
-  if (enter > leave + 1e-9) return kNone;
+  if (enter > leave + 1e-9) return kNoHit;
 
   const TPoint2D first = origin + direction * enter;
   int column = columnOf(first.x), row = rowOf(first.y);
   const int columnStep = direction.x > 0 ? 1 : -1, rowStep = direction.y > 0 ? 1 : -1;
   const auto crossing = [this](double o, double low, double d, int cell, int step) {
-    if (std::abs(d) < 1e-15) return kNone;
+    if (std::abs(d) < 1e-15) return kNoHit;
     return (low + (cell + (step > 0 ? 1 : 0)) * cellSize_ - o) / d;
   };
   double nextColumn = crossing(origin.x, low_.x, direction.x, column, columnStep);
@@ -94,7 +92,7 @@ double WallIndex::rayDistance(const TPoint2D& origin, const TPoint2D& direction,
   const double columnLength = cellSize_ / std::max(std::abs(direction.x), 1e-15);
   const double rowLength = cellSize_ / std::max(std::abs(direction.y), 1e-15);
 
-  double nearest = kNone;
+  double nearest = kNoHit;
   while (true) {
     for (const int i : cells_[cellNumber(column, row)])
       nearest = std::min(nearest, simulation::rayDistance(walls_[i], origin, direction));
@@ -111,13 +109,13 @@ double WallIndex::rayDistance(const TPoint2D& origin, const TPoint2D& direction,
       if (row < 0 || row >= rows_) break;
     }
   }
-  return nearest <= maxRange ? nearest : kNone;
+  return nearest <= maxRange ? nearest : kNoHit;
 }
 
 double WallIndex::nearestDistance(const TPoint2D& p) const {
-  if (walls_.empty()) return kNone;
+  if (walls_.empty()) return kNoHit;
   const int column = columnOf(p.x), row = rowOf(p.y);
-  double nearest = kNone;
+  double nearest = kNoHit;
   // Square rings of cells around p; every wall of ring k and beyond is at least (k - 1) cells away, even if p
   // is outside the grid and the rings are centred on the nearest cell.
   for (int ring = 0; ring < std::max(columns_, rows_) && (ring - 1) * cellSize_ <= nearest; ++ring)

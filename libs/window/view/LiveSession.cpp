@@ -9,7 +9,6 @@
 namespace hybrid_slam::window {
 namespace {
 
-using State = LiveSnapshot::State;
 constexpr size_t kEvents = 200;
 
 }  // namespace
@@ -49,9 +48,10 @@ void LiveSession::publish(const Change& change) {
 void LiveSession::work() {
   try {
     const std::string summary = run();
-    publish([&](LiveSnapshot& next) { next.state = State::done, next.message = summary; });
+    publish([&](LiveSnapshot& next) { next.state = LiveSnapshot::State::done, next.message = summary; });
   } catch (const std::exception& e) {
-    publish([&](LiveSnapshot& next) { next.state = State::failed, next.message = messageOf(e); });
+    publish(
+        [&](LiveSnapshot& next) { next.state = LiveSnapshot::State::failed, next.message = messageOf(e); });
   }
 }
 
@@ -78,7 +78,7 @@ std::string LiveSession::run() {
   });
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
              [&] { return isStopping_ || live.hasFailed(); });
-  publish([](LiveSnapshot& next) { next.state = State::finishing; });
+  publish([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   return live.finish(HYBRID_SLAM_VERSION, client.lost());
 }
 

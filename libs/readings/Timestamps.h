@@ -1,0 +1,17 @@
+/// @file Timestamps.h
+/// @brief Timestamps of MRPT's observations.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservation.h>
+
+namespace hybrid_slam::readings {
+
+inline bool isStamped(const mrpt::obs::CObservation& observation) {
+  return observation.timestamp != INVALID_TIMESTAMP;
+}
+
+/// s since 1970, UTC.
+inline double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
+
+}  // namespace hybrid_slam::readings
