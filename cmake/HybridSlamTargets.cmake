@@ -61,6 +61,8 @@ function(hybrid_slam_test name)
   add_executable(hybrid_slam_${name}_test ${ARGN})
   target_include_directories(hybrid_slam_${name}_test PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/libs)
   target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
+  # Tests of a folder may have different helpers of one name.
+  set_target_properties(hybrid_slam_${name}_test PROPERTIES UNITY_BUILD OFF)
   gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${hybrid_slam_test_timeout})
 endfunction()

@@ -11,6 +11,13 @@ threaded=(libs/slam/grid libs/slam/filter libs/live libs/live_run libs/window/vi
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
 
+# compile PRESET TARGET: each library as one unit, which is faster; file by file if names clash in one.
+compile() {
+  cmake --build --preset "$1" --target "$2" && return
+  cmake --preset "$1" -DCMAKE_UNITY_BUILD=OFF
+  cmake --build --preset "$1" --target "$2"
+}
+
 # Builds and runs the test program of each LIB that has one.
 test_libraries() {
   local preset=$1 folder name failed=0
@@ -20,7 +27,7 @@ test_libraries() {
   for folder in "$@"; do
     name=hybrid_slam_$(basename "$folder")_test
     compgen -G "$folder/*_test.cpp" >/dev/null || { echo "$folder has no tests"; continue; }
-    cmake --build --preset "$preset" --target "$name"
+    compile "$preset" "$name"
     echo "-- $name, $preset"
     "build/$preset/bin/$name" --gtest_brief=1 || failed=1
   done
@@ -41,7 +48,13 @@ check_tidy() {
 }
 
 check_sanitize() {
-  if [[ $# -gt 0 ]]; then test_libraries sanitize "$@"; else HYBRID_SLAM_PRESET=sanitize scripts/test.sh; fi
+  if [[ $# -gt 0 ]]; then
+    test_libraries sanitize "$@"
+  else
+    test_libraries sanitize
+    compile sanitize all
+    ctest --preset sanitize -j2
+  fi
 }
 
 check_tsan() { test_libraries tsan "${@:-${threaded[@]}}"; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the dependencies, builds and runs all tests. Extra arguments go to ctest (-R NAME, ...). HYBRID_SLAM_PRESET
-# selects the build: release (default), debug or sanitize.
+# selects the build: release (default) or debug; scripts/check.sh runs the sanitizers.
 source "$(dirname "$0")/lib.sh"
 preset=${HYBRID_SLAM_PRESET:-release}
 install_packages "${packages[@]}"

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hybrid_slam::run {
 
@@ -20,7 +21,7 @@ void Progress::update(size_t done, const std::string& note) {
   if (sinceLast.count() < (isTerminal_ ? 0.2 : 10) && (done < total_ || !isTerminal_)) return;
   last_ = now;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
-  const int left = share > 0 ? static_cast<int>(elapsed.count() * (1 - share) / share + 0.5) : 0;
+  const int left = share > 0 ? static_cast<int>(std::lround(elapsed.count() * (1 - share) / share)) : 0;
   if (!isTerminal_) {
     std::fprintf(stderr, "%zu of %zu scans (%.0f %%), %d s left, %s\n", done, total_, 100 * share, left,
                  note.c_str());
