@@ -36,6 +36,9 @@ std::optional<double> angularStepFor(size_t beams) {
   }
 }
 
-BeamAngles beamAngles(size_t beams, double step) { return {-static_cast<double>(beams / 2) * step, step}; }
+BeamAngles beamAngles(size_t beams, double step) {
+  const size_t ahead = beams / 2;
+  return {-static_cast<double>(ahead) * step, step};
+}
 
 }  // namespace hybrid_slam::readings

@@ -6,7 +6,7 @@
 namespace hybrid_slam::sensors {
 
 SensorSource::SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
-                           std::shared_ptr<live::EventLog> log)
+                           const std::shared_ptr<live::EventLog>& log)
     : cycleRate_(cycleRate) {
   std::vector<std::string> sections;
   config.getAllSections(sections);

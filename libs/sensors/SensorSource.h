@@ -19,7 +19,7 @@ class SensorSource : public live::CycleSource {
   /// @param cycleRate  1/s; @param timeout  s without data until a sensor is restarted
   /// @throws InputError if there is no sensor, or a wrong one
   SensorSource(const mrpt::config::CConfigFileMemory& config, double cycleRate, double timeout,
-               std::shared_ptr<live::EventLog> log);
+               const std::shared_ptr<live::EventLog>& log);
 
   void run(const live::CycleSink& sink, const live::StopCheck& stop) override;
 
