@@ -1,6 +1,6 @@
 /// @file LogFormats.h
-/// @brief The text logs that can be converted. A new format is a file that defines its LogFormat, and its name in
-/// the list below.
+/// @brief The text logs that can be converted. A new format is a file that defines its LogFormat, and its
+/// name in the list below.
 #pragma once
 
 #include <memory>
