@@ -68,7 +68,7 @@ class GuiTest : public testing::Test {
   }
   void settle(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    test::happens([&] { return std::chrono::steady_clock::now() > end; });
+    happens([&] { return std::chrono::steady_clock::now() > end; });
   }
   void menu(int command) {
     wxCommandEvent event(wxEVT_MENU, command);
@@ -77,7 +77,7 @@ class GuiTest : public testing::Test {
   }
   window::ReplaySnapshot now() { return *frame->replay()->session()->snapshot(); }
   bool stands(State state, size_t scans) {
-    return test::happens([&] { return now().state == state && now().scans == scans; });
+    return happens([&] { return now().state == state && now().scans == scans; });
   }
   /// The screen; also a PNG in the folder that HYBRID_SLAM_SCREENSHOTS names.
   wxImage screenshot(const std::string& name) {
@@ -129,7 +129,7 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   ASSERT_TRUE(stands(State::paused, 1));
   frame->replay()->seek(60);
   ASSERT_TRUE(stands(State::ended, 60));
-  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
   const wxImage screen = screenshot("room");
   for (size_t i : {0, 1}) {
     const window::MapCanvas& canvas = *frame->replay()->canvas(i);
@@ -163,7 +163,7 @@ TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
   const size_t target = now().total * 6 / 10;
   frame->replay()->seek(target);
   ASSERT_TRUE(stands(State::paused, target));
-  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
   const wxImage screen = screenshot("replay");
   EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 150, 0), 300u) << "the line database";
   EXPECT_GT(count(screen, *frame->replay()->canvas(1), 255, 255, 255), 3000u) << "free space";
@@ -173,11 +173,11 @@ TEST_F(GuiTest, PlaysPausesAndGoesBackWhileTheWindowAnswers) {
   frame->open(ini, log);
   ASSERT_TRUE(stands(State::paused, 0));
   menu(window::kPlay);
-  ASSERT_TRUE(test::happens([&] { return now().state == State::playing && now().scans > 3; }));
-  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  ASSERT_TRUE(happens([&] { return now().state == State::playing && now().scans > 3; }));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
   settle(0.1);
   menu(window::kPlay);
-  ASSERT_TRUE(test::happens([&] { return now().state == State::paused; }));
+  ASSERT_TRUE(happens([&] { return now().state == State::paused; }));
   const size_t there = now().scans;
   EXPECT_LT(there, 60u);
   menu(window::kRestart);
@@ -194,7 +194,7 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   frame->open(ini, log);
   frame->replay()->seek(40);
   ASSERT_TRUE(stands(State::paused, 40));
-  ASSERT_TRUE(test::happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
   frame->exportPictureTo(folder.path("map.png"));
   const wxImage picture(folder.path("map.png"), wxBITMAP_TYPE_PNG);
   ASSERT_TRUE(picture.IsOk());
@@ -211,7 +211,7 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   EXPECT_EQ(dialogs.messages.size(), 1u);
 
   frame->exportResultsTo(folder.path("out"));
-  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 2; }));
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
   EXPECT_THAT(dialogs.messages.back(), HasSubstr("Results of 40 scans"));
   for (const char* name : {"hybrid/trajectory.tum", "general/trajectory.tum", "hybrid/lines.csv"})
     EXPECT_FALSE(test::contentOf(folder.path(std::string("out/") + name)).empty()) << name;
@@ -226,7 +226,7 @@ TEST_F(GuiTest, SaysWhatIsWrongWithTheFiles) {
   EXPECT_THAT(dialogs.messages[1], HasSubstr("missing.ini"));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("`particles`"));
   frame->open(ini, folder.write("no.rawlog", "this is none"));
-  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 4; }));
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 4; }));
   EXPECT_THAT(dialogs.messages[3], HasSubstr("no.rawlog"));
 }
 
@@ -270,7 +270,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
   frame->live()->setOutput(folder.path("live"));
   frame->live()->connectOrStop();
-  ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
   ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
   frame->replay()->seek(60);
   const test::Log all = test::laps(60);
@@ -281,7 +281,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
     server.publish(cycle);
     settle(0.03);
   }
-  ASSERT_TRUE(test::happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
+  ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
   const wxImage screen = screenshot("live");
   EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);
   EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
@@ -290,7 +290,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   menu(window::kParticles);
   EXPECT_EQ(count(screenshot("live-without-path"), *frame->live()->canvas(), 220, 0, 0), 0u);
   frame->live()->connectOrStop();
-  ASSERT_TRUE(test::happens([&] { return dialogs.messages.size() == 3; }));
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
   EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
   EXPECT_TRUE(stands(State::ended, 60));
