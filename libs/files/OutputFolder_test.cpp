@@ -15,7 +15,6 @@ namespace hybrid_slam::files {
 namespace {
 
 namespace fs = std::filesystem;
-using test::contentOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;

@@ -13,7 +13,6 @@
 namespace hybrid_slam::files {
 namespace {
 
-using test::contentOf;
 using test::Log;
 using testing::HasSubstr;
 using testing::IsEmpty;
