@@ -126,7 +126,7 @@ TEST(Merged, DoesNotDependOnTheFrame) {
     const LineSegment seen = makeSegment(near(base.start), near(base.end));
     const TPose2D frame = test::randomPose(random, 100);
     const LineSegment here = transformed(merged(known(base, 3), seen), frame);
-    const LineSegment there = merged(known(transformed(base, frame), 3), transformed(seen, frame));
+    const DatabaseLine there = merged(known(transformed(base, frame), 3), transformed(seen, frame));
     EXPECT_NEAR(test::lineDistance(here.rho, here.theta, there.rho, there.theta), 0, 1e-9);
     EXPECT_NEAR(here.length, there.length, 1e-9);
   }
