@@ -10,7 +10,9 @@
 #include <cstddef>
 
 #ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
+#include <atomic>
+#include <thread>
+#include <vector>
 #endif
 
 namespace hybrid_slam {
@@ -23,32 +25,22 @@ inline int arenaThreads(int threads) {
   return threads > 0 ? std::min(threads, allowed) : +tbb::task_arena::automatic;
 }
 
-/// The order that TBB establishes, told to the thread sanitizer, which does not see into TBB's library:
-/// `release` happens before every later `acquire`.
-class LoopOrder {
- public:
-#ifdef __SANITIZE_THREAD__
-  void release() { __tsan_release(this); }
-  void acquire() { __tsan_acquire(this); }
-#else
-  void release() {}
-  void acquire() {}
-#endif
-};
-
-/// body(i) for i in [first, last), on the threads of the arena.
+/// body(i) for i in [first, last), on the threads of the arena and the caller's.
 template <class Body>
 void parallelFor(tbb::task_arena& arena, size_t first, size_t last, const Body& body) {
-  LoopOrder begin, end;
-  begin.release();
-  arena.execute([&] {
-    tbb::parallel_for(first, last, [&](size_t i) {
-      begin.acquire();
-      body(i);
-      end.release();
-    });
-  });
-  end.acquire();
+#ifdef __SANITIZE_THREAD__
+  // The thread sanitizer would not see the order that TBB's library establishes.
+  std::atomic<size_t> next{first};
+  const auto work = [&] {
+    for (size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < last;) body(i);
+  };
+  std::vector<std::thread> threads;
+  for (int others = arena.max_concurrency() - 1; others > 0; --others) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+#else
+  arena.execute([&] { tbb::parallel_for(first, last, body); });
+#endif
 }
 
 }  // namespace hybrid_slam
