@@ -140,12 +140,11 @@ std::vector<Kernel> kernelsOf(Scene& s) {
        "of blocks"});
   // Each beam votes once for every angle: 4 for rho, round, abs, compare, index, count; segmentation and
   // fits 60.
-  const auto& hough = s.options.hough;
+  const auto& hough = s.options.lineExtraction.hough;
   const double angles = 2 * std::round(hough.thetaWindow / hough.thetaResolution) + 1;
-  static const LineExtractor extractor(s.options.segmentation, s.options.lineFit, hough);
   all.push_back(
       {"line extraction", "beam", beams, 60 + 9 * angles, 16 + 24 * angles, false,
-       [&s] { DoNotOptimize(extractor.extract(s.scan.scan)); },
+       [&s] { DoNotOptimize(extractLines(s.scan.scan, s.options.lineExtraction)); },
        "votes are written to memory one by one; std::round is a call without SSE4.1; fits are repeated for "
        "every split"});
   return all;

@@ -19,7 +19,7 @@ inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStr
   const BeamSelection selection(scan);
   return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(c.gridWeight.beams)),
           ScanBeams(scan, selection.take(c.matcher.beams)),
-          LineExtractor(c.segmentation, c.lineFit, c.hough).extract(scan[0])};
+          extractLines(scan[0], c.lineExtraction)};
 }
 
 /// A particle at `start` that has mapped the surrounding walls.

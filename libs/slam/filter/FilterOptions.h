@@ -55,9 +55,7 @@ struct FilterConfiguration {
   MotionModelOptions motion;
   GridOptions grid;
   GridWeightOptions gridWeight;
-  SegmentationOptions segmentation;
-  LineFitOptions lineFit;
-  HoughOptions hough;
+  LineExtractionOptions lineExtraction;
   AssociationOptions association;
   LineDatabaseOptions database;
   LineWeightOptions lineWeight;
@@ -75,9 +73,10 @@ struct FilterConfiguration {
             {"motion_model", &motion},
             {"grid", &grid},
             {"grid_weight", &gridWeight},
-            {"segmentation", &segmentation},
-            {"line_fit", &lineFit},
-            {"hough", &hough},
+            {"line_extraction", &lineExtraction},
+            {"segmentation", &lineExtraction.segmentation},
+            {"line_fit", &lineExtraction.fit},
+            {"hough", &lineExtraction.hough},
             {"line_association", &association},
             {"line_database", &database},
             {"line_weight", &lineWeight},

@@ -9,7 +9,7 @@ ScanPreparation::ScanPreparation(const FilterConfiguration& c)
       weighedBeams_(c.gridWeight.beams),
       matchedBeams_(c.matcher.beams),
       useLines_(c.useLines),
-      lineExtractor_(c.segmentation, c.lineFit, c.hough) {}
+      lineExtraction_(c.lineExtraction) {}
 
 PreparedScan ScanPreparation::operator()(const Scans& observed) const {
   const LaserScans scans = toLaserScans(observed, maxRange_);
@@ -21,7 +21,7 @@ PreparedScan ScanPreparation::operator()(const Scans& observed) const {
                         {}};
   if (useLines_)
     for (const LaserScan& scan : scans)
-      for (const LineSegment& line : lineExtractor_.extract(scan)) prepared.lines.push_back(line);
+      for (const LineSegment& line : extractLines(scan, lineExtraction_)) prepared.lines.push_back(line);
   return prepared;
 }
 

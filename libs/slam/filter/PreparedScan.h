@@ -30,7 +30,7 @@ class ScanPreparation {
   double maxRange_;
   int weighedBeams_, matchedBeams_;
   bool useLines_;
-  LineExtractor lineExtractor_;
+  LineExtractionOptions lineExtraction_;
 };
 
 }  // namespace hybrid_slam

@@ -2,26 +2,30 @@
 
 namespace hybrid_slam {
 
-LineExtractor::LineExtractor(const SegmentationOptions& segmentation, const LineFitOptions& fit,
-                             const HoughOptions& hough)
-    : segmentation_(segmentation), fit_(fit), hough_(hough) {}
-
-std::vector<LineSegment> LineExtractor::extract(const LaserScan& scan) const {
-  const SegmentedScan segmented(scan, segmentation_);
-  std::vector<PointRange> pieces = segmented.runs();
-  if (segmentation_.split) {
-    std::vector<PointRange> straight;
-    for (const PointRange& run : pieces) splitAtCorners(run, segmentation_, straight);
-    pieces = std::move(straight);
+void LineExtractionOptions::describe(OptionTable& table) {
+  std::vector<std::pair<const LineExtractor*, std::string>> names;
+  std::string why;
+  for (const LineExtractor* extractor : lineExtractors()) {
+    names.emplace_back(extractor, extractor->name);
+    why += (why.empty() ? "" : "; ") + std::string(extractor->name) + ": " + extractor->description;
   }
+  table.add("method", method, names, why);
+}
 
+std::vector<LineSegment> extractLines(const LaserScan& scan, const LineExtractionOptions& options) {
+  return options.method->extract(scan, options);
+}
+
+std::vector<LineSegment> linesOf(const std::vector<PointRange>& pieces, const LaserScan& scan,
+                                 const LineExtractionOptions& options) {
   std::vector<LineSegment> lines;
   for (const PointRange& points : pieces) {
-    auto line = fitLine(points, fit_);
+    auto line = fitLine(points, options.fit);
     if (!line) continue;
-    if (hough_.enabled) line = refineByHough(points, *line, hough_);
+    if (options.hough.enabled) line = refineByHough(points, *line, options.hough);
     const LineSegment segment = makeSegment(line->rho, line->theta, points.front(), points.back());
-    if (segment.length >= segmentation_.minLength) lines.push_back(transformed(segment, scan.sensorPose));
+    if (segment.length >= options.segmentation.minLength)
+      lines.push_back(transformed(segment, scan.sensorPose));
   }
   return lines;
 }

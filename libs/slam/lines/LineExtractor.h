@@ -1,5 +1,6 @@
 /// @file LineExtractor.h
-/// @brief Line detection (Sec. III-B): segmentation, fit, Hough refinement.
+/// @brief Line detection (Sec. III-B): a scan into line segments. A new method is a file that defines its
+/// LineExtractor, and its name in the list below.
 #pragma once
 
 #include <vector>
@@ -11,19 +12,37 @@
 
 namespace hybrid_slam {
 
-/// Turns a scan into line segments. Stateless but for its options: one extractor serves all threads.
-class LineExtractor {
- public:
-  LineExtractor(const SegmentationOptions& segmentation, const LineFitOptions& fit,
-                const HoughOptions& hough);
+struct LineExtractionOptions;
 
+/// A method of line extraction. Stateless: it serves all threads.
+struct LineExtractor {
+  const char* name;         ///< of the key `method`
+  const char* description;  ///< for the documentation of that key
   /// The lines of at least minLength, in the robot frame, in beam order.
-  std::vector<LineSegment> extract(const LaserScan& scan) const;
-
- private:
-  SegmentationOptions segmentation_;
-  LineFitOptions fit_;
-  HoughOptions hough_;
+  std::vector<LineSegment> (*extract)(const LaserScan& scan, const LineExtractionOptions& options);
 };
+
+extern const LineExtractor kSplitExtractor, kIncrementalExtractor;
+inline std::vector<const LineExtractor*> lineExtractors() {
+  return {&kSplitExtractor, &kIncrementalExtractor};
+}
+
+/// Section [line_extraction], and the sections of the steps that the methods share.
+struct LineExtractionOptions : Options {
+  const LineExtractor* method = &kSplitExtractor;
+  SegmentationOptions segmentation;
+  LineFitOptions fit;
+  HoughOptions hough;
+
+  void describe(OptionTable& table) override;
+};
+
+/// The lines of a scan by the chosen method.
+std::vector<LineSegment> extractLines(const LaserScan& scan, const LineExtractionOptions& options);
+
+/// Steps 2 and 3 of Sec. III-B: a line for each piece that is straight and long enough.
+/// @param pieces  in the sensor frame
+std::vector<LineSegment> linesOf(const std::vector<PointRange>& pieces, const LaserScan& scan,
+                                 const LineExtractionOptions& options);
 
 }  // namespace hybrid_slam

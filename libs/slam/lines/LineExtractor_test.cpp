@@ -18,7 +18,7 @@ using namespace test;
 
 using Method = LineFitOptions::Method;
 
-const LineExtractor kDefault{SegmentationOptions(), LineFitOptions(), HoughOptions()};
+const LineExtractionOptions kDefault;
 const test::Walls kRoom = test::polygon({{-3, -2}, {5, -2}, {5, 4}, {-3, 4}});
 
 /// Index of the wall that a line in the map frame coincides with, within 0.3 deg and 1 cm, or -1.
@@ -39,12 +39,44 @@ LaserScan roomScan(const TPose2D& robot, double noise, RandomStream& random) {
   return test::scanOf(kRoom, robot, sensor, 720, 359.5 * test::kDegree, noise, random);
 }
 
+class EveryExtractor : public testing::TestWithParam<const LineExtractor*> {};
+
+TEST_P(EveryExtractor, FindsTheWallsOfARoom) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(6, 0, 0);
+  double total = 0, onWalls = 0;
+  for (int i = 0; i < 200; ++i) {
+    const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2),
+                        test::uniform(random, -M_PI, M_PI));
+    for (const LineSegment& line : extractLines(roomScan(robot, 0.01, random), options)) {
+      total += line.length;
+      if (wallOf(transformed(line, robot), kRoom) >= 0) onWalls += line.length;
+    }
+  }
+  EXPECT_GT(total, 0.95 * 200 * 28);
+  EXPECT_LT(total, 200 * 28);
+  EXPECT_GT(onWalls, 0.97 * total);
+}
+
+TEST_P(EveryExtractor, FindsNothingInAnEmptyScan) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  LaserScan scan;
+  EXPECT_TRUE(extractLines(scan, options).empty());
+  scan.beams.resize(541);  // all invalid
+  EXPECT_TRUE(extractLines(scan, options).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryExtractor, testing::ValuesIn(lineExtractors()),
+                         [](const auto& extractor) { return extractor.param->name; });
+
 TEST(LineExtractor, ARectangularRoomGivesItsFourWalls) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 200; ++i) {
     const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2),
                         test::uniform(random, -M_PI, M_PI));
-    const auto lines = kDefault.extract(roomScan(robot, 0, random));
+    const auto lines = extractLines(roomScan(robot, 0, random), kDefault);
     ASSERT_EQ(lines.size(), 4u);
     for (size_t k = 0; k < 4; ++k) {
       const LineSegment line = transformed(lines[k], robot),
@@ -63,7 +95,7 @@ TEST(LineExtractor, ARoomWithNoise) {
   for (int i = 0; i < 200; ++i) {
     const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2),
                         test::uniform(random, -M_PI, M_PI));
-    for (const LineSegment& line : kDefault.extract(roomScan(robot, 0.012, random))) {
+    for (const LineSegment& line : extractLines(roomScan(robot, 0.012, random), kDefault)) {
       total += line.length;
       if (wallOf(transformed(line, robot), kRoom) >= 0) onWalls += line.length;
     }
@@ -76,7 +108,7 @@ TEST(LineExtractor, ARoomWithNoise) {
 TEST(LineExtractor, AHalfCircleScanSeesTheThreeWallsAheadOfIt) {
   RandomStream random(2, 0, 0);
   const auto lines =
-      kDefault.extract(test::scanOf(kRoom, {-2.9, 1, 0}, {}, 541, 180 * test::kDegree, 0, random));
+      extractLines(test::scanOf(kRoom, {-2.9, 1, 0}, {}, 541, 180 * test::kDegree, 0, random), kDefault);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_NEAR(lines[0].theta, -90 * test::kDegree, 1e-6);
   EXPECT_NEAR(lines[0].rho, 3, 1e-6);
@@ -90,30 +122,30 @@ TEST(LineExtractor, AHalfCircleScanSeesTheThreeWallsAheadOfIt) {
 TEST(LineExtractor, CornersSplitUnlessSwitchedOff) {
   RandomStream random(3, 0, 0);
   const LaserScan scan = test::scanOf(kRoom, {1, 1, 0.4}, {}, 541, 270 * test::kDegree, 0.01, random);
-  EXPECT_GE(kDefault.extract(scan).size(), 4u);
-  SegmentationOptions whole;
-  whole.split = false;
+  EXPECT_GE(extractLines(scan, kDefault).size(), 4u);
+  LineExtractionOptions whole;
+  whole.segmentation.split = false;
   // One run round three corners: no line fits it.
-  EXPECT_TRUE(LineExtractor(whole, LineFitOptions(), HoughOptions()).extract(scan).empty());
+  EXPECT_TRUE(extractLines(scan, whole).empty());
 }
 
 TEST(LineExtractor, LinesShorterThanTheMinimumAreDropped) {
   RandomStream random(4, 0, 0);
   const LaserScan scan = test::scanOf({{{2, -0.5}, {2, 0.5}}}, {}, {}, 541, 270 * test::kDegree, 0, random);
-  SegmentationOptions segmentation;
-  segmentation.minLength = 0.9;
-  EXPECT_EQ(LineExtractor(segmentation, LineFitOptions(), HoughOptions()).extract(scan).size(), 1u);
-  segmentation.minLength = 1.1;
-  EXPECT_TRUE(LineExtractor(segmentation, LineFitOptions(), HoughOptions()).extract(scan).empty());
+  LineExtractionOptions options;
+  options.segmentation.minLength = 0.9;
+  EXPECT_EQ(extractLines(scan, options).size(), 1u);
+  options.segmentation.minLength = 1.1;
+  EXPECT_TRUE(extractLines(scan, options).empty());
 }
 
 TEST(LineExtractor, NothingToSee) {
   LaserScan scan;
-  EXPECT_TRUE(kDefault.extract(scan).empty());
+  EXPECT_TRUE(extractLines(scan, kDefault).empty());
   scan.beams.resize(541);  // all invalid
-  EXPECT_TRUE(kDefault.extract(scan).empty());
+  EXPECT_TRUE(extractLines(scan, kDefault).empty());
   scan.beams.assign(1, {0, 1, true});
-  EXPECT_TRUE(kDefault.extract(scan).empty());
+  EXPECT_TRUE(extractLines(scan, kDefault).empty());
 }
 
 /// The same walls through sensors that are offset, turned, upside down or clockwise give the same lines.
@@ -137,7 +169,7 @@ TEST(LineExtractor, MountingOfTheSensorDoesNotMatter) {
           o.setScanRange(i, static_cast<float>(castRay(kRoom, origin, heading)));
           o.setScanRangeValidity(i, true);
         }
-        const auto lines = kDefault.extract(toLaserScan(o, 20));
+        const auto lines = extractLines(toLaserScan(o, 20), kDefault);
         EXPECT_GE(lines.size(), 3u);
         for (const LineSegment& line : lines) {
           const LineSegment inMap = transformed(line, robot);
@@ -153,13 +185,11 @@ TEST(LineExtractor, ThePaperToTheLetterLosesTheWallAcrossItsWay) {
   // Two walls apart from each other: ahead (vertical in the sensor frame) and to the left.
   const test::Walls walls{{{4, -2}, {4, 2}}, {{-3, 3}, {1, 3}}};
   const LaserScan scan = test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.012, random);
-  EXPECT_EQ(kDefault.extract(scan).size(), 2u);
-  SegmentationOptions whole;
-  whole.split = false;
-  LineFitOptions paper;
-  paper.method = Method::paper;
-  HoughOptions hough;
-  const auto lines = LineExtractor(whole, paper, hough).extract(scan);
+  EXPECT_EQ(extractLines(scan, kDefault).size(), 2u);
+  LineExtractionOptions paper;
+  paper.segmentation.split = false;
+  paper.fit.method = Method::paper;
+  const auto lines = extractLines(scan, paper);
   ASSERT_EQ(lines.size(), 1u);  // eq. (5) drops the one along y
   EXPECT_NEAR(lines[0].theta, 90 * test::kDegree, 0.5 * test::kDegree);
   EXPECT_NEAR(lines[0].rho, 3, 0.02);
@@ -193,17 +223,14 @@ TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
       "| fit | Hough | split | lines a scan | of these above 5 m | median angle (deg) "
       "|\n|---|---|---|---|---|---|\n");
   const auto measure = [&scans](Method method, bool hough, bool split) {
-    SegmentationOptions segmentation;
-    segmentation.split = split;
-    LineFitOptions fit;
-    fit.method = method;
-    HoughOptions refinement;
-    refinement.enabled = hough;
-    const LineExtractor extractor(segmentation, fit, refinement);
+    LineExtractionOptions options;
+    options.segmentation.split = split;
+    options.fit.method = method;
+    options.hough.enabled = hough;
     std::vector<double> angles;
     size_t count = 0, longLines = 0;
     for (const LaserScan& scan : scans) {
-      const auto lines = extractor.extract(scan);
+      const auto lines = extractLines(scan, options);
       double sine = 0, cosine = 0;
       for (const LineSegment& line : lines) {
         sine += line.length * std::sin(4 * line.theta);
