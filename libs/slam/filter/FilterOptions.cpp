@@ -4,7 +4,9 @@ namespace hybrid_slam {
 
 void ParticleFilterOptions::describe(OptionTable& t) {
   using mrpt::bayes::CParticleFilter;
-  t.add("particles", particles, 1, 100000, "number of particles");
+  t.add("particles", particles, 0, 100000, "number of particles; 0: adaptive, as many as the spread needs");
+  t.add("min_particles", minParticles, 1, 100000, "at least, if the number is adaptive");
+  t.add("max_particles", maxParticles, 1, 100000, "at most");
   t.add("proposal", proposal,
         {{Proposal::standard, "standard"},
          {Proposal::improved, "improved"},

@@ -21,7 +21,8 @@ namespace hybrid_slam {
 struct ParticleFilterOptions : Options {
   enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
 
-  int particles = 50;
+  int particles = 50;  ///< 0: adaptive
+  int minParticles = 8, maxParticles = 60;
   Proposal proposal = Proposal::standard;
   mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
       mrpt::bayes::CParticleFilter::prSystematic;
@@ -30,6 +31,8 @@ struct ParticleFilterOptions : Options {
   double updateAngle = 15 * M_PI / 180;
   int seed = 1;
   int threads = 1;
+
+  bool isAdaptive() const { return particles == 0; }
   void describe(OptionTable& table) override;
 };
 
@@ -43,7 +46,7 @@ struct ImprovedProposalOptions : Options {
   double lineSigma = 0.1 * M_PI / 180;
   double lineSigmaRho = 0.05;
   double slipDistance = 0.5;
-  double slipAngle = 30 * M_PI / 180;
+  double slipAngle = M_PI;
   double slipProbability = 0.001;
   void describe(OptionTable& table) override;
 };

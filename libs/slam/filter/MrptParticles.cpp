@@ -82,6 +82,18 @@ void MrptParticles::performSubstitution(const std::vector<size_t>& indices) {
   hasResampled_ = true;
 }
 
+// MRPT's schemes resample to the same number: to more they read past their draws, to fewer they leave out the
+// last particles.
+void MrptParticles::resample(size_t particles) {
+  if (particles == m_particles.size()) return performResampling(options_);
+  std::vector<double> logWeights;
+  for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
+  RandomStream random = random_;
+  CParticleFilterDataImpl::performSubstitution(systematicResampling(logWeights, particles, random));
+  for (auto& particle : m_particles) particle.log_w = 0;
+  hasResampled_ = true;
+}
+
 void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOptions& motion,
                                   const LogWeightAt& logWeightAt) {
   hasResampled_ = isResamplingDue();  // by the weights of the step before

@@ -50,7 +50,8 @@ class MrptParticles
   /// Readies MRPT's random numbers for a step.
   void seedStep(const RandomStream& random);
   bool isResamplingDue() const { return ESS() < options_.BETA; }
-  void resample() { performResampling(options_); }
+  /// @param particles  their number afterwards
+  void resample(size_t particles);
   bool hasResampled() const { return hasResampled_; }  ///< in this step
   /// Samples, weighs and resamples by one of MRPT's auxiliary filters.
   void auxiliaryStep(const mrpt::math::TPose2D& odometry, const MotionModelOptions& motion,

@@ -56,7 +56,7 @@ void ParticleSet::reset(const TPose2D& start) {
   Particle particle;
   particle.grid = OccupancyGrid(grid_.resolution);
   particle.path.push(start);
-  for (int i = 0; i < filter_.particles; ++i) {
+  for (int i = 0; i < (filter_.isAdaptive() ? filter_.minParticles : filter_.particles); ++i) {
     m_particles.emplace_back();
     m_particles.back().d.reset(new Particle(particle));
     m_particles.back().log_w = 0;
@@ -126,9 +126,10 @@ void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedS
 
 // The paper's [5]: sample around a scan match instead.
 void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& scan) {
-  const StepMotion motion = slipRecovery_.motionOf(best(), odometry, scan);
+  const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, scan);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
+    const StepMotion& motion = motions[i % motions.size()];
     const auto proposed = improvedProposal_.propose(particle, motion, scan, random);
     particle.path.push(proposed.pose);
     if (!motion.hasSlipped) particle.motion.learn(motion.odometry, particle.path.lastMotion(), motion_);
@@ -137,8 +138,8 @@ void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedSca
     particle.isMatched = proposed.isMatched;
     m_particles[i].log_w += improvedExponent_ * proposed.logWeight;
   });
-  summarise(motion.odometry);
-  step_.slipped = motion.hasSlipped;
+  summarise(odometry);
+  step_.slipped = motions[0].hasSlipped;
   const auto matched = std::count_if(m_particles.begin(), m_particles.end(),
                                      [](const auto& particle) { return particle.d->isMatched; });
   step_.matched = static_cast<double>(matched) / static_cast<double>(m_particles.size());
@@ -194,12 +195,21 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   setSpread(step_, poses(), bestParticle.path.back().phi);
 }
 
+size_t ParticleSet::particlesNeeded() const {
+  if (!filter_.isAdaptive()) return m_particles.size();
+  const double needed = kldParticles(occupiedBins(poses(), {}), {});
+  return static_cast<size_t>(
+      std::clamp(std::ceil(needed), 1.0 * filter_.minParticles, 1.0 * filter_.maxParticles));
+}
+
 // Sec. III-A, step 3; by ESS, where the paper resamples at every step.
 void ParticleSet::resampleIfDue() {
   const bool isAuxiliary = filter_.proposal != Proposal::standard && filter_.proposal != Proposal::improved;
-  if (isAuxiliary || !isResamplingDue()) return;
+  if (isAuxiliary) return;
+  const size_t needed = particlesNeeded(), present = m_particles.size();
+  if (!isResamplingDue() && 4 * needed < 5 * present && 3 * needed > 2 * present) return;
   const StageTimer timer(profiler_, "4 resample");
-  resample();
+  resample(needed);
   step_.resampled = hasResampled();
 }
 

@@ -11,6 +11,7 @@
 #include "slam/filter/FilterView.h"
 #include "slam/filter/ImprovedProposal.h"
 #include "slam/filter/MrptParticles.h"
+#include "slam/filter/ParticleNumber.h"
 
 namespace hybrid_slam {
 
@@ -56,6 +57,7 @@ class ParticleSet : public MrptParticles {
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose, const PreparedScan& scan) const;
   void setWeight(Particle& particle, const Weight& weight) const;
   void summarise(const mrpt::math::TPose2D& odometry);
+  size_t particlesNeeded() const;
   double logSumOfWeights() const;
   RandomStream stream(size_t particle) const;  ///< the random numbers of a particle in this step
   RandomStream sharedRandom() const;           ///< those of the step that belong to no particle

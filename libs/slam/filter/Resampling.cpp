@@ -27,4 +27,22 @@ std::vector<size_t> residualResampling(const std::vector<double>& logWeights, Ra
   return drawn;
 }
 
+std::vector<size_t> systematicResampling(const std::vector<double>& logWeights, size_t count,
+                                         RandomStream& random) {
+  const double greatest = *std::max_element(logWeights.begin(), logWeights.end());
+  double sum = 0;
+  for (const double w : logWeights) sum += std::exp(w - greatest);
+
+  const double step = sum / static_cast<double>(count), offset = random.uniform();
+  std::vector<size_t> drawn;
+  double cumulated = 0;
+  for (size_t i = 0; i < logWeights.size(); ++i) {
+    cumulated += std::exp(logWeights[i] - greatest);
+    while (drawn.size() < count && step * (static_cast<double>(drawn.size()) + offset) < cumulated)
+      drawn.push_back(i);
+  }
+  drawn.resize(count, logWeights.size() - 1);  // rounding may leave the last point beyond the sum
+  return drawn;
+}
+
 }  // namespace hybrid_slam

@@ -164,5 +164,30 @@ TEST(Resampling, MrptLeavesTheWeightsAsTheyWere) {
   for (const auto& particle : particles.m_particles) EXPECT_EQ(particle.log_w, -*particle.d);
 }
 
+/// Every particle gets floor or ceil of its share, whatever the number before and after.
+TEST(SystematicResampling, ToAnyNumber) {
+  RandomStream random(3, 0, 0);
+  for (const auto& weights : weightSets())
+    for (const size_t count : {1, 3, 8, 60, 200}) {
+      const auto drawn = systematicResampling(logarithms(weights), count, random);
+      ASSERT_EQ(drawn.size(), count);
+      EXPECT_TRUE(std::is_sorted(drawn.begin(), drawn.end()));
+      const auto counts = copies(drawn, weights.size());
+      for (size_t i = 0; i < weights.size(); ++i)
+        EXPECT_LT(std::abs(counts[i] - static_cast<double>(count) * weights[i]), 1 + 1e-9);
+    }
+}
+
+TEST(SystematicResampling, IsUnbiased) {
+  RandomStream random(4, 0, 0);
+  const std::vector<double> weights{0.5, 0.3, 0.2};
+  std::vector<double> means(3, 0);
+  for (int i = 0; i < kRepetitions; ++i)
+    for (const size_t index : systematicResampling(logarithms(weights), 7, random))
+      means[index] += 1.0 / kRepetitions;
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(means[i], 7 * weights[i], kErrors * 0.5 / std::sqrt(kRepetitions));  // a copy more or less
+}
+
 }  // namespace
 }  // namespace hybrid_slam
