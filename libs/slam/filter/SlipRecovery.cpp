@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slam/grid/CorrelativeSearch.h"
+#include "slam/grid/GlobalSearch.h"
 
 namespace hybrid_slam {
 
@@ -11,9 +12,29 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kPoorFit = 0.8;     // of the usual fit: search below this
-constexpr double kForgetting = 0.1;  // weight of the newest scan in the usual fit
-constexpr size_t kPlaces = 8;        // starting points of the local optimisation
+constexpr double kPoorFit = 0.8;         // of the usual fit: search below this
+constexpr double kForgetting = 0.1;      // weight of the newest scan in the usual fit
+constexpr size_t kPlaces = 8;            // starting points of the local optimisation
+constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
+constexpr double kUncontradicted = 0.1;  // share of the beams: it may be
+constexpr size_t kMapPlaces = 40;
+constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
+constexpr size_t kHypotheses = 6;
+
+const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
+
+/// The headings at which the walls in the scan are parallel or perpendicular to those of the map; empty if
+/// either has no dominating direction.
+std::vector<double> alignedHeadings(const std::vector<LineSegment>& seen, const LineDatabase& database) {
+  std::vector<DatabaseLine> lines;
+  for (const LineSegment& line : seen) {
+    lines.emplace_back();
+    static_cast<LineSegment&>(lines.back()) = line;
+  }
+  const auto scan = directionModuloRightAngle(lines), map = database.dominatingDirection();
+  if (!scan || !map) return {};
+  return {*map - *scan, *map - *scan + M_PI / 2, *map - *scan + M_PI, *map - *scan - M_PI / 2};
+}
 
 }  // namespace
 
@@ -24,43 +45,93 @@ SlipRecovery::SlipRecovery(const FilterConfiguration& c)
       matcher_(c.matcher),
       gridWeight_(c.gridWeight, c.grid.resolution) {}
 
-StepMotion SlipRecovery::motionOf(const Particle& best, const TPose2D& odometry, const PreparedScan& scan) {
+// Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any wall,
+// and would pull the robot back along a partly seen corridor.
+double SlipRecovery::logWeight(const TPose2D& pose, const Particle& best, const PreparedScan& scan) const {
+  return exponent_ * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
+}
+
+std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPose2D& odometry,
+                                                const PreparedScan& scan) {
   const TPose2D before = best.path.back();
-  StepMotion motion{odometry, odometry, false};
-  if (options_.slipDistance <= 0) return motion;
-  const MotionDistribution expected = motionAfter(best, motion, motion_, options_);
+  if (options_.slipDistance <= 0) return {{odometry, odometry, false}};
+  const MotionDistribution expected = motionAfter(best, {odometry, odometry, false}, motion_, options_);
   const Eigen::Matrix3d information = expected.covariance.inverse();
   const auto asExpected = [&](const TPose2D& pose) {
     return gaussianLogDensity(pose, expected.mean, information);
   };
-  ScanMatch match = matcher_.match(scan.matchedBeams, expected.mean, best.grid, asExpected);
-
-  if (match.fit < kPoorFit * usualFit_) {
-    const SearchWindow window{options_.slipDistance, options_.slipAngle};
-    // ln of the density of a slip over that of the motion model at its mean.
-    const double slip =
-        std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
-        0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
-    const Prior anywhere = [](const TPose2D&) { return LogDensity(); };
-    // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any
-    // wall, and would pull the robot back along a partly seen corridor.
-    const auto logWeight = [&](const TPose2D& pose) {
-      return exponent_ * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
-    };
-    double highest = logWeight(match.pose) + asExpected(match.pose).value;
-    for (const TPose2D& place :
-         correlativeSearch(scan.matchedBeams, expected.mean, best.grid, window, kPlaces)) {
-      const ScanMatch there = matcher_.match(scan.matchedBeams, place, best.grid, anywhere);
-      const double modelled = asExpected(there.pose).value;
-      const double value = logWeight(there.pose) + std::max(modelled, slip);
-      if (value <= highest) continue;
-      highest = value, match = there;
-      motion.hasSlipped = slip > modelled;
+  Hypothesis usual{matcher_.match(scan.matchedBeams, expected.mean, best.grid, asExpected), 0, false};
+  std::vector<Hypothesis> hypotheses{usual};
+  if (usual.match.fit < kPoorFit * usualFit_) {
+    usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
+    hypotheses = searchWindow(best, expected, usual, scan);
+    if (contradictedShare(scan.matchedBeams, hypotheses[0].match.pose, best.grid) > kContradicted) {
+      const auto elsewhere = searchMap(best, scan);
+      if (!elsewhere.empty()) hypotheses = elsewhere;
     }
   }
-  if (motion.hasSlipped || match.fit >= options_.minFit) motion.start = match.pose - before;
-  usualFit_ = usualFit_ == 0 ? match.fit : (1 - kForgetting) * usualFit_ + kForgetting * match.fit;
-  return motion;
+  std::vector<StepMotion> motions;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    StepMotion motion{odometry, odometry, hypothesis.hasSlipped};
+    if (motion.hasSlipped || hypothesis.match.fit >= options_.minFit)
+      motion.start = hypothesis.match.pose - before;
+    motions.push_back(motion);
+  }
+  const double fit = hypotheses[0].match.fit;
+  usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
+  return motions;
+}
+
+/// The rivals of the best, the best first; poses that are nearly equal count once.
+template <class Hypothesis>
+std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.logPosterior > b.logPosterior; });
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& hypothesis : all) {
+    if (kept.size() == kHypotheses || all[0].logPosterior - hypothesis.logPosterior > kRival) break;
+    const TPose2D& pose = hypothesis.match.pose;
+    const bool isKnown = std::any_of(kept.begin(), kept.end(), [&pose](const Hypothesis& other) {
+      const TPose2D offset = pose - other.match.pose;
+      return offset.norm() < 0.2 && std::abs(offset.phi) < 5 * M_PI / 180;
+    });
+    if (!isKnown) kept.push_back(hypothesis);
+  }
+  return kept;
+}
+
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const Particle& best,
+                                                                 const MotionDistribution& expected,
+                                                                 const Hypothesis& usual,
+                                                                 const PreparedScan& scan) const {
+  const SearchWindow window{options_.slipDistance, options_.slipAngle};
+  const Eigen::Matrix3d information = expected.covariance.inverse();
+  // ln of the density of a slip over that of the motion model at its mean.
+  const double slip =
+      std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
+      0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
+  std::vector<Hypothesis> all{usual};
+  for (const TPose2D& place :
+       correlativeSearch(scan.matchedBeams, expected.mean, best.grid, window, kPlaces)) {
+    const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
+    const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
+    all.push_back({match, logWeight(match.pose, best, scan) + std::max(modelled, slip), slip > modelled});
+  }
+  return rivals(std::move(all));
+}
+
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& best,
+                                                              const PreparedScan& scan) const {
+  std::vector<Hypothesis> all;
+  for (const TPose2D& place :
+       globalSearch(scan.matchedBeams, best.grid, alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
+    const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
+    if (match.fit < kPoorFit * usualFit_ ||
+        contradictedShare(scan.matchedBeams, match.pose, best.grid) > kUncontradicted)
+      continue;
+    all.push_back({match, logWeight(match.pose, best, scan), true});
+  }
+  return rivals(std::move(all));
 }
 
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
@@ -71,6 +142,7 @@ MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
       1e-8;  // (0.1 mm, 0.1 mrad)^2: without noise it has no inverse
   if (motion.hasSlipped) {
     const double distance = options.slipDistance, angle = options.slipAngle;
+    distribution.mean = before.path.back() + motion.start;
     distribution.covariance.diagonal() +=
         Eigen::Vector3d(distance * distance, distance * distance, angle * angle);
   }

@@ -1,5 +1,5 @@
 /// @file SlipRecovery.h
-/// @brief Detects wheel slip and recovers the true motion.
+/// @brief Detects that the odometry is wrong, and finds where the robot may be.
 #pragma once
 
 #include "slam/filter/FilterOptions.h"
@@ -9,7 +9,7 @@
 
 namespace hybrid_slam {
 
-/// Starting point of a step's scan matches, common to all particles.
+/// A hypothesis of a step's motion: where scan matches start.
 struct StepMotion {
   mrpt::math::TPose2D odometry;  ///< m, rad; in the robot frame at the start of the step
   mrpt::math::TPose2D start;     ///< motion of the best particle's match: start of the other matches
@@ -17,16 +17,31 @@ struct StepMotion {
 };
 
 /// Once per step, the scan is matched to the best particle's map from the odometry; the result starts the
-/// other particles' matches. If it fits much worse than earlier scans, a wide window is searched.
+/// other particles' matches. If it fits much worse than earlier scans, a window of all headings is searched,
+/// and if the scan contradicts the map there as well, the whole map: the robot was carried. With lines, only
+/// the four headings that align the scan's walls with the map's.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
-/// window. A pose far from the motion model is accepted if its posterior under this mixture is higher.
+/// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
+/// of similar posterior are hypotheses, shared out among the particles, until later scans decide.
 class SlipRecovery {
  public:
   explicit SlipRecovery(const FilterConfiguration& configuration);
-  StepMotion motionOf(const Particle& best, const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
+  /// At least one, the most likely first.
+  std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
+                                    const PreparedScan& scan);
 
  private:
+  struct Hypothesis {
+    ScanMatch match;
+    double logPosterior;
+    bool hasSlipped;
+  };
+  std::vector<Hypothesis> searchWindow(const Particle& best, const MotionDistribution& expected,
+                                       const Hypothesis& usual, const PreparedScan& scan) const;
+  std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
+  double logWeight(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
+
   ImprovedProposalOptions options_;
   MotionModelOptions motion_;
   double exponent_;  ///< of w_grid
@@ -35,7 +50,8 @@ class SlipRecovery {
   double usualFit_ = 0;  ///< running mean of the fit, recent scans weighted most
 };
 
-/// The motion model's distribution of the pose after a step; after a slip, as wide as the search window.
+/// The motion model's distribution of the pose after a step; after a slip, as wide as the search window
+/// around the pose that was found.
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,
                                const MotionModelOptions& model, const ImprovedProposalOptions& options);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "testing/MappedRoom.h"
 
 namespace hybrid_slam {
@@ -20,7 +22,7 @@ SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::
   RandomStream random(3, 0, 0);
   for (int i = 0; i < 5; ++i) {
     const StepMotion motion =
-        recovery.motionOf(particle, kOdometry, test::prepared(walls, end + kOdometry, random));
+        recovery.motionsOf(particle, kOdometry, test::prepared(walls, end + kOdometry, random)).front();
     EXPECT_FALSE(motion.hasSlipped);
     EXPECT_LT(test::offset(motion.start, kOdometry).head<2>().norm(), off);
     EXPECT_LT(std::abs(test::offset(motion.start, kOdometry).z()), 0.3 * test::kDegree);
@@ -31,13 +33,14 @@ SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::
 TEST(SlipRecovery, FindsTheMotionAfterASlip) {
   const FilterConfiguration c;
   for (const TPose2D& slip : {TPose2D(0, 0, 30 * test::kDegree), TPose2D(0, 0, -30 * test::kDegree),
+                              TPose2D(0, 0, 80 * test::kDegree), TPose2D(0, 0, 170 * test::kDegree),
                               TPose2D(0.5, 0, 0), TPose2D(-0.4, 0.3, 20 * test::kDegree)}) {
     Particle particle = test::particleAt(test::room(), kStart);
     SlipRecovery recovery = used(c, particle, test::room());
     RandomStream random(4, 0, 0);
     const TPose2D truth = kStart + (kOdometry + slip);
     const StepMotion motion =
-        recovery.motionOf(particle, kOdometry, test::prepared(test::room(), truth, random));
+        recovery.motionsOf(particle, kOdometry, test::prepared(test::room(), truth, random)).front();
     EXPECT_TRUE(motion.hasSlipped) << slip.asString();
     EXPECT_EQ(motion.odometry, kOdometry);
     EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.03) << slip.asString();
@@ -46,14 +49,46 @@ TEST(SlipRecovery, FindsTheMotionAfterASlip) {
   }
 }
 
+/// Lifted, and put down elsewhere in the mapped room; with and without lines that give four headings.
+TEST(SlipRecovery, FindsACarriedRobot) {
+  const FilterConfiguration c;
+  for (const bool useLines : {true, false})
+    for (const TPose2D& truth : {TPose2D(5, 2, 2), TPose2D(-1.5, 4, -1), TPose2D(6.5, -1, 3)}) {
+      Particle particle = test::particleAt(test::room(), kStart);
+      SlipRecovery recovery = used(c, particle, test::room());
+      RandomStream random(8, 0, 0);
+      PreparedScan scan = test::prepared(test::room(), truth, random);
+      if (!useLines) scan.lines.clear();
+      const auto motions = recovery.motionsOf(particle, kOdometry, scan);
+      EXPECT_TRUE(std::any_of(motions.begin(), motions.end(), [&truth](const StepMotion& motion) {
+        const auto off = test::offset(kStart + motion.start, truth);
+        return motion.hasSlipped && off.head<2>().norm() < 0.05 && std::abs(off.z()) < 1 * test::kDegree;
+      })) << truth.asString();
+    }
+}
+
+/// A square room looks the same four ways: the particles keep all four.
+TEST(SlipRecovery, KeepsHypothesesThatAScanCannotDecide) {
+  const test::Walls square = test::polygon({{-3, -3}, {3, -3}, {3, 3}, {-3, 3}});
+  const FilterConfiguration c;
+  Particle particle = test::particleAt(square, kStart);
+  SlipRecovery recovery = used(c, particle, square);
+  RandomStream random(9, 0, 0);
+  const auto motions = recovery.motionsOf(particle, kOdometry, test::prepared(square, {-2, 1, 2}, random));
+  EXPECT_GE(motions.size(), 4u);
+  for (const StepMotion& motion : motions) EXPECT_TRUE(motion.hasSlipped);
+}
+
 TEST(SlipRecovery, CanBeSwitchedOff) {
   FilterConfiguration c;
   c.improved.slipDistance = 0;
   Particle particle = test::particleAt(test::room(), kStart);
   SlipRecovery recovery(c);
   RandomStream random(5, 0, 0);
-  const auto motion = recovery.motionOf(particle, kOdometry,
-                                        test::prepared(test::room(), kStart + TPose2D(0, 0, 0.5), random));
+  const auto motion =
+      recovery
+          .motionsOf(particle, kOdometry, test::prepared(test::room(), kStart + TPose2D(0, 0, 0.5), random))
+          .front();
   EXPECT_FALSE(motion.hasSlipped);
   EXPECT_EQ(motion.start, kOdometry);
 }
@@ -66,7 +101,7 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNoSlip) {
   // As through a door: nothing here has been mapped.
   const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
   const StepMotion motion =
-      recovery.motionOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random));
+      recovery.motionsOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random)).front();
   EXPECT_FALSE(motion.hasSlipped);
 }
 
@@ -85,8 +120,9 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNoSlip) {
   // each.
   SlipRecovery recovery = used(c, particle, kCorridor, 0.033);
   const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
-  EXPECT_FALSE(
-      recovery.motionOf(particle, kOdometry, test::prepared(open, start + kOdometry, random)).hasSlipped);
+  EXPECT_FALSE(recovery.motionsOf(particle, kOdometry, test::prepared(open, start + kOdometry, random))
+                   .front()
+                   .hasSlipped);
 }
 
 TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
@@ -100,9 +136,9 @@ TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
   EXPECT_LT((usual.covariance - model.covariance).norm(), 1e-7);
   const MotionDistribution slipped =
       motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c.motion, c.improved);
-  EXPECT_EQ(slipped.mean, model.mean);
+  EXPECT_EQ(slipped.mean, kStart + TPose2D(0.5, 0, 0));
   EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
-  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * test::kDegree, 2), 1e-6);
+  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(M_PI, 2), 1e-6);
 }
 
 }  // namespace
