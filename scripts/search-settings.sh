@@ -19,11 +19,7 @@ known=motion_model.distance_mean_std=0,motion_model.drift_mean_std=0,motion_mode
 narrow=motion_model.turn_var_d=0.0005,motion_model.drift_var_d=0.0002,motion_model.turn_mean_std=0.01
 narrow+=,motion_model.drift_mean_std=0.005
 
-<<<<<<< HEAD
 # beams_for EXPONENT: a stronger weight needs more beams.
-=======
-# beams_for EXPONENT: a weight as strong as so many independent beams needs more of them.
->>>>>>> 8a5f357 (search-settings: odometry trusted more and 180 beams, 8 seeds)
 beams_for() { case $1 in 25) echo 45 ;; 240) echo 180 ;; *) echo 90 ;; esac }
 options=(--seeds "${SEEDS:-8}" --first-seed "${FIRST_SEED:-101}" --methods "$method" -n "$particles" -q)
 for exponent in 25 60 120 240; do
