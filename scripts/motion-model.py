@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tables of doc/motion-model.md, as Markdown.
 
-  HYBRID_SLAM_DATASETS=FOLDER scripts/motion-model.py beliefs [OUT]   particles that learn the means on the way
+  HYBRID_SLAM_DATASETS=FOLDER scripts/motion-model.py beliefs [OUT]   particles that learn the means during the run
   HYBRID_SLAM_DATASETS=FOLDER scripts/motion-model.py learnt [OUT]    models that motion-model-learn has learnt
 
 OUT defaults to out/motion-model. SEEDS sets the runs of each group (beliefs: 20, learnt: 10). The programs are those of
@@ -61,7 +61,7 @@ def mean_and_range(values):
 
 
 def beliefs():
-    groups = {"": "means learnt on the way", "known": "means known (`mean_std` 0)", "wide": "wide, means learnt",
+    groups = {"": "means learnt during the run", "known": "means known (`mean_std` 0)", "wide": "wide, means learnt",
               "wide+known": "wide, means known"}
     options = ["-n", 20, "--seeds", os.environ.get("SEEDS", "20"), "--variant", f"hybrid/known:{KNOWN}",
                "--variant", f"hybrid/wide:{WIDE}", "--variant", f"hybrid/wide+known:{WIDE},{KNOWN}"]
@@ -93,7 +93,7 @@ def learnt():
     with_improved = on_intel("learnt-improved", *improved, "-n", 5, *seeds, "--variant", by_improved)
     with_standard = on_intel("learnt-standard", *EVERY_03, "-n", 20, *seeds, "--variant", by_standard, "--variant", by_coarse)
     print("| model | improved, mean (range) | standard, mean (range) |\n|---|---|---|")
-    for name, first, second in (("default", "", ""), ("learnt with the filter it is for", "improved", "standard"),
+    for name, first, second in (("default", "", ""), ("learnt with the same filter", "improved", "standard"),
                                 ("learnt with the improved proposal, 20 particles, every 0.3 m", None, "coarse")):
         left = "" if first is None else mean_and_range(with_improved[first])
         print(f"| {name} | {left} | {mean_and_range(with_standard[second])} |")
