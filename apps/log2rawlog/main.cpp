@@ -1,5 +1,7 @@
 /// @file main.cpp
 /// @brief log2rawlog: CARMEN, GMapping and DP-SLAM logs to rawlogs, with their own timestamps.
+#include <mrpt/core/bits_math.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -7,9 +9,9 @@
 #include <iostream>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "Program.h"
+#include "base/Numbers.h"
 #include "readings/LogConversion.h"
 
 namespace {
@@ -18,14 +20,13 @@ using namespace hybrid_slam;
 
 /// CLI::Range accepts `nan`.
 CLI::Validator within(double low, double high) {
-  std::ostringstream range;
-  range << low << ".." << high;
-  return {[low, high, text = range.str()](const std::string& given) -> std::string {
+  const std::string range = numberText(low) + ".." + numberText(high);
+  return {[low, high, range](const std::string& given) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(given, value) && value >= low && value <= high) return {};
-            return "`" + given + "` is not a number in " + text;
+            return "`" + given + "` is not a number in " + range;
           },
-          range.str()};
+          range};
 }
 
 void printSummary(const std::string& output, const readings::LogSummary& s) {
@@ -95,7 +96,7 @@ int convert(int argc, char** argv) {
   if (const auto code = parse(app, argc, argv)) return *code;
   options.format = readings::formatNamed(format);  // null: detected
   options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
-  if (angularStepDeg) options.angularStep = *angularStepDeg * M_PI / 180;
+  if (angularStepDeg) options.angularStep = mrpt::DEG2RAD(*angularStepDeg);
 
   const auto summary =
       readings::convertLog(input, output, options, [&input](size_t number, const std::string& why) {

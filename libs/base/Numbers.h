@@ -1,5 +1,7 @@
 /// @file Numbers.h
 /// @brief Locale-independent number formatting and parsing: decimal point, no separators.
+///
+/// mrpt::format and streams write a decimal comma in some locales, which no file format here allows.
 #pragma once
 
 #include <charconv>

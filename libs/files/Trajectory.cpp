@@ -1,12 +1,10 @@
 #include "files/Trajectory.h"
 
 #include <cmath>
-#include <iomanip>
-#include <locale>
 #include <ostream>
-#include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "files/NumberTable.h"
 
 namespace hybrid_slam::files {
@@ -28,14 +26,10 @@ Trajectory loadTum(const std::string& file) {
 }
 
 void saveTum(const Trajectory& trajectory, std::ostream& out) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed;
   for (const StampedPose& row : trajectory)
-    text << std::setprecision(6) << row.timestamp << std::setprecision(9) << ' ' << row.pose.x << ' '
-         << row.pose.y << " 0 0 0 " << std::sin(row.pose.phi / 2) << ' ' << std::cos(row.pose.phi / 2)
-         << '\n';
-  out << text.str();
+    out << fixedText(row.timestamp, 6) << ' ' << fixedText(row.pose.x, 9) << ' ' << fixedText(row.pose.y, 9)
+        << " 0 0 0 " << fixedText(std::sin(row.pose.phi / 2), 9) << ' '
+        << fixedText(std::cos(row.pose.phi / 2), 9) << '\n';
 }
 
 Trajectory loadOdometry(const std::string& file) {

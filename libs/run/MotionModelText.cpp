@@ -1,6 +1,6 @@
 #include "run/MotionModelText.h"
 
-#include <cstdio>
+#include <mrpt/core/format.h>
 
 #include "base/Numbers.h"
 
@@ -26,11 +26,7 @@ std::string motionModelSection(const MotionModelOptions& model, const std::vecto
 }
 
 std::string motionModelTableHead() {
-  const auto group = [](const char* name) {
-    char text[64];
-    std::snprintf(text, sizeof text, " | %-39s", name);
-    return std::string(text);
-  };
+  const auto group = [](const char* name) { return mrpt::format(" | %-39s", name); };
   std::string head =
       "          log-likeli-" + group("distance (m)") + group("drift (m)") + group("turn (rad)");
   head.erase(head.find_last_not_of(' ') + 1);

@@ -1,18 +1,15 @@
 #include "standins/LmsStandIn.h"
 
+#include <mrpt/core/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 namespace hybrid_slam::test {
 namespace {
 
 constexpr char kStart = '\x02', kEnd = '\x03';
 
-std::string hex(unsigned value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%X", value);
-  return text;
-}
+std::string hex(unsigned value) { return mrpt::format("%X", value); }
 
 bool startsWith(const std::string& text, const std::string& head) {
   return text.compare(0, head.size(), head) == 0;

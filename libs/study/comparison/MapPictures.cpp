@@ -1,5 +1,7 @@
 #include "study/comparison/MapPictures.h"
 
+#include <mrpt/system/string_utils.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -25,15 +27,10 @@ std::string mapPicture(const ReportInput& input, const RunResult& r, const std::
 }  // namespace
 
 std::string base64(const std::string& bytes) {
-  static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
+  std::string text;
+  mrpt::system::encodeBase64({bytes.begin(), bytes.end()}, text);
+  text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
+  return text;
 }
 
 std::string reducedPicture(const std::string& png) {

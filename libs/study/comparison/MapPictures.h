@@ -15,7 +15,7 @@ std::string mapPictures(const ReportInput& input);
 /// @returns PNG; empty for what is no picture
 std::string reducedPicture(const std::string& png);
 
-/// Bytes as base64 (RFC 4648).
+/// Bytes as base64 (RFC 4648) without the line breaks that MRPT inserts.
 std::string base64(const std::string& bytes);
 
 }  // namespace hybrid_slam::comparison

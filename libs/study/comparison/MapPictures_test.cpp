@@ -45,6 +45,7 @@ TEST(Base64, OfRfc4648) {
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+  EXPECT_EQ(base64(std::string(300, '\0')), std::string(400, 'A'));  // one line
 }
 
 }  // namespace

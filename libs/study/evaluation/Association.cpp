@@ -1,10 +1,9 @@
 #include "study/evaluation/Association.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "study/evaluation/StampIndex.h"
 
 namespace hybrid_slam::evaluation {
@@ -16,13 +15,10 @@ std::vector<PosePair> associate(const files::Trajectory& estimate, const files::
   for (const files::StampedPose& p : estimate)
     if (const auto row = index.nearest(p.timestamp, tolerance))
       pairs.push_back({p.timestamp, p.pose, reference[*row].pose});
-  if (pairs.empty()) {
-    std::ostringstream expected;
-    expected << "expected poses within " << tolerance << " s of each other";
+  if (pairs.empty())
     throw InputError("the reference does not overlap the trajectory in time",
                      "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
-                     expected.str());
-  }
+                     "expected poses within " + numberText(tolerance) + " s of each other");
   return pairs;
 }
 
@@ -31,9 +27,7 @@ std::string timeSpan(const files::Trajectory& trajectory) {
   const auto [first, last] = std::minmax_element(
       trajectory.begin(), trajectory.end(),
       [](const files::StampedPose& a, const files::StampedPose& b) { return a.timestamp < b.timestamp; });
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << first->timestamp << ".." << last->timestamp << " s";
-  return text.str();
+  return fixedText(first->timestamp, 3) + ".." + fixedText(last->timestamp, 3) + " s";
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <sstream>
 #include <vector>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "study/evaluation/Association.h"
 
 namespace hybrid_slam::evaluation {
@@ -59,10 +59,9 @@ RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Traj
     rotations.push_back(std::abs(error.phi));
   }
   if (translations.empty()) {
-    std::ostringstream what;
-    what << "no pose pairs " << delta.length << (delta.unit == RpeDelta::Unit::seconds ? " s" : " m")
-         << " apart";
-    throw InputError(what.str(), "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
+    const char* const unit = delta.unit == RpeDelta::Unit::seconds ? " s" : " m";
+    throw InputError("no pose pairs " + numberText(delta.length) + unit + " apart",
+                     "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),
                      "expected two poses this far apart, within 10 %");
   }
   RpeErrors result;
