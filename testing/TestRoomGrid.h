@@ -2,6 +2,7 @@
 /// @brief For the tests: a simulated room or corridor, its map, and scans of it.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ inline LaserScan scanAt(const Box& room, const mrpt::math::TPose2D& robot, Rando
   const mrpt::math::TPose2D laser = robot + scan.sensorPose;
   for (int i = -90; i <= 90; ++i) {
     Beam beam;
-    beam.angle = i * M_PI / 180;
+    beam.angle = mrpt::DEG2RAD(1.0 * i);
     beam.range = castRay(room, laser.x, laser.y, laser.phi + beam.angle) + 0.01 * random.gaussian();
     beam.valid = beam.range < scan.maxRange;
     scan.beams.push_back(beam);

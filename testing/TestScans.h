@@ -2,6 +2,7 @@
 /// @brief For the tests: scans of hand-made walls, points along lines, random lines.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace hybrid_slam::test {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 using Walls = std::vector<std::pair<TPoint2D, TPoint2D>>;
 
 inline PointRange range(const std::vector<TPoint2D>& points) {

@@ -1,6 +1,8 @@
 /// @file main.cpp
 /// @brief motion-model-learn: a robot's motion model from a log (doc/motion-model.md).
 
+#include <mrpt/core/bits_math.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
@@ -70,7 +72,7 @@ std::vector<std::string> comments(const CommandLine& line, const run::Configurat
   std::vector<std::string> all{
       text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.log, " with ", line.config,
            "."),
-      text("For updates every ", filter.updateDistance(), " m or ", filter.updateAngle() * 180 / M_PI,
+      text("For updates every ", filter.updateDistance(), " m or ", mrpt::RAD2DEG(filter.updateAngle()),
            " deg: the variances hold for steps of this size."),
       text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
            " (the prior's: ", prior.logLikelihood, ")."),

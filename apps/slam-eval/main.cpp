@@ -2,6 +2,8 @@
 /// @brief slam-eval: evaluates a trajectory against a reference or itself, JSON on standard output
 /// (doc/slam-eval.md).
 
+#include <mrpt/core/bits_math.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -24,7 +26,7 @@ namespace {
 using namespace hybrid_slam;
 using Json = nlohmann::ordered_json;
 
-constexpr double kRadToDeg = 180 / M_PI;
+constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
 
 struct CommandLine {
   std::string trajectory, relations, odometry, reference, rawlog;

@@ -1,5 +1,6 @@
 #include "base/LaserScan.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace hybrid_slam {
 
 bool isHorizontal(const mrpt::obs::CObservation2DRangeScan& observation) {
-  constexpr double kMaxTilt = 5 * M_PI / 180;
+  constexpr double kMaxTilt = mrpt::DEG2RAD(5.0);
   return std::abs(observation.sensorPose.getRotationMatrix()(2, 2)) >= std::cos(kMaxTilt);
 }
 

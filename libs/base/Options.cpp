@@ -1,6 +1,7 @@
 #include "base/Options.h"
 
 #include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace hybrid_slam {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::string rangeText(double low, double high) { return numberText(low) + ".." + numberText(high); }
 

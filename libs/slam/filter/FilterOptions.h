@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/bayes/CParticleFilter.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -28,7 +29,7 @@ struct ParticleFilterOptions : Options {
       mrpt::bayes::CParticleFilter::prSystematic;
   double essThreshold = 0.5;
   double updateDistance = 0.3;
-  double updateAngle = 15 * M_PI / 180;
+  double updateAngle = mrpt::DEG2RAD(15.0);
   int seed = 1;
   int threads = 1;
 
@@ -39,11 +40,11 @@ struct ParticleFilterOptions : Options {
 /// Section [improved_proposal].
 struct ImprovedProposalOptions : Options {
   double updateDistance = 0.1;
-  double updateAngle = 5 * M_PI / 180;
+  double updateAngle = mrpt::DEG2RAD(5.0);
   int samples = 12;
   double exponent = 0.02;
   double minFit = 0.02;
-  double lineSigma = 0.1 * M_PI / 180;
+  double lineSigma = mrpt::DEG2RAD(0.1);
   double lineSigmaRho = 0.05;
   double slipDistance = 0.5;
   double slipAngle = M_PI;

@@ -1,5 +1,6 @@
 #include "slam/filter/Refinement.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include "slam/filter/PreparedScan.h"
@@ -36,7 +37,7 @@ ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& c
 }
 
 void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes) {
-  const Eigen::Vector3d deviations(0.05, 0.05, M_PI / 180);
+  const Eigen::Vector3d deviations(0.05, 0.05, mrpt::DEG2RAD(1.0));
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher matcher(configuration.matcher);
   tbb::task_arena arena(arenaThreads(configuration.filter.threads));

@@ -1,6 +1,7 @@
 #include "slam/filter/StockMapBuilder.h"
 
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
@@ -91,9 +92,9 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const Filte
   ini.write(s, "pfOptimalProposal_mapSelection", 0);  // unused by the standard proposal, but required
   ini.write(s, "BETA", ours.filter.essThreshold);
   ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
-  ini.write(s, "insertionAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);
+  ini.write(s, "insertionAngDistance_deg", mrpt::RAD2DEG(ours.filter.updateAngle));
   ini.write(s, "localizeLinDistance", ours.filter.updateDistance);
-  ini.write(s, "localizeAngDistance_deg", ours.filter.updateAngle * 180 / M_PI);
+  ini.write(s, "localizeAngDistance_deg", mrpt::RAD2DEG(ours.filter.updateAngle));
   ini.write(s, "occupancyGrid_count", 1);
   ini.write(grid + "_creationOpts", "resolution", ours.grid.resolution);
   ini.write(grid + "_insertOpts", "maxDistanceInsertion", ours.grid.maxRange);

@@ -1,5 +1,6 @@
 #include "slam/grid/CorrelativeSearch.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -13,8 +14,8 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr int kStep = 2;                   // cells
-constexpr double kStepAngle = M_PI / 180;  // rad
+constexpr int kStep = 2;                           // cells
+constexpr double kStepAngle = mrpt::DEG2RAD(1.0);  // rad
 constexpr size_t kMostBeams = 120;
 
 /// A rectangle of cells with max(0, 2 p - 1) in steps of 1/255: the maximum over each cell and its

@@ -1,5 +1,6 @@
 #include "slam/grid/ScanMatcher.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ namespace {
 /// information along it, and is zero on the ridge of a wall.
 Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
   const double cells = 1.5 * likelihood.resolution();
-  const Eigen::Vector3d reach(cells, cells, 0.75 * M_PI / 180);
+  const Eigen::Vector3d reach(cells, cells, mrpt::DEG2RAD(0.75));
   Eigen::Matrix3d bend;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);

@@ -2,6 +2,8 @@
 /// @brief Hough transform in a voting space around a fitted line (Sec. III-B, step 3).
 #pragma once
 
+#include <mrpt/core/bits_math.h>
+
 #include "base/Options.h"
 #include "slam/lines/LineFit.h"
 
@@ -10,10 +12,10 @@ namespace hybrid_slam {
 /// Section [hough].
 struct HoughOptions : Options {
   bool enabled = true;
-  double rhoWindow = 0.1;                   ///< m
-  double rhoResolution = 0.03;              ///< m
-  double thetaWindow = 3 * M_PI / 180;      ///< rad
-  double thetaResolution = M_PI / 180 / 4;  ///< rad
+  double rhoWindow = 0.1;                        ///< m
+  double rhoResolution = 0.03;                   ///< m
+  double thetaWindow = mrpt::DEG2RAD(3.0);       ///< rad
+  double thetaResolution = mrpt::DEG2RAD(0.25);  ///< rad
 
   void describe(OptionTable& table) override;
 };

@@ -4,6 +4,8 @@
 /// for mobile robot" (2008).
 #pragma once
 
+#include <mrpt/core/bits_math.h>
+
 #include <optional>
 
 #include "base/Options.h"
@@ -13,10 +15,10 @@ namespace hybrid_slam {
 
 /// Section [line_association].
 struct AssociationOptions : Options {
-  double maxRho = 0.3;               ///< m
-  double maxTheta = 5 * M_PI / 180;  ///< rad
-  double thetaWeight = 3.5;          ///< m per rad
-  double minOverlap = 0;             ///< m; negative: a gap of this size
+  double maxRho = 0.3;                   ///< m
+  double maxTheta = mrpt::DEG2RAD(5.0);  ///< rad
+  double thetaWeight = 3.5;              ///< m per rad
+  double minOverlap = 0;                 ///< m; negative: a gap of this size
 
   void describe(OptionTable& table) override;
 };

@@ -2,6 +2,8 @@
 /// @brief The line segments of a particle's map (Sec. III-C).
 #pragma once
 
+#include <mrpt/core/bits_math.h>
+
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -17,7 +19,7 @@ struct LineDatabaseOptions : Options {
   double minLength = 5;  ///< m
   int minCount = 3;
   int pruneInterval = 10;
-  double directionWindow = 0.5 * M_PI / 180;  ///< rad
+  double directionWindow = mrpt::DEG2RAD(0.5);  ///< rad
 
   void describe(OptionTable& table) override;
 };

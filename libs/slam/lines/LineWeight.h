@@ -2,6 +2,8 @@
 /// @brief w_line: agreement in direction of the observed lines with a particle's line database (Sec. III-D).
 #pragma once
 
+#include <mrpt/core/bits_math.h>
+
 #include <vector>
 
 #include "base/Options.h"
@@ -18,8 +20,8 @@ struct LineWeightOptions : Options {
     paper                 ///< eq. (9): any database line parallel or perpendicular within a threshold
   };
   Method method = Method::graded;
-  double sigma = 0.4 * M_PI / 180;       ///< rad
-  double threshold = 0.25 * M_PI / 180;  ///< rad
+  double sigma = mrpt::DEG2RAD(0.4);       ///< rad
+  double threshold = mrpt::DEG2RAD(0.25);  ///< rad
   double floor = 0.001;
 
   void describe(OptionTable& table) override;

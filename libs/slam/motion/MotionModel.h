@@ -2,6 +2,7 @@
 /// @brief The motion model of the paper's [9] (Eliazar & Parr, ICML 2004): distance, drift and turn.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 
@@ -48,7 +49,7 @@ struct MotionModelOptions : Options {
   MotionTerm distance{1, 0, 0.0015, 0.0016, 0.01};  ///< D, along heading + T / 2 (m)
   MotionTerm drift{0, 0, 0.0015, 0.0016, 0.03};     ///< C, perpendicular to D, positive to the left (m)
   MotionTerm turn{0, 1, 0.004, 0.006, 0.03};        ///< T (rad)
-  double minStdXY = 0.005, minStdPhi = 0.1 * M_PI / 180;
+  double minStdXY = 0.005, minStdPhi = mrpt::DEG2RAD(0.1);
   void describe(OptionTable& table) override;
 };
 

@@ -1,5 +1,7 @@
 #include "study/comparison/DoubledWalls.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
@@ -13,14 +15,14 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kSampleStep = 0.1;             // m, along a wall
-constexpr double kNear = 0.15;                  // m, between a sample and an end point on it
-constexpr double kLeastWay = 0.2;               // m, between scans
-constexpr double kLeastTurn = 10 * M_PI / 180;  // rad
-constexpr double kTimeTolerance = 0.001;        // s, from a scan to the run's pose
-constexpr double kPause = 30;                   // s, between two passes
-constexpr double kLargestSpread = 0.2;          // m: wider than a wall drawn once
-constexpr size_t kLeastScans = 3;               // in a pass
+constexpr double kSampleStep = 0.1;                 // m, along a wall
+constexpr double kNear = 0.15;                      // m, between a sample and an end point on it
+constexpr double kLeastWay = 0.2;                   // m, between scans
+constexpr double kLeastTurn = mrpt::DEG2RAD(10.0);  // rad
+constexpr double kTimeTolerance = 0.001;            // s, from a scan to the run's pose
+constexpr double kPause = 30;                       // s, between two passes
+constexpr double kLargestSpread = 0.2;              // m: wider than a wall drawn once
+constexpr size_t kLeastScans = 3;                   // in a pass
 constexpr size_t kLeastInARow = 3;
 
 /// The samples as a nanoflann data set.

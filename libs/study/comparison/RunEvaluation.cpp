@@ -1,5 +1,6 @@
 #include "study/comparison/RunEvaluation.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-constexpr double kRadToDeg = 180 / M_PI;
+constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
 
 evaluation::RelationErrors relationErrors(const files::Trajectory& trajectory, const GroundTruth& truth) {
   return evaluation::evaluateRelations(trajectory, truth.relations,

@@ -1,5 +1,7 @@
 #include "study/comparison/SpreadTable.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -28,7 +30,7 @@ std::vector<SpreadStep> loadSpread(const std::string& file) {
       const std::vector<std::string> fields = splitAtCommas(line);
       SpreadStep step{parseNumber(fields.at(timestamp)).value(), {}};
       for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = parseNumber(fields.at(spreads[s])).value();
-      step.spread[2] *= 180 / M_PI;
+      step.spread[2] *= mrpt::RAD2DEG(1.0);
       if (isFirst)
         isFirst = false;
       else

@@ -1,5 +1,7 @@
 #include "study/simulation/FloorPlanFile.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -54,10 +56,10 @@ void WallBuilder::addChain(const std::vector<TPoint2D>& points, const Record& re
 
 void WallBuilder::addArc(double x, double y, double radius, double startDeg, double sweepDeg,
                          const Record& record) {
-  if (radius < kTolerance || sweepDeg <= 0 || sweepDeg > 360 || radius * sweepDeg * M_PI / 180 < kTolerance)
+  if (radius < kTolerance || sweepDeg <= 0 || sweepDeg > 360 || radius * mrpt::DEG2RAD(sweepDeg) < kTolerance)
     throw InputError("wall of zero length", record.where,
                      "expected a radius above 0 m and an end up to 360 deg counter-clockwise of the start");
-  walls_.push_back(Wall::arc({x, y}, radius, startDeg * M_PI / 180, sweepDeg * M_PI / 180));
+  walls_.push_back(Wall::arc({x, y}, radius, mrpt::DEG2RAD(startDeg), mrpt::DEG2RAD(sweepDeg)));
 }
 
 void WallBuilder::add(const Record& record) {

@@ -1,5 +1,6 @@
 #include "study/simulation/Laser.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace hybrid_slam::simulation {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kEdge = 0.1;  // m: surfaces closer in range than this appear as one
 
 }  // namespace

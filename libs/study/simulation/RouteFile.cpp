@@ -1,3 +1,5 @@
+#include <mrpt/core/bits_math.h>
+
 #include <cmath>
 #include <optional>
 
@@ -37,9 +39,9 @@ class RouteBuilder {
   bool started_ = false;
   TPose2D pose_;
   double time_ = 0;
-  double speed_ = 0.5;                  // m/s
-  double turnSpeed_ = 45 * M_PI / 180;  // rad/s
-  std::optional<Corner> corner_;        // rounded once the next point is known
+  double speed_ = 0.5;                      // m/s
+  double turnSpeed_ = mrpt::DEG2RAD(45.0);  // rad/s
+  std::optional<Corner> corner_;            // rounded once the next point is known
   std::vector<Route::Piece> pieces_;
 };
 
@@ -100,7 +102,7 @@ void RouteBuilder::add(const Record& record) {
     if (started_)
       throw InputError("second `start`", record.where, "expected one `start`, before all way points");
     started_ = true;
-    pose_ = {v[0], v[1], v[2] * M_PI / 180};
+    pose_ = {v[0], v[1], mrpt::DEG2RAD(v[2])};
     return;
   }
   if (record.word == "speed") {
@@ -112,7 +114,7 @@ void RouteBuilder::add(const Record& record) {
   if (record.word == "turn_speed") {
     expectNumbers(record, "DEG_PER_S");
     expectPositive(v[0], "deg/s");
-    turnSpeed_ = v[0] * M_PI / 180;
+    turnSpeed_ = mrpt::DEG2RAD(v[0]);
     return;
   }
   if (!started_)
@@ -135,7 +137,7 @@ void RouteBuilder::add(const Record& record) {
                      "expected `go` or `via` after it");
   if (record.word == "turn") {
     expectNumbers(record, "HEADING_DEG");
-    turnTo(v[0] * M_PI / 180, record);
+    turnTo(mrpt::DEG2RAD(v[0]), record);
   } else {
     expectNumbers(record, "SECONDS");
     expectPositive(v[0], "s");

@@ -38,7 +38,7 @@ std::vector<Slip> parseSlips(const std::string& text) {
     if (!time || *time < 0 || !rotation || !distance || !rest.empty())
       throw InputError("wrong slip `" + event + "`", "section [odometry], key `slips`",
                        "expected `T DEG M, T DEG M, ...` (s, deg, m) with T >= 0");
-    slips.push_back({*time, *rotation * M_PI / 180, *distance});
+    slips.push_back({*time, mrpt::DEG2RAD(*rotation), *distance});
   }
   return slips;
 }

@@ -2,6 +2,7 @@
 /// @brief Wheel odometry of a Pioneer 3-DX with systematic and random errors and slips.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <string>
@@ -26,12 +27,12 @@ struct OdometryOptions : Options {
   double rate = 10;
   double meanDd = 1.01, meanDt = 0;         ///< m/m, m/rad
   double meanCd = 0, meanCt = 0;            ///< m/m, m/rad
-  double meanTd = 0.1 * M_PI / 180;         ///< rad/m
+  double meanTd = mrpt::DEG2RAD(0.1);       ///< rad/m
   double meanTt = 1.01;                     ///< rad/rad
   double sigmaDd = 0.02, sigmaDt = 0.005;   ///< m/sqrt(m), m/sqrt(rad)
   double sigmaCd = 0.005, sigmaCt = 0.005;  ///< m/sqrt(m), m/sqrt(rad)
-  double sigmaTd = 0.5 * M_PI / 180;        ///< rad/sqrt(m)
-  double sigmaTt = 1.0 * M_PI / 180;        ///< rad/sqrt(rad)
+  double sigmaTd = mrpt::DEG2RAD(0.5);      ///< rad/sqrt(m)
+  double sigmaTt = mrpt::DEG2RAD(1.0);      ///< rad/sqrt(rad)
   std::string slips;                        ///< "T DEG M, T DEG M, ..."
   void describe(OptionTable& table) override;
 };

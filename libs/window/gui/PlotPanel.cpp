@@ -1,5 +1,7 @@
 #include "window/gui/PlotPanel.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <wx/dcbuffer.h>
 #include <wx/graphics.h>
 
@@ -17,7 +19,7 @@ struct Plot {
 
 const Plot kPlots[] = {{"std x (m)", [](const PlotRow& r) { return r.stdX; }, 0.01},
                        {"std y (m)", [](const PlotRow& r) { return r.stdY; }, 0.01},
-                       {"std phi (deg)", [](const PlotRow& r) { return r.stdPhi * 180 / M_PI; }, 0.1},
+                       {"std phi (deg)", [](const PlotRow& r) { return mrpt::RAD2DEG(r.stdPhi); }, 0.1},
                        {"ESS", [](const PlotRow& r) { return r.ess; }, 1}};
 
 wxColour colourOf(size_t filter) { return filter == 0 ? wxColour(0, 90, 200) : wxColour(230, 110, 0); }
