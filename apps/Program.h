@@ -1,5 +1,5 @@
 /// @file Program.h
-/// @brief Common to all programs: command line in, exit code and a one-line error out.
+/// @brief Shared by all programs: the command line, one-line errors and exit codes.
 #pragma once
 
 #include <CLI/CLI.hpp>

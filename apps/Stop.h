@@ -10,7 +10,7 @@ namespace hybrid_slam {
 /// True once the user has asked to stop. Global because a signal handler can reach nothing else.
 inline std::atomic<bool> stop{false};
 
-/// SIGINT and SIGTERM set `stop`; each then gets its default action back.
+/// SIGINT or SIGTERM sets `stop`; that signal then has its default action again.
 inline void stopOnSignals() {
   const auto onSignal = [](int signal) {
     stop = true;

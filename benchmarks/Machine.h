@@ -12,13 +12,13 @@ namespace hybrid_slam::bench {
 
 /// Rates of one core.
 struct Machine {
-  double scalar = 0;  ///< additions of doubles in 1/ns, one at a time, eight independent chains
-  double sse = 0;  ///< the same, two doubles in each SSE2 instruction, which is what the project is built for
-  double l1 = 0, l2 = 0, l3 = 0, memory = 0;  ///< B/ns of a triad whose three arrays together fill 24 kB, 512
-                                              ///< kB, 8 MB, 192 MB
+  double scalar = 0;  ///< scalar additions of doubles per ns, in eight independent chains
+  double sse = 0;     ///< the same with SSE2, two doubles per instruction; the project is built for SSE2
+  double l1 = 0, l2 = 0, l3 = 0, memory = 0;  ///< bandwidth (B/ns) of a triad whose three arrays take 24 kB,
+                                              ///< 512 kB, 8 MB and 192 MB in all
 };
 
-/// The best of several runs: other programs can only slow a run down.
+/// The fastest of several runs: other programs can only slow a run down.
 template <class Work>
 double shortestNs(int runs, const Work& work) {
   double best = 1e300;
@@ -45,7 +45,7 @@ inline double triad(size_t bytes) {
   return static_cast<double>(passes) * static_cast<double>(3 * n * sizeof(double)) / ns;
 }
 
-/// Additions a ns; Register is double or __m128d, `add` one addition.
+/// Additions per ns. Register is double or __m128d; `add` performs one addition.
 template <class Register, class Add>
 double additions(Register zero, int width, const Add& add) {
   constexpr int kRounds = 100000;

@@ -1,11 +1,12 @@
 /// @file kernels.cpp
 /// @brief The kernels of an update, timed by Google Benchmark, and their lower bounds on this machine.
 ///
-/// A kernel's lower bound is the greater of its arithmetic over the measured rate of additions and its bytes
-/// over the measured bandwidth of the cache that holds them. Arithmetic is counted in the source by hand:
-/// every floating-point operation of the inner loop, an instruction on four floats as two. Those of integers
-/// count as halves where the loop lives on them (traversal, insertion, penetration weight), as four begin in
-/// the time of two additions of doubles; elsewhere they run beside. Table look-ups count as bytes.
+/// A kernel's lower bound is the greater of two times: its operations divided by the measured addition rate,
+/// and its bytes divided by the measured bandwidth of the cache that holds them. Operations are counted by
+/// hand in the source. Every floating-point operation of the inner loop counts as one, an instruction on four
+/// floats as two. Integer operations count as halves in loops that consist mainly of them (traversal,
+/// insertion, penetration weight), since four start in the time of two additions of doubles; elsewhere they
+/// run in parallel and are not counted. Table look-ups count as bytes.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -26,8 +27,8 @@ using mrpt::math::TPose2D;
 struct Kernel {
   std::string name, item;
   double items;
-  double operations, bytes;  ///< of one item
-  bool isVector;             ///< its operations are independent of each other: two in an SSE instruction
+  double operations, bytes;  ///< per item
+  bool isVector;             ///< its operations are independent, so that one SSE instruction performs two
   std::function<void()> run;
   std::string why;
 };
@@ -41,8 +42,8 @@ struct Scene {
   FilterConfiguration options;
 };
 
-/// Calls visit(cellX, cellY) for each step of a cell's length along the beams, to `beyond` (m) behind the
-/// readings.
+/// Follows each beam in steps of one cell, to `beyond` (m) behind its reading, and calls visit(cellX, cellY)
+/// at each step.
 template <class Visit>
 void forEachStep(const Scene& s, const ScanBeams& beams, double beyond, const Visit& visit) {
   const double cell = s.particle.grid.resolution();
@@ -54,8 +55,7 @@ void forEachStep(const Scene& s, const ScanBeams& beams, double beyond, const Vi
   }
 }
 
-/// Columns (or rows, of steep beams) that the beams go through, in each of which insertion counts one or two
-/// cells.
+/// Number of columns (rows for steep beams) that the beams cross. Insertion counts one or two cells in each.
 double crossedColumns(const Scene& s) {
   double count = 0;
   const GridPose frame(s.pose, s.scan.beams, s.particle.grid.resolution());
@@ -70,7 +70,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   std::vector<Kernel> all;
   const double beams = static_cast<double>(s.scan.beams.rays.size());
 
-  // Two additions and two shifts of integers, the loop's count: 5 halves.
+  // Two integer additions, two shifts, the loop counter: 5 halves.
   constexpr double kStep = 2.5;
   double steps = 0;
   forEachStep(s, s.scan.beams, 0, [&](int, int) { ++steps; });
@@ -81,17 +81,17 @@ std::vector<Kernel> kernelsOf(Scene& s) {
                    DoNotOptimize(sum);
                  },
                  "the sum that the benchmark computes"});
-  // The next place 1, the next column 1, the loop's count 1; where the beam enters and leaves 4, two places
-  // of counts 4, compare 1, two additions: 14 halves; two counts read and written.
+  // Next position 1, next column 1, loop counter 1, entry and exit of the beam 4, addresses of two counts 4,
+  // comparison 1, two additions 2: 14 halves. Two counts are read and written.
   all.push_back(
       {"insertion", "column", crossedColumns(s), 7, 4, false,
        [&s] { s.particle.grid.insert(s.scan.beams, s.pose, s.options.grid); },
        "each count is read, changed and written back before the next; iteration over the scan's tiles"});
   static const PenetrationModel model(s.options.gridWeight, s.particle.grid.resolution());
-  // Where nothing can stop a beam, 8 steps at once: its last place 4, the tiles of both 6, the tile looked up
-  // 3, their squares 4, the bits of four squares 16, put together and compared 5, the next block 6: 44
-  // halves. Elsewhere a step, the place of the cell 4 halves, product, difference, sum, product and sum 5; a
-  // cell and two numbers read; what is done once a wall is not counted.
+  // A free block of 8 steps: last position 4, tiles of both ends 6, tile look-up 3, squares 4, flags of four
+  // squares 16, their combination and comparison 5, next block 6: 44 halves. Any other step: address of the
+  // cell 4 halves; product, difference, sum, product and sum 5 operations; one cell and two numbers are read.
+  // Work done once per wall is not counted.
   const double beyond = 3 * s.options.gridWeight.sigma;
   double weighed = 0, met = 0;
   forEachStep(s, s.scan.weighedBeams, beyond, [&](int x, int y) {
@@ -105,7 +105,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
        "free cells near others are traversed one by one; each product depends on the previous one; the ends "
        "of free squares are sometimes mispredicted"});
   // End of the beam 12, floors 4, residual 3; on four floats weights 12, columns 7, row 4. The patch of 16
-  // floats is kept from call to call.
+  // floats is cached between calls.
   static const ScanMatcher matcher(s.options.matcher);
   const double matched = static_cast<double>(s.scan.matchedBeams.rays.size());
   static ScanLikelihood likelihood = matcher.likelihood(s.scan.matchedBeams, s.particle.grid);
@@ -113,23 +113,22 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   all.push_back({"logLikelihoodValue", "beam", matched, kValue, kPatch, true,
                  [&s] { DoNotOptimize(likelihood.value(s.pose)); },
                  "packing and unpacking of single numbers in vectors of four"});
-  // The same with slopes: on four floats weights +8, columns +7, rows +8; the products of gradient and
-  // information 30.
+  // With slopes, on four floats: weights 8 more, columns 7, rows 8; products for gradient and information 30.
   constexpr double kSlope = kValue + 2 * 23 + 30;
   all.push_back({"logLikelihood", "beam", matched, kSlope, kPatch, true,
                  [&s] { DoNotOptimize(likelihood(s.pose)); },
                  "as above; ten sums carried from beam to beam"});
   const TPose2D start = s.pose + TPose2D(0.03, 0.02, 0.01);
-  double evaluations = -1;  // the prior is asked once more at the end
+  double evaluations = -1;  // the prior is evaluated once more at the end
   const auto match = [&s, start](const Prior& prior) {
     DoNotOptimize(matcher.match(s.scan.matchedBeams, start, s.particle.grid, prior));
   };
   match([&](const TPose2D&) { return ++evaluations, LogDensity(); });
-  // Every step is one logLikelihood, the curvature six, the fit one value.
+  // Each step evaluates logLikelihood once, the curvature six times; the fit evaluates the value once.
   all.push_back({"match", "beam", matched, kSlope * (evaluations + 6) + kValue, kPatch * (evaluations + 7),
                  true, [match] { match([](const TPose2D&) { return LogDensity(); }); },
                  "as logLikelihood; cells around the end points are read again where a step changes them"});
-  // What a copy reads and writes; the map itself is shared.
+  // The bytes that a copy reads and writes; the map itself is shared.
   all.push_back(
       {"particle copy", "copy", 1, 0, 2 * sizeof(Particle) + 4 * 2 * 8, false,
        [&s] {
@@ -138,7 +137,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
        },
        "atomic reference counts of shared tiles (some 20 cycles each, up and down); allocation of the window "
        "of blocks"});
-  // Each beam votes once for every angle: 4 for rho, round, abs, compare, index, count; segmentation and
+  // Each beam votes once per angle: rho 4, then rounding, abs, comparison, index and count; segmentation and
   // fits 60.
   const auto& hough = s.options.lineExtraction.hough;
   const double angles = 2 * std::round(hough.thetaWindow / hough.thetaResolution) + 1;
@@ -150,7 +149,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   return all;
 }
 
-/// Prints as Google Benchmark does, and keeps the shortest time (ns of one core) by name.
+/// Prints like Google Benchmark's own reporter, and records the shortest time (ns on one core) by name.
 class Keeper : public benchmark::ConsoleReporter {
  public:
   Keeper() : ConsoleReporter(OO_Tabular) {}
@@ -165,7 +164,7 @@ class Keeper : public benchmark::ConsoleReporter {
   std::map<std::string, double> shortest;
 };
 
-/// ns of a particle in an update of the filter (standard proposal), all stages together.
+/// Time (ns) per particle of a filter update with the standard proposal, all stages together.
 void particleUpdate(benchmark::State& state) {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.particles = static_cast<int>(state.range(0));

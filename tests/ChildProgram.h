@@ -20,7 +20,7 @@ namespace hybrid_slam::test {
 /// Started without a shell; does not outlive the object.
 class ChildProgram {
  public:
-  /// @param name  of the files in the folder that take its output: NAME.out and NAME.err
+  /// @param name  name of its output files in the folder: NAME.out and NAME.err
   ChildProgram(const files::TemporaryFolder& folder, const std::string& name,
                std::vector<std::string> arguments)
       : out_(folder.path(name + ".out")), err_(folder.path(name + ".err")) {
@@ -50,7 +50,7 @@ class ChildProgram {
     if (!hasEnded_) hasEnded_ = ::waitpid(child_, &status_, WNOHANG) == child_;
     return hasEnded_;
   }
-  /// Exit code; -1 for one that a signal ended, or that does not end.
+  /// Exit code; -1 if a signal ended the program or it does not end.
   int wait() {
     return test::happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
   }

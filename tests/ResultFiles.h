@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::test {
 
-/// All that a replay writes.
+/// All files that a replay writes.
 inline const std::vector<std::string> kResults{"trajectory.tum", "map.png",          "map.pgm",   "map.yaml",
                                                "map.gridmap.gz", "map.simplemap.gz", "lines.csv", "steps.csv",
                                                "metrics.json",   "config.ini"};

@@ -41,7 +41,7 @@ inline void expectInputError(const Outcome& outcome, const std::string& program,
   EXPECT_THAT(outcome.err, testing::HasSubstr(part));
 }
 
-/// A run of more than ten seconds, on a busy machine, prints progress.
+/// On a busy machine, a run of more than ten seconds prints progress.
 inline std::string withoutProgress(const std::string& err) {
   return std::regex_replace(err, std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"), "");
 }

@@ -54,7 +54,7 @@ struct SlamCompare : testing::Test {
     EXPECT_EQ(parsed.status, 0) << parsed.err;
     return test::contentOf(folder.path("out/report.html"));
   }
-  /// results.csv without what a clock says.
+  /// results.csv without the measured times.
   std::string untimedTable() const {
     std::string text;
     for (auto& row : table("results.csv"))

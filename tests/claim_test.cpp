@@ -52,7 +52,7 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// By seeds: how often the first is smaller.
+/// Number of seeds for which the first is smaller.
 int wins(const std::vector<double>& a, const std::vector<double>& b) {
   int count = 0;
   for (size_t i = 0; i < a.size(); ++i) count += a[i] < b[i];
@@ -72,7 +72,7 @@ TEST_F(Claim, SoDoesEqNineAsPrintedOnTheSimulatedLoop) {
   EXPECT_GE(wins(lines, noLines), kSeeds - 1);
 }
 
-/// MIT Killian Court, 1.9 km: without lines every run is lost.
+/// MIT Killian Court, 1.9 km: every run without lines fails.
 TEST_F(Claim, LinesBeatNoLinesOnKillianCourt) {
   const char* const datasets = std::getenv("HYBRID_SLAM_DATASETS");
   if (!datasets) GTEST_SKIP() << "HYBRID_SLAM_DATASETS is unset";

@@ -26,7 +26,7 @@ using testing::IsEmpty;
 using testing::MatchesRegex;
 
 const std::string kDoorways = SOURCE_DIR "/datasets/csie/csie-doorways.rawlog";
-/// One half turn in 44 s of driving straight on.
+/// A straight drive of 44 s with one half turn.
 const std::string kCorridor = SOURCE_DIR "/datasets/csie/csie-corridor.rawlog";
 
 class MotionModelLearn : public testing::Test {
@@ -148,7 +148,8 @@ TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
 }
 
 TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
-  // Ten particles: by five, the likelihoods of the second and the third iteration could not be told apart.
+  // Ten particles: with five, the likelihoods of the second and third iteration could not be
+  // distinguished.
   ASSERT_EQ(learn(kDoorways, "-n 10 --iterations 3"), 0) << err;
   EXPECT_THAT(err, IsEmpty());
   const MotionModelOptions model = learnt(), prior;

@@ -1,5 +1,5 @@
-/// slam-compare from the command line: a whole comparison, interrupted and resumed, failing runs, every bad
-/// input.
+/// slam-compare from the command line: a complete comparison, interruption and resumption, failing runs, all
+/// kinds of invalid input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,7 +112,7 @@ TEST_F(SlamCompare, TheReportOf24RunsIsSmallAndTheSameAgain) {
     EXPECT_THAT(report, HasSubstr("aria-label=\"" + std::string(plot)));
   EXPECT_THAT(report, Not(HasSubstr("Without plots")));
   ASSERT_EQ(run(sweep + " --report-only").status, 0);
-  // The same but for the command.
+  // The same except for the command.
   const auto body = [](const std::string& html) { return html.substr(html.find("</pre>")); };
   EXPECT_EQ(body(this->report()), body(report));
 }

@@ -1,4 +1,4 @@
-/// slam-eval revisits: a map that closes, one that does not, every bad input.
+/// slam-eval revisits: a map that closes, one that does not, all kinds of invalid input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Three laps, 9.7 m each, as a rawlog and as the trajectory of it, whose third lap is `shift` aside in y.
+/// Three laps of 9.7 m each, as a rawlog and as a trajectory whose third lap is shifted by `shift` in y.
 struct Revisits : SlamEval {
   void writeLaps(size_t steps, double shift) const {
     const test::Log log = test::laps(steps);

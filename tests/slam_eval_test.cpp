@@ -1,4 +1,5 @@
-/// slam-eval from the command line: figures, agreement with the reference evaluator, every bad input.
+/// slam-eval from the command line: figures, agreement with the reference evaluator, all kinds of invalid
+/// input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ TEST_F(SlamEval, HelpAndVersion) {
 TEST_F(SlamEval, AteByHand) {
   write("truth.tum", kStraight);
   write("estimate.tum", kLonger);
-  // About the centre the poses lie at 0.5 and 1.5 m: they are 0.05 and 0.15 m off.
+  // The poses lie 0.5 and 1.5 m from the centre, so they are off by 0.05 and 0.15 m.
   const json j = figures("ate --trajectory estimate.tum --reference truth.tum");
   EXPECT_EQ(j.at("poses"), 4);
   EXPECT_EQ(j.at("pairs"), 4);
@@ -246,7 +247,7 @@ struct ReferenceEvaluator : SlamEval {
     for (const auto& [ourName, theirName] : names)
       EXPECT_NEAR(ours.at(ourName), theirs.at(theirName), 1e-6) << ourName;
 
-    // In process nothing is rounded, so that the agreement must be closer, and holds for all figures.
+    // A direct call rounds nothing, so the agreement is closer and includes all figures.
     const evaluation::RelationErrors e = evaluation::evaluateRelations(
         trajectory, evaluation::loadRelations(relationsFile()), bridge ? &odometry : nullptr, tolerance);
     EXPECT_EQ(e.used, theirs.at("usable"));

@@ -1,12 +1,12 @@
 /// @file Clock.h
-/// @brief Time that has passed, for time limits and measurements.
+/// @brief Elapsed time, for time limits and measurements.
 #pragma once
 
 #include <chrono>
 
 namespace hybrid_slam {
 
-/// s; nobody sets this clock.
+/// Seconds since `start`, by the monotonic clock.
 inline double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -1,6 +1,5 @@
 /// @file LaserScan.h
-/// @brief Planar scans as the rest of the project sees them: valid beams only by flag, angles seen from
-/// above.
+/// @brief Planar scans as the project uses them: a validity flag for each beam, angles as seen from above.
 #pragma once
 
 #include <mrpt/core/Clock.h>
@@ -33,14 +32,15 @@ struct LaserScan {
   std::vector<Beam> beams;
 };
 
-/// What a robot's lasers see at one time.
+/// The scans of a robot's lasers at one time.
 using LaserScans = std::vector<LaserScan>;
 constexpr size_t kMaxLasers = 8;
 
-/// The same as it comes from a log or a robot, each scan with its laser's pose on the robot at that time.
+/// The same as MRPT's observations, as logs and robots provide them. The sensor pose is relative to the robot
+/// pose of the latest scan.
 using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
 
-/// @param maxRange  m; the smaller of this and the observation's own limit holds (a limit <= 0 is none)
+/// @param maxRange  m; the smaller of this and the observation's own limit applies (<= 0: no limit)
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
 /// @throws InputError likewise, and for more than kMaxLasers scans

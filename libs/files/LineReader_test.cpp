@@ -35,7 +35,7 @@ std::string errorOf(const std::string& path) {
   return "no error";
 }
 
-/// Does not compress, so that a file cut in half holds about half of the content.
+/// Does not compress, so that the first half of the file holds about half of the content.
 std::string noise(size_t lines) {
   std::string text;
   uint64_t state = 1;
@@ -49,7 +49,7 @@ std::string noise(size_t lines) {
 TEST(LineReader, GivesPlainAndGzippedLinesWithTheirNumbers) {
   const TemporaryFolder folder;
   const std::string text = "one\n\nthree \r\nlast without an end";
-  folder.write("plain.gz", text);  // the name does not decide
+  folder.write("plain.gz", text);  // the content decides, not the name
   writeGzip(folder.path("zipped.txt"), text);
   for (const char* name : {"plain.gz", "zipped.txt"}) {
     LineReader lines(folder.path(name));

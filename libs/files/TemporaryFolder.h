@@ -1,5 +1,5 @@
 /// @file TemporaryFolder.h
-/// @brief A folder for temporary files, gone with the object.
+/// @brief A folder for temporary files, deleted with the object.
 #pragma once
 
 #include <stdlib.h>

@@ -26,7 +26,7 @@ struct TrajectoryFile : testing::Test {
 };
 
 TEST_F(TrajectoryFile, TumYawOfAKnownQuaternion) {
-  // 90 deg about z; then a quaternion of double the sign, which is the same rotation.
+  // 90 deg about z; then the quaternion with all signs reversed, which is the same rotation.
   const Trajectory t =
       loadTum(fileWith("1.5 2 3 9 0 0 0.7071067811865476 0.7071067811865476\n"
                        "2.5 0 0 0 0 0 -0.7071067811865476 -0.7071067811865476\n"
@@ -68,7 +68,7 @@ TEST_F(TrajectoryFile, TumRoundedQuaternionIsAcceptedAndABrokenOneIsNot) {
 TEST_F(TrajectoryFile, SavedAndLoadedAgainIsTheSameInTheSameOrder) {
   RandomStream random(1, 0, 0);
   Trajectory saved;
-  for (int i = 0; i < 1000; ++i) {  // real stamps, which step back and repeat
+  for (int i = 0; i < 1000; ++i) {  // timestamps as in real logs: they step back and repeat
     const double t = 1134864629.895182 + std::round(random.uniform() * 100) / 10;
     saved.push_back(
         {t, {100 * random.gaussian(), 100 * random.gaussian(), M_PI * (2 * random.uniform() - 1)}});

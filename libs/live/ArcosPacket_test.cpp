@@ -82,7 +82,7 @@ TEST(ArcosPacket, FindsThePacketsInNoise) {
        {std::string("noise"), bytesOf({0xFA}), bytesOf({0xFA, 0xFA, 0xFB}), bytesOf({0xFA, 0xFB, 0xFF}),
         bytesOf({0xFA, 0xFB, 0, 0xFA, 0xFB, 2}), kSip.substr(0, 9), std::string(1000, '\0')}) {
     arcos::Decoder decoder;
-    // What looks like the head of a packet may claim some of the next packets' bytes, which must come back.
+    // A false packet header may claim bytes of the next packets, which must still be found.
     const auto payloads = decodedBy(decoder, noise + kSip + noise + kSip + kSip + std::string(300, 'x'));
     EXPECT_EQ(payloads.size(), 3u) << testing::PrintToString(noise);
   }
@@ -119,7 +119,7 @@ TEST(SipOdometry, CountsOnOverTheWrapAround) {
   auto pose = odometry(sip(32767, 0));
   EXPECT_NEAR(pose.x, 0.067, 1e-12);
   EXPECT_NEAR(pose.y, -0.1, 1e-12);
-  pose = odometry(sip(32868, -200));  // past the counters' ends
+  pose = odometry(sip(32868, -200));  // after the counters wrapped around
   EXPECT_NEAR(pose.x, 0.168, 1e-12);
   EXPECT_NEAR(pose.y, -0.3, 1e-12);
   for (int i = 1; i <= 1000; ++i) pose = odometry(sip(32868 - 100 * i, -200 + 100 * i));

@@ -1,4 +1,4 @@
-/// Server and client over loopback, and what may go wrong between them.
+/// Server and client over loopback, and faults between them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST(Connection, EveryClientGetsEveryCycleUntilTheEnd) {
   EXPECT_EQ(server.dropped(), 0u);
 }
 
-/// As a heartbeat is made by another thread than the cycles: what comes is in the order of its numbers.
+/// Heartbeats and cycles come from different threads, but must arrive in the order of their numbers.
 TEST(Connection, CyclesOfSeveralThreadsAreInOrder) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(10000), events.log());
@@ -142,7 +142,7 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   Listener busy(server.port(), events);
   ASSERT_TRUE(test::happens([&] { return server.clients() == 2; }));
   size_t sent = 0;
-  // The system's buffers take some megabytes first.
+  // The system's socket buffers first absorb some megabytes.
   while (server.dropped() < 50 && sent < 20000) {
     server.publish(cycle(10, static_cast<double>(sent++), 10000));
     ASSERT_TRUE(test::happens([&] { return busy.count() == sent; })) << "the other client gets all";
@@ -151,7 +151,7 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   EXPECT_EQ(events.count("too slow"), 1u) << events.text();
   EXPECT_EQ(busy.client().lost(), 0u);
 
-  // It wakes up: what it gets is in order, whole, and ends with the newest.
+  // It reads again: the cycles are complete, in order, and end with the newest.
   MessageDecoder decoder;
   uint64_t last = 0;
   size_t lost = 0;
@@ -258,7 +258,7 @@ TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
   EXPECT_EQ(listener.client().connections(), 2u);
 }
 
-/// The first connection brings `wrong` after a good cycle; the second one brings the rest.
+/// The first connection sends `wrong` after a valid cycle, the second one the rest.
 void expectSurvived(const std::string& wrong, const std::string& report) {
   SCOPED_TRACE(report);
   test::Events events;

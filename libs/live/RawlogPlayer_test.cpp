@@ -16,7 +16,7 @@ using test::Log;
 
 constexpr double kFast = 100000;  // cycles/s
 
-/// The readings that a live run makes of a log, and the cycles that they came in.
+/// The readings that a live run assembles from a log, and their cycles.
 struct Played {
   std::vector<readings::Reading> readings;
   size_t cycles = 0;

@@ -42,7 +42,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using test::Events;
 
-/// Listens, but has no room for one more connection: attempts are not answered.
+/// Listens with a full backlog, so that connection attempts are not answered.
 class FullListener {
  public:
   explicit FullListener(const char* address, uint16_t port = 0) {
@@ -66,7 +66,7 @@ class FullListener {
   std::vector<TcpSocket> sockets_;
 };
 
-/// Time a client without a server takes to stop, s.
+/// Time (s) that a client without a server takes to stop.
 double timeToStop(const std::string& host, uint16_t port) {
   test::Events events;
   ObservationClient client({host, port, 15}, events.log());
@@ -80,7 +80,7 @@ double timeToStop(const std::string& host, uint16_t port) {
   return secondsSince(start);
 }
 
-// A stop is looked for every 0.1 s; the bound is for machines that are busy.
+// The stop flag is checked every 0.1 s; the bound allows for busy machines.
 TEST(TcpSocket, StoppingDoesNotWaitForAnAnswer) {
   const FullListener full("127.0.0.1");
   EXPECT_LT(timeToStop("127.0.0.1", full.port()), 3);

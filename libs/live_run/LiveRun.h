@@ -39,8 +39,8 @@ class LiveRun {
   using Watcher = std::function<void(const FilterView&, const readings::Reading&, bool isUpdate)>;
   void setWatcher(Watcher watcher) { watcher_ = std::move(watcher); }
 
-  /// Processes one cycle. Odometry that is not a number is dropped, also from the recording; so are, if
-  /// odometry is required, all but the last few observations before the first odometry.
+  /// Processes one cycle. Odometry that is not finite is dropped, also from the recording. If odometry is
+  /// required, only the last few observations before the first odometry are kept.
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
   /// The filter has failed; further cycles are useless.
   bool hasFailed() const { return hasFailed_; }

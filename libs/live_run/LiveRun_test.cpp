@@ -147,7 +147,7 @@ TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecording) {
   auto tilted = test::scan(1001);
   tilted->sensorPose.setYawPitchRoll(0, 0.5, 0);
   run::Configuration c = configuration("live");
-  c.input.sensorLabel = "LASER";  // else a tilted laser is left out
+  c.input.sensorLabel = "LASER";  // otherwise a tilted laser is ignored
   LiveRun run(c, options, events.log(), true);
   const auto cycle = CSensoryFrame::Create();
   cycle->insert(test::odometry(1001, {}));

@@ -37,7 +37,7 @@ std::string odom(const std::string& pose, const std::string& time) {
   return "ODOM " + pose + " 0 0 0 " + time + " host 0\n";
 }
 
-/// A row of `beams` ranges of 1 m, 2 m, ... at 1 m more for each beam.
+/// A row of `beams` ranges: 1 m, 2 m, 3 m, ...
 std::string laser(const std::string& name, size_t beams, const std::string& pose, const std::string& time) {
   std::string row = name + " " + std::to_string(beams);
   for (size_t i = 0; i < beams; ++i) row += " " + std::to_string(i + 1);
@@ -132,7 +132,7 @@ TEST(LogConversion, BeamsPointWhereTheLaserSentThem) {
   options.angularStep = 0.25 * kDegree;
   expectFan(fan(361), -45, 45);
   expectFan(fan(180), -22.5, 22.25);
-  // Every beam between, in the 180-beam case.
+  // All beams in between, for 180 beams.
   options.angularStep.reset();
   const LaserScan scan = fan(180);
   for (size_t i = 0; i < 180; ++i) {

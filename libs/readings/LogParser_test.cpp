@@ -212,7 +212,7 @@ TEST(LogParserGfs, LaserReading) {
 /// GMapping combines the previous reading's pose with the new one's time.
 TEST(LogParserGfs, OdometryGoesBackToItsOwnTime) {
   const auto parser = formatNamed("gfs")->makeParser(threeBeamOptions());
-  auto record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 100");  // the first reading, right as it is
+  auto record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 100");  // the first reading has its own time
   EXPECT_EQ(record.time, 100);
   parser->parse("ODO_UPDATE 1 0 0 0 1 100");
   record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 101");

@@ -38,10 +38,9 @@ struct RawlogSummary {
   std::string defect;  ///< how the log is truncated; empty if complete
 };
 
-/// @throws InputError if there is no laser or a wanted one is missing, no scan with beams, no laser that is
-/// mounted
-///         horizontally, or no odometry where the options require it
-/// @throws std::runtime_error if `isStopped`, asked at each entry, says so
+/// @throws InputError if there is no laser, a named one is missing, no scan has beams, no laser is mounted
+///         horizontally, or there is no odometry although the options require it
+/// @throws std::runtime_error if `isStopped`, which is called at each entry, returns true
 RawlogSummary summarise(
     const std::string& file, const InputOptions& options,
     const std::function<bool()>& isStopped = [] { return false; });

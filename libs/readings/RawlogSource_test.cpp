@@ -29,7 +29,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Replayed {
   RawlogSummary summary;
   std::vector<double> times, x, phi;
-  std::vector<size_t> entries;                      ///< of the log that were read when each scan was given
+  std::vector<size_t> entries;                      ///< log entries read when each scan was returned
   std::vector<CObservation2DRangeScan::Ptr> scans;  ///< the latest of each reading
   std::vector<Scans> readings;
   std::vector<std::vector<size_t>> sizes;  ///< beams of the scans of each reading
@@ -217,7 +217,7 @@ TEST(RawlogSource, MemoryDoesNotGrowWhereOdometryEnds) {
   for (size_t i = 0; i < r.entries.size(); ++i) EXPECT_LE(r.entries[i], i + 14) << "within the gap of 1 s";
 }
 
-/// Of two lasers in frames: both by default, or those that are named.
+/// Two lasers in sensory frames: by default both are used, otherwise the named ones.
 TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {
   const test::Log log{
       test::action({0, 0, 0}), test::frame({scan(10, {}, 3, "front"), scan(10, {}, 4, "rear")}),
@@ -243,8 +243,8 @@ TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {
   EXPECT_THAT(replayed(log, options).error, HasSubstr("sensor_label: the log has `front`, `rear`"));
 }
 
-/// Front and rear scan in turn while the robot drives and turns: what was seen first is placed where the
-/// robot was then, so that all points of the room's walls stay on them.
+/// The front and the rear laser scan alternately while the robot drives and turns. The earlier scan is placed
+/// by the robot pose of its time, so that all end points lie on the room's walls.
 TEST(RawlogSource, ScansOfOneReadingArePlacedByTheOdometryBetweenThem) {
   test::Log log;
   for (int i = 0; i < 12; ++i) {

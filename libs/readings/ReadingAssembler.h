@@ -18,21 +18,22 @@
 
 namespace hybrid_slam::readings {
 
-/// What the lasers see at one time, and how the robot moved since the reading before by its odometry.
+/// The scans of one time, and the odometry motion since the previous reading.
 struct Reading {
-  /// One of each laser at most, the latest last. Those before it were taken where the robot was then: their
-  /// sensor pose is moved by the odometry since.
+  /// At most one per laser, the latest last. The others were taken earlier: their sensor poses are corrected
+  /// by the odometry motion since.
   Scans scans;
-  double timestamp = 0;        ///< s, of the latest scan; that of the reading before where it has none
+  double timestamp = 0;        ///< s, of the latest scan; if it has none, that of the previous reading
   mrpt::math::TPose2D motion;  ///< m, rad
 };
 
-/// Takes the objects of action-observation pairs, or observations, where odometry and scans interleave: there
-/// the odometry at a scan's own time is interpolated between the readings around it; where timestamps step
-/// back or the readings are too far apart, the reading before it in the order given holds, and the first one
-/// for the scans before it. Scans without beams or with a sensor pose that is not finite are left out; beams
-/// that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
-/// ScanGrouper says which scans are used and which of them make one reading.
+/// Takes the objects of a log in either form: action-observation pairs, or single observations in which
+/// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
+/// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
+/// previous odometry reading is used; scans before the first odometry reading use that one. Scans without
+/// beams or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite, not positive, or
+/// at or beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans are used and
+/// which of them form one reading.
 ///
 /// The same objects in the same order give bit-identical readings, from a file or a robot: the replay of a
 /// recording equals the live run.
@@ -48,9 +49,9 @@ class ReadingAssembler {
   ScanGrouper::Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
     return grouper_.useOf(scan);
   }
-  /// No more objects come: the scans that still wait for odometry keep the last there was.
+  /// End of input: scans that still wait for odometry take the last odometry reading.
   void finish();
-  /// The next complete reading; nothing until more objects come.
+  /// The next complete reading; empty until more objects arrive.
   std::optional<Reading> next();
 
  private:
@@ -76,7 +77,7 @@ class ReadingAssembler {
   std::optional<mrpt::math::TPose2D> lastOdometry_;
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
-  mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the reading before
+  mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
   bool first_ = true;
   double lastTimestamp_ = 0;
 };
@@ -96,7 +97,7 @@ bool isFinite(const mrpt::math::TPose2D& pose);
 /// Whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
-/// m between two readings; farther apart are two logs in one file, or odometry that was set back.
+/// m; a larger odometry jump between two readings means two logs in one file, or reset odometry.
 constexpr double kMaxStep = 100;
 
 }  // namespace hybrid_slam::readings

@@ -1,5 +1,5 @@
 /// @file ScanGrouper.h
-/// @brief Which scans of a log are used, and which of them make one reading.
+/// @brief Decides which scans of a log are used, and which of them form one reading.
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -24,7 +24,7 @@ class ScanGrouper {
   /// Whether a scan is used: it has beams, its laser is wanted and, unless named, mounted horizontally.
   Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
-  /// Makes a laser known before its first scan is added; lasers of one sensory frame are known together.
+  /// Announces a laser before its first scan is added; the lasers of a sensory frame are announced together.
   void expect(const std::string& label) { known_.insert(label); }
   /// Number of the reading, from 1, that a scan belongs to. Scans are added in the order of the log.
   size_t add(const mrpt::obs::CObservation2DRangeScan& scan);
@@ -45,7 +45,7 @@ class ScanGrouper {
 /// Why a laser is not used, for the user.
 std::string reasonOf(ScanGrouper::Use use);
 
-/// The labels in a list such as `FRONT, REAR`; blanks around them do not count.
+/// The labels in a list such as `FRONT, REAR`; blanks around them are ignored.
 std::vector<std::string> labelsOf(const std::string& list);
 
 }  // namespace hybrid_slam::readings

@@ -29,8 +29,8 @@ class FilterRun {
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
-  /// One reading through the filter.
-  /// @return whether the filter was updated with it, not only the odometry gathered
+  /// Passes one reading to the filter.
+  /// @return true for a filter update, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
   void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }

@@ -8,10 +8,10 @@
 
 namespace hybrid_slam::test {
 
-/// Telegrams are text between STX and ETX. To `sMN SetAccessMode`, `sMN mLMPsetscancfg`, `sWN LMDscandatacfg`
-/// and `sMN LMCstartmeas` it answers that they are done, to `sRN STlms` that it measures (7), to `sRN
-/// LMDscandata` by a scan: distances in mm as hexadecimal numbers, from right to left as the device counts
-/// its beams.
+/// Telegrams are text between STX and ETX. The stand-in acknowledges `sMN SetAccessMode`, `sMN
+/// mLMPsetscancfg`, `sWN LMDscandatacfg` and `sMN LMCstartmeas`. It answers `sRN STlms` with the state 7,
+/// measuring, and `sRN LMDscandata` with a scan: distances in mm as hexadecimal numbers, from right to left,
+/// in the order of the device's beams.
 class LmsStandIn : public StandIn {
  public:
   explicit LmsStandIn(SimulatedRobot& robot, uint16_t port = 0) : StandIn(port), robot_(robot) { start(); }

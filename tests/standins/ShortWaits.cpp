@@ -1,5 +1,5 @@
-/// MRPT's CLMS100Eth waits 1 s after each of five answers, and 10 s once more. In this program it does not:
-/// these replace the C library's functions.
+/// MRPT's CLMS100Eth waits 1 s after each of five answers, and once 10 s. These replacements of C library
+/// functions shorten the waits in this program.
 #include <sys/epoll.h>
 #include <sys/syscall.h>
 #include <time.h>

@@ -25,7 +25,7 @@ class SimulatedRobot {
         step_(step),
         laser_(options()) {}
 
-  /// Moves on and looks: 541 beams of an LMS-100, right to left.
+  /// Takes the next step and a scan: 541 beams of an LMS-100, right to left.
   mrpt::obs::CObservation2DRangeScan scan() {
     const std::lock_guard<std::mutex> lock(mutex_);
     RandomStream random(1, scans_.size(), 0);

@@ -29,7 +29,7 @@ class StandIn {
 
  protected:
   explicit StandIn(uint16_t port) : listener_("127.0.0.1", port) {}
-  /// To be called by a derived class once it is whole, and `join` before it goes.
+  /// A derived class calls this at the end of its constructor, and `join` in its destructor.
   void start() {
     thread_ = std::thread([this] { serve(); });
   }

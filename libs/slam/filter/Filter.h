@@ -1,5 +1,5 @@
 /// @file Filter.h
-/// @brief A particle filter as programs run it: odometry and scans in, map and poses out.
+/// @brief Interface of a particle filter for programs: odometry and scans in, map and poses out.
 #pragma once
 
 #include "base/LaserScan.h"
@@ -9,9 +9,10 @@ namespace hybrid_slam {
 
 class Filter : public FilterView {
  public:
-  /// One reading: gathers the odometry and, if the robot has moved or turned far enough, updates the filter.
-  /// @param odometry  motion since the reading before (m, rad), in the robot frame there
-  /// @param scans     what the lasers see after it; without any, the odometry is only gathered
+  /// Processes one reading: accumulates the odometry and, if the robot has moved or turned far enough,
+  /// updates the filter.
+  /// @param odometry  motion since the previous reading (m, rad), in the robot frame at that reading
+  /// @param scans     scans after this motion; if empty, the odometry is only accumulated
   /// @throws InputError for a laser that is not mounted horizontally
   virtual void process(const mrpt::math::TPose2D& odometry, const Scans& scans) = 0;
 };

@@ -28,7 +28,7 @@ TEST(FilterView, AlongAndAcrossTurnWithTheHeading) {
   const FilterStep left = spreadOf(poses, M_PI / 2);
   EXPECT_NEAR(left.stdAlong, 2, 1e-12);
   EXPECT_NEAR(left.stdAcross, 1, 1e-12);
-  // Along the line that joins them, all of it is along.
+  // Along the line that joins the poses, the whole spread is along.
   const FilterStep joined = spreadOf(poses, std::atan2(4, 2));
   EXPECT_NEAR(joined.stdAlong, std::sqrt(5), 1e-12);
   EXPECT_NEAR(joined.stdAcross, 0, 1e-9);

@@ -10,7 +10,7 @@ namespace hybrid_slam {
 
 class HybridFilter : public Filter {
  public:
-  /// @throws InputError for settings that exclude each other
+  /// @throws InputError for incompatible settings
   explicit HybridFilter(const FilterConfiguration& configuration);
 
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;

@@ -113,7 +113,7 @@ TEST(HybridMapBuilder, AnActionWithoutOdometryIsAnError) {
   EXPECT_THROW(builder.processActionObservation(nothing, observations), InputError);
 }
 
-/// All beams invalid: nothing to weigh by, so nothing may change but the poses.
+/// All beams are invalid: nothing can be weighed, so only the poses may change.
 TEST(HybridMapBuilder, AnEmptyScanLeavesTheWeightsEqual) {
   HybridMapBuilder builder(test::roomConfiguration());
   RandomStream random(1, 0, 0);
@@ -157,7 +157,7 @@ TEST(HybridMapBuilder, TheBestParticleIsTheOneWithTheGreatestWeightBeforeResampl
 }
 
 TEST(HybridMapBuilder, EveryParticleMatchesAnotherPlaceNoBetter) {
-  // The weight of 1000 beams, no outliers allowed, and a scan of another place: all weights underflow.
+  // With the weight of 1000 beams, no outliers and a scan of another place, all weights underflow.
   FilterConfiguration c = test::roomConfiguration();
   c.gridWeight.exponent = 1000;
   c.gridWeight.outlier = 1e-6;

@@ -22,7 +22,7 @@ FilterConfiguration configuration(bool useLines) {
   return c;
 }
 
-/// The scan, slightly off the odometry.
+/// A scan whose true pose differs slightly from the odometry.
 PreparedScan scanAfterwards(const test::Walls& walls, const TPose2D& start) {
   RandomStream random(2, 0, 0);
   return test::prepared(walls, start + kOdometry + TPose2D(0.01, -0.008, 0.01), random);
@@ -132,7 +132,7 @@ TEST_P(ImprovedProposals, ThePosesAreThoseOfTheTarget) {
 
 TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
   FilterConfiguration c = configuration(GetParam());
-  c.matcher.sigma = 0.35;              // with the default, 0.3, 0.6 of the spread along are kept
+  c.matcher.sigma = 0.35;              // the default, 0.3, keeps only 0.6 of the spread along the corridor
   c.motion.distance.varianceD = 0.04;  // 5 cm
   const TPose2D start(-0.3, 0.1, 0);
   const Particle particle = test::particleAt(kCorridor, start);
@@ -194,7 +194,7 @@ TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
     const Proposed p = ImprovedProposal(c).propose(particle, slipped, scan, random);
     square += test::offset(p.pose, truth).head<2>().squaredNorm() / kDraws;
   }
-  // Each wall has half of the weight, so 2 sigma in both directions together, and a little for the tails.
+  // Each wall has half of the weight: 2 sigma for both directions together, and a margin for the tails.
   EXPECT_LT(std::sqrt(square), 2.5 * c.improved.lineSigmaRho);
 }
 

@@ -15,7 +15,7 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include "slam/filter/Resampling.h"
 
 namespace hybrid_slam {
-/// MRPT's templates ask for the bins of KLD sampling. The number of particles is fixed here, so one bin is
+/// MRPT's templates require bins for KLD sampling. The number of particles is fixed here, so one bin is
 /// enough.
 struct OneBin {
   struct lt_operator {
@@ -52,7 +52,7 @@ CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions&
   out.sampleSize = static_cast<unsigned int>(options.particles);
   out.BETA = options.essThreshold;
   out.adaptiveSampleSize = false;
-  // MRPT would give a particle of less likelihood than this the pose of another, but leave it its own map.
+  // Below this likelihood, MRPT would give a particle the pose of another one, but not its map.
   out.max_loglikelihood_dyn_range = std::numeric_limits<double>::infinity();
   return out;
 }
@@ -96,7 +96,7 @@ void MrptParticles::resample(size_t particles) {
 
 void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOptions& motion,
                                   const LogWeightAt& logWeightAt) {
-  hasResampled_ = isResamplingDue();  // by the weights of the step before
+  hasResampled_ = isResamplingDue();  // by the weights of the previous step
   mrpt::obs::CActionCollection action;
   action.insert(toAction(odometry, motion));
   const mrpt::obs::CSensoryFrame unused;  // logWeightAt has the scan

@@ -15,9 +15,8 @@ namespace hybrid_slam {
 ///
 /// - `m_particles`, log-weights, ESS and four resampling schemes. MRPT leaves the weights as they were after
 ///   resampling and its residual scheme is biased: performSubstitution corrects both.
-/// - MRPT draws from a generator per thread: seedStep replaces it at each step, so that a run does not depend
-/// on
-///   what else runs in the thread.
+/// - MRPT draws from one generator per thread: seedStep replaces it at each step, so that a run does not
+///   depend on what else runs in the thread.
 /// - MRPT's auxiliary filters, which take the odometry as an action and draw from its Gaussian motion model.
 class MrptParticles
     : public mrpt::bayes::CParticleFilterData<Particle>,
@@ -29,11 +28,11 @@ class MrptParticles
   /// @throws InputError for residual resampling with an auxiliary filter
   explicit MrptParticles(const ParticleFilterOptions& options);
 
-  /// Resampling itself: the particles become copies of those with these indices, of equal weight. With the
-  /// residual scheme the indices are drawn here instead.
+  /// Resamples: replaces the particles by copies of those with these indices, with equal weights. With the
+  /// residual scheme, draws the indices itself.
   void performSubstitution(const std::vector<size_t>& indices) override;
 
-  /// @name What MRPT's PF_implementation asks for
+  /// @name Required by MRPT's PF_implementation
   /// @{
   mrpt::math::TPose3D getLastPose(size_t i, bool& isValid) const override;
   void PF_SLAM_implementation_custom_update_particle_with_new_pose(
@@ -47,7 +46,7 @@ class MrptParticles
   /// ln of the tempered weight that a particle would have at a pose.
   using LogWeightAt = std::function<double(const Particle&, const mrpt::math::TPose2D&)>;
 
-  /// Readies MRPT's random numbers for a step.
+  /// Seeds MRPT's random numbers for a step.
   void seedStep(const RandomStream& random);
   bool isResamplingDue() const { return ESS() < options_.BETA; }
   /// @param particles  their number afterwards

@@ -15,7 +15,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-/// Notes the time from here to the end of its scope, if there is a profiler.
+/// Records the time of its scope, if there is a profiler.
 class StageTimer {
  public:
   StageTimer(mrpt::system::CTimeLogger* profiler, const char* stage) {
@@ -213,8 +213,8 @@ void ParticleSet::resampleIfDue() {
   step_.resampled = hasResampled();
 }
 
-// Sec. III-A, step 4. Copies made by resampling stand side by side and share their path: one of them works,
-// the others take over its map.
+// Sec. III-A, step 4. Copies made by resampling are adjacent and share their path: the first one is updated,
+// the others copy its map.
 void ParticleSet::updateMaps(const PreparedScan& scan) {
   const auto isCopy = [this](size_t i) {
     return i > 0 && m_particles[i].d->path.sharesWith(m_particles[i - 1].d->path);

@@ -25,15 +25,15 @@ class ParticleSet : public MrptParticles {
 
   /// All particles at `start` with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
-  /// Starts the next step: new random streams, and its record in lastStep.
+  /// Starts the next step: new random streams, and a new record in lastStep.
   void beginStep();
   /// Moves every particle by `motion` without sampling or weighing: while there is no map.
   void appendPose(const mrpt::math::TPose2D& motion);
   /// Clears the paths but keeps the maps: every particle continues from `start`.
   void startPathAt(const mrpt::math::TPose2D& start);
 
-  /// Steps 1 and 2: draws every particle's pose by the proposal in force, and weighs it by the scan.
-  /// @param odometry  since the step before (m, rad)
+  /// Steps 1 and 2: draws every particle's pose from the configured proposal and weighs it by the scan.
+  /// @param odometry  since the previous step (m, rad)
   void sampleAndWeigh(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   /// Step 3: resamples if the effective sample size is below the threshold.
   void resampleIfDue();

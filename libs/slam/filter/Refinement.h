@@ -26,8 +26,8 @@ struct ScanMap {
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration);
 
 /// Matches every scan, also those between two updates, against the map that all of them make, `passes` times.
-/// A pose is held to where it was by a normal distribution of 5 cm and 1 deg; a match that fits less than
-/// min_fit leaves it there. The first pose stays: it is the map's frame.
+/// A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that fits less than
+/// min_fit leaves it unchanged. The first pose is fixed, since it defines the map frame.
 void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes);
 
 }  // namespace hybrid_slam

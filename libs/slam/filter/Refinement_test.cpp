@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// Scans of a drive around the room, each pose off by about 2 cm and 0.3 deg but the first.
+/// Scans of a drive around the room. All poses except the first are off by about 2 cm and 0.3 deg.
 std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
   std::vector<PosedScans> scans;
   RandomStream random(1, 0, 0);

@@ -81,7 +81,7 @@ void expectCounts(const Draw& draw, const std::function<double(double n, double 
   }
 }
 
-/// Every draw gives floor(n w) copies at least, up to rounding.
+/// Every draw gives at least floor(n w) copies, up to rounding.
 void expectAtLeastTheWholePart(const Draw& draw, int slack) {
   for (const auto& weights : weightSets()) {
     const size_t size = weights.size();
@@ -98,7 +98,7 @@ TEST(Resampling, MrptsMultinomialHasTheExpectedCounts) {
 }
 
 TEST(Resampling, MrptsStratifiedHasTheExpectedCounts) {
-  // A weight covers whole strata for certain and parts of two others at the most: two Bernoulli draws.
+  // A weight covers some strata completely and at most two partly: two Bernoulli draws.
   expectCounts(mrptsDraw(CParticleFilter::prStratified), [](double, double) { return 0.5; });
   expectAtLeastTheWholePart(mrptsDraw(CParticleFilter::prStratified), 1);
 }
@@ -109,8 +109,8 @@ TEST(Resampling, MrptsSystematicHasTheExpectedCounts) {
   expectAtLeastTheWholePart(mrptsDraw(CParticleFilter::prSystematic), 0);
 }
 
-/// The trap: the random part takes the smallest of n sorted draws, so the first particles get too much.
-/// If this fails, MRPT has fixed it, and Resampling.h can be removed.
+/// The pitfall: the random part takes the smallest of n sorted draws, so the first particles get too many
+/// copies. If this test fails, MRPT has fixed it, and Resampling.h can be removed.
 TEST(Resampling, MrptsResidualSchemeFavoursTheFirstParticles) {
   const std::vector<double> weights = {0.125, 0.125, 0.125, 0.625};  // n w = 0.5, 0.5, 0.5, 2.5
   const Draw draw = mrptsDraw(CParticleFilter::prResidual);
@@ -120,7 +120,7 @@ TEST(Resampling, MrptsResidualSchemeFavoursTheFirstParticles) {
     for (size_t i = 0; i < 4; ++i) sums[i] += counts[i];
   }
   // Two draws are left for four residuals of 1/4 each. Of four sorted uniform numbers the two smallest lie
-  // below 1/4 with P = 1 - (3/4)^4 and 1 - (3/4)^4 - (3/4)^3: 0.945 draws in the mean, where 0.5 are due.
+  // below 1/4 with P = 1 - (3/4)^4 and 1 - (3/4)^4 - (3/4)^3: 0.945 draws on average instead of 0.5.
   const double expected = 2 - 2 * std::pow(0.75, 4) - std::pow(0.75, 3);
   EXPECT_NEAR(sums[0] / kRepetitions, expected, kErrors * std::sqrt(1.0 / kRepetitions));
 }
@@ -143,13 +143,13 @@ TEST(Resampling, OurResidualSchemeDoesNotMindTheScaleOfTheWeights) {
   EXPECT_EQ(std::count(drawn.begin(), drawn.end(), 3u), 0);
 }
 
-/// The least that MRPT can resample.
+/// The smallest particle set that MRPT can resample.
 struct Numbers
     : mrpt::bayes::CParticleFilterData<int>,
       mrpt::bayes::CParticleFilterDataImpl<Numbers, mrpt::bayes::CParticleFilterData<int>::CParticleList> {};
 
-/// The trap that ParticleSet::performSubstitution works around: performResampling sets the weights of as many
-/// particles as it was asked for, and asked for as many as there are (the default, 0) it sets none.
+/// The pitfall that MrptParticles::performSubstitution works around: performResampling resets the weights of
+/// only as many particles as were requested; with the default, 0, which means all, it resets none.
 TEST(Resampling, MrptLeavesTheWeightsAsTheyWere) {
   Numbers particles;
   for (const double logWeight : {0.0, -1.0, -2.0, -3.0}) {

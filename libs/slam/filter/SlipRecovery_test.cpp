@@ -13,7 +13,7 @@ using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
 
-/// The fit of a few scans without a slip, as before every slip.
+/// A SlipRecovery that has processed a few scans without a slip, so that it knows the usual fit.
 /// @param off  m: how far from the odometry, which is right, a match may end
 SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::Walls& walls,
                   double off = 0.02) {
@@ -116,8 +116,8 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNoSlip) {
     const TPose2D robot(-0.2 * i, 0.1, 0);
     particle.grid.insert(test::prepared(kCorridor, robot, random).beams, robot, GridOptions());
   }
-  // Along it, the roughness of the walls is weighed against the odometry: three of its deviations, 1.1 cm
-  // each.
+  // Along the corridor, the rough walls compete with the odometry: allow three of its standard deviations,
+  // 1.1 cm each.
   SlipRecovery recovery = used(c, particle, kCorridor, 0.033);
   const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
   EXPECT_FALSE(recovery.motionsOf(particle, kOdometry, test::prepared(open, start + kOdometry, random))

@@ -71,14 +71,14 @@ TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
   EXPECT_FALSE(builder.lastStep().resampled);
   EXPECT_GT(builder.lastStep().ess, 0);
   EXPECT_LE(builder.lastStep().ess, 1);
-  // Half a square with odometry this poor: the error is at most that of the odometry.
+  // After half a square with poor odometry, the error must not exceed that of the odometry.
   EXPECT_LT(test::rms(path, replayed.truth), 0.5);
   for (size_t i = 1; i < path.size(); ++i)
     EXPECT_LT(std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y), 1) << i;
 
   const auto grid = builder.bestGrid();
   EXPECT_NEAR(grid.getResolution(), 0.1, 1e-6);
-  EXPECT_GT(grid.getPos(3, 1), 0.5);  // free where the robot drove about
+  EXPECT_GT(grid.getPos(3, 1), 0.5);  // free where the robot drove
   EXPECT_LT(grid.getXMin(), -2);      // behind the robot's start
   size_t occupied = 0;
   for (const auto cell : grid.getRawMap()) occupied += cell < 0;

@@ -45,7 +45,7 @@ Outcome run(const FilterConfiguration& configuration, const std::vector<test::Dr
 }
 
 void expectSame(const Outcome& a, const Outcome& b) {
-  EXPECT_EQ(a.path, b.path);  // bit for bit
+  EXPECT_EQ(a.path, b.path);  // bit-identical
   EXPECT_TRUE(a.grid.getRawMap() == b.grid.getRawMap());
   ASSERT_EQ(a.lines.size(), b.lines.size());
   for (size_t i = 0; i < a.lines.size(); ++i) {
@@ -152,7 +152,7 @@ TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
   }
 }
 
-/// 30 deg too much in the middle of a side of the square.
+/// The odometry reports 30 deg too much in the middle of a side of the square.
 std::vector<test::DriveStep> driveWithSlip() {
   auto steps = test::drive(8);
   steps[30].odometry.phi += 30 * test::kDegree;
@@ -177,7 +177,7 @@ TEST(Tracking, TheImprovedProposalSurvivesASlip) {
 
     FilterConfiguration blind = with(Proposal::improved, useLines);
     blind.improved.slipDistance = 0;
-    EXPECT_GT(run(blind, steps).error, 0.5) << useLines;  // the slip is one that has to be searched for
+    EXPECT_GT(run(blind, steps).error, 0.5) << useLines;  // without the search the run fails
   }
 }
 
@@ -278,9 +278,9 @@ TEST(Tracking, AnAuxiliaryFilterLeavesEachParticleItsOwnPath) {
   }
 }
 
-/// Of the residual scheme through the filter: the copies of each particle average n w (see Resampling_test).
+/// The residual scheme in the filter: each particle has n w copies on average (see Resampling_test).
 TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
-  // Four particles at x = 0..3 whose weights are those of Resampling_test's trap.
+  // Four particles at x = 0..3 with the weights of the pitfall in Resampling_test.
   FilterConfiguration c = test::roomConfiguration();
   c.filter.particles = 4;
   c.filter.resampling = CParticleFilter::prResidual;

@@ -39,7 +39,7 @@ TEST(BeamSelection, TakesAsManyBeamsFromTheEndOfACorridorAsFromItsSides) {
     std::vector<size_t> all(scan.beams.size());
     std::iota(all.begin(), all.end(), size_t{0});
     const auto few = std::count_if(all.begin(), all.end(), atEnd);
-    ASSERT_LT(few, 40);  // of 541: beams spread over the angle would have 3 or 4 there
+    ASSERT_LT(few, 40);  // of 541; beams evenly spaced in angle would have 3 or 4 there
     EXPECT_GE(std::count_if(taken.begin(), taken.end(), atEnd), std::min<long>(few, 20)) << phi;
   }
 }

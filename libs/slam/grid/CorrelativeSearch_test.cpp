@@ -56,7 +56,7 @@ TEST(CorrelativeSearch, TheBestComesFirst) {
   const auto one = correlativeSearch(scan, {}, grid, kWindow, 1);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0], all.at(0));
-  EXPECT_EQ(one[0], TPose2D());  // nothing is nearer to the truth than the truth
+  EXPECT_EQ(one[0], TPose2D());  // the true pose
 }
 
 TEST(CorrelativeSearch, NothingSeenOrMappedIsNowhere) {

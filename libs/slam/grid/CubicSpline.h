@@ -9,8 +9,8 @@ using Float4 = float __attribute__((vector_size(16)));
 
 inline float sum(Float4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-/// The weights of the samples at -1, 0, 1 and 2 for position t in [0, 1), and their derivatives by t. The
-/// spline reproduces constant and linear functions and blurs others by 0.58 samples.
+/// The weights of the samples at -1, 0, 1 and 2 for position t in [0, 1), and their derivatives with respect
+/// to t. The spline reproduces constant and linear functions and blurs others by 0.58 samples.
 struct SplineWeights {
   explicit SplineWeights(float t)
       : value(kConstant + t * (kLinear + t * (kSquare + t * kCube))),

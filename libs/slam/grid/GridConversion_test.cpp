@@ -105,12 +105,12 @@ TEST(GridConversion, AnEmptyGridIsAFewUnknownCells) {
 
 TEST(GridConversion, MrptsLowestValueBecomesOurs) {
   COccupancyGridMap2D mrptGrid(-1, 1, -1, 1, 0.1f);
-  mrptGrid.getRow(10)[10] = -128;  // has no opposite in eight bits
+  mrptGrid.getRow(10)[10] = -128;  // has no negative in eight bits
   EXPECT_EQ(fromMrpt(mrptGrid).tiles().at({0, 0}), 127);
 }
 
 TEST(GridConversion, AnOriginOffTheCellsIsAnError) {
-  // MRPT aligns a grid with its cells when it makes one, but lets it be off by a twentieth when it grows.
+  // MRPT aligns a new grid with whole cells, but accepts an offset of a twentieth of a cell when it grows.
   COccupancyGridMap2D mrptGrid(-1, 1, -1, 1, 0.1f);
   EXPECT_NO_THROW(fromMrpt(mrptGrid));
   mrptGrid.resizeGrid(-1.996f, 1, -1, 1, 0.5f, false);

@@ -16,7 +16,7 @@ using Method = GridWeightOptions::Method;
 constexpr double kDegree = M_PI / 180;
 constexpr double kWidth = 8, kHeight = 6;  // of a room with its middle at the origin, m
 
-/// Distance to the room's walls from within.
+/// Distance to the room's walls from a point inside.
 double castRay(double x, double y, double heading) {
   const double dx = std::cos(heading), dy = std::sin(heading);
   const double toX = dx == 0 ? 1e9 : ((dx > 0 ? 0.5 : -0.5) * kWidth - x) / dx;
@@ -103,7 +103,7 @@ TEST_P(GridWeightMethods, ReadingsThatAreNotValidDoNotCount) {
   EXPECT_EQ(weight(unmarked, {0.5, 0.5, 1}), weight(marked, {0.5, 0.5, 1}));
 }
 
-/// The same scan by a sensor upside down, or tilted a little: what is seen from above is the same.
+/// The same scan from a sensor that is upside down or slightly tilted: it looks the same from above.
 TEST_P(GridWeightMethods, TheMountingDoesNotMatter) {
   RandomStream random(5, 0, 0);
   const TPose2D robot(0.5, 0.5, 1);

@@ -15,7 +15,7 @@ using mrpt::math::TPose2D;
 // In log-odds of 1/16: 16 ln(0.7 / 0.3) = 13.56, 16 ln(0.4 / 0.6) = -6.49, 16 ln(0.97 / 0.03) = 55.6.
 constexpr int kHit = 14, kMiss = -6, kHighest = 56, kLowest = -56;
 
-/// The update that the figures above belong to.
+/// The update parameters of the figures above.
 GridOptions update() {
   GridOptions options;
   options.pHit = 0.7, options.pMiss = 0.4;
@@ -115,7 +115,7 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   EXPECT_TRUE(grid.tiles().bounds().empty());
 }
 
-/// The cells that a beam is inside of, each clipped against it.
+/// The cells that a beam crosses, found by clipping it to each cell.
 std::set<std::pair<int, int>> crossed(double x, double y, double heading, double length) {
   const double dir[] = {std::cos(heading), std::sin(heading)}, from[] = {x, y};
   const int reach = static_cast<int>(length) + 1;
@@ -185,7 +185,7 @@ TEST(OccupancyGrid, WhatHasComeToItsBoundsStaysShared) {
   EXPECT_GE(tiles, 4u);
 }
 
-/// More beams through a cell than a count holds.
+/// More beams through a cell than a counter can hold.
 TEST(OccupancyGrid, AThousandBeamsThroughOneCell) {
   std::vector<Reading> readings;
   for (int i = 0; i < 1000; ++i) readings.push_back({0.001 * i - 0.5, 3});

@@ -72,7 +72,7 @@ TEST(PenetrationModel, AThickWallIsExpectedInItsMiddle) {
   corridor.fill(0, 300, kFree);
   corridor.fill(99, 101, 30);
   const double middle = 5.025;
-  // Off by a half step and whole ones the middles of the steps are those of the cells.
+  // If the offset is a whole number of steps and a half, the step centres are the cell centres.
   for (const double off : {0.025, 0.075, 0.125, 0.175})
     EXPECT_NEAR(corridor.likelihood(middle - off + 1e-9), corridor.likelihood(middle + off + 1e-9), 1e-6)
         << off;
@@ -101,10 +101,11 @@ TEST(PenetrationModel, AReadingBehindAWallIsAsUnlikelyAsTheWallIsSolid) {
   corridor.fill(0, 300, kFree);
   corridor.wall(60, 40), corridor.wall(100, 40);
   const double p = corridor.occupancy(60);
-  // At the second wall, 2 m (25 sigma) behind the first: got through the first, stopped by the second.
+  // At the second wall, 2 m (25 sigma) behind the first: the beam passed the first and was stopped by the
+  // second.
   EXPECT_NEAR(corridor.likelihood(5.02), (1 - p) * p / (1 - (1 - p) * (1 - p)) * corridor.gaussian(100, 5.02),
               1e-12);
-  // At the first wall, the second out of the sum's reach.
+  // At the first wall; the second is out of range of the sum.
   EXPECT_NEAR(corridor.likelihood(3.02), corridor.gaussian(60, 3.02), 1e-12);
 }
 
@@ -144,7 +145,7 @@ TEST(PenetrationModel, KnownFreeSpaceLetsEveryBeamThrough) {
   EXPECT_EQ(corridor.likelihood(5), 0);  // nothing there could stop it
   corridor.wall(100, 40);
   const double before = corridor.likelihood(5.1);
-  corridor.fill(0, 99, -1);  // seen free once, or often
+  corridor.fill(0, 99, -1);  // observed as free once, or often
   EXPECT_EQ(corridor.likelihood(5.1), before);
 }
 
@@ -184,7 +185,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
     options.sigma = uniform(random, 0.02, 0.5);
     options.unknownDepth = uniform(random, 0.5, 50);
     const double size = uniform(random, 0.03, 0.3);
-    // From worlds where beams go far to worlds where the first cells stop them.
+    // From sparse worlds, in which beams go far, to dense ones, in which the first cells stop them.
     const double share = std::pow(random.uniform(), 3);
     const double unknown = world % 2 == 0 ? 0.1 : 0;  // without, free squares are skipped
     OccupancyGrid grid(size);
@@ -206,7 +207,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
       const double likelihood = model.beamLikelihood(x / size, y / size, dirX, dirY, z / size, cells);
       ASSERT_GE(likelihood, 0);
       ASSERT_LE(likelihood, 1);
-      // The model leaves out what is more than 6 sigma before z: exp(-18) = 1.5e-8 at most.
+      // The model omits cells more than 6 sigma before z: at most exp(-18) = 1.5e-8.
       ASSERT_NEAR(likelihood, reference(options, size, grid, x, y, dirX, dirY, z), 2e-8);
     }
   }

@@ -27,7 +27,7 @@ class RaySamples {
 
   int cellX() const { return static_cast<int>(x_ >> kBits); }
   int cellY() const { return static_cast<int>(y_ >> kBits); }
-  /// Of 8 x 8 cells, as of Tile.
+  /// Squares of 8 x 8 cells, as in Tile.
   int squareX() const { return static_cast<int>(x_ >> (kBits + Tile::kSquareBits)); }
   int squareY() const { return static_cast<int>(y_ >> (kBits + Tile::kSquareBits)); }
   int tileX() const { return static_cast<int>(x_ >> (kBits + Tile::kBits)); }

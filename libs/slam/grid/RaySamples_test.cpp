@@ -13,7 +13,7 @@ namespace {
 TEST(RaySamples, TheCellsAreThoseOfThePlaces) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 500; ++i) {
-    // To both sides of the origin, and a hundred kilometres away.
+    // On both sides of the origin, and a hundred kilometres away.
     const double far = i % 2 == 0 ? 40 : 4e6;
     const double x = far * (random.uniform() - 0.5), y = far * (random.uniform() - 0.5);
     const double heading = 2 * M_PI * random.uniform(), dx = std::cos(heading), dy = std::sin(heading);

@@ -13,8 +13,8 @@
 
 namespace hybrid_slam {
 
-/// The valid beams of a robot's lasers in the robot frame; all that is left to compute for a particle is the
-/// rotation by its heading.
+/// The valid beams of a robot's lasers in the robot frame; only the rotation by its heading remains to be
+/// computed for a particle.
 struct ScanBeams {
   struct Ray {
     double dirX, dirY;  ///< unit vector, robot frame
@@ -29,7 +29,7 @@ struct ScanBeams {
   explicit ScanBeams(const LaserScans& scans) {
     for (const LaserScan& scan : scans) addAll(scan);
   }
-  /// Those taken by a BeamSelection of the same scans.
+  /// The beams chosen by a BeamSelection of the same scans.
   ScanBeams(const LaserScans& scans, const std::vector<size_t>& taken) {
     rays.reserve(taken.size());
     auto next = taken.begin();
@@ -54,7 +54,7 @@ struct ScanBeams {
   }
 };
 
-/// A robot pose in units of cells, with its sine and cosine and the lasers' places computed once.
+/// A robot pose in units of cells, with its sine, its cosine and the lasers' positions computed once.
 struct GridPose {
   GridPose(const mrpt::math::TPose2D& robot, const ScanBeams& scan, double cellSize)
       : cosPhi(std::cos(robot.phi)), sinPhi(std::sin(robot.phi)) {

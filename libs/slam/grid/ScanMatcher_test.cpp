@@ -48,8 +48,8 @@ void expectNear(const TPose2D& pose, const TPose2D& expected, double distance, d
   EXPECT_LT(std::abs(off.z()), angle) << pose.asString() << " for " << expected.asString();
 }
 
-/// Central differences of f by x, y and phi. The map is in single precision: with smaller steps its rounding
-/// (1e-7 of each beam, over the step) shows.
+/// Central differences of f with respect to x, y and phi. The map is in single precision: with smaller steps
+/// its rounding (1e-7 of each beam, over the step) shows.
 template <class F>
 Eigen::Vector3d differences(const F& f, const TPose2D& pose) {
   constexpr double kStep = 1e-4;
@@ -107,7 +107,7 @@ TEST(ScanMatcher, TheGradientIsThatOfTheValue) {
   }
 }
 
-/// Of one beam the information is g g^T with g the gradient of m, and the likelihood's gradient (1 - m) g.
+/// For one beam the information is g g^T with g the gradient of m, and the likelihood's gradient (1 - m) g.
 TEST(ScanMatcher, TheInformationOfABeamIsThatOfItsSlope) {
   RandomStream random(3, 0, 0);
   int sloped = 0;
@@ -146,13 +146,13 @@ TEST(ScanMatcher, AGaussianPriorIsWhatItSays) {
     const Eigen::Vector3d off = offset(pose, mean);
     EXPECT_NEAR(density.value, -0.5 * off.dot(information * off), 1e-9);
     EXPECT_EQ(density.information, information);
-    if (std::abs(off.z()) > 3) continue;  // the cut opposite to the mean
+    if (std::abs(off.z()) > 3) continue;  // the angle wrap opposite to the mean
     const auto value = [&](const TPose2D& at) { return gaussianLogDensity(at, mean, information).value; };
     EXPECT_LT((density.gradient - differences(value, pose)).norm(), 1e-6 * (1 + density.gradient.norm()));
   }
 }
 
-/// The part of the basin that the header calls sure.
+/// The part of the basin from which, according to the header, all starts converge.
 TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
   RandomStream random(6, 0, 0);
   for (int i = 0; i < 300; ++i) {
@@ -173,7 +173,7 @@ TEST(ScanMatcher, AFeaturelessCorridorSaysNothingOfThePlaceAlongIt) {
   for (int i = 0; i < 50; ++i) {
     const TPose2D truth(2 * random.uniform() - 1, 0.4 * random.uniform() - 0.2, 6 * random.uniform() - 3);
     const ScanBeams scan = test::beamsAt(kCorridor, truth, random);
-    // A prior as weak as 1 m along, far from what the walls say across.
+    // A prior of 1 m, which is weak compared with the information of the walls across.
     const Eigen::Matrix3d weak = Eigen::Matrix3d::Identity();
     const Prior prior = [&](const TPose2D& at) { return gaussianLogDensity(at, truth, weak); };
     const ScanMatch match = matcher().match(scan, truth, corridor(), prior);
@@ -198,7 +198,7 @@ TEST_P(NothingToMatch, GivesBackThePrior) {
     EXPECT_EQ(match.information, information);
     EXPECT_EQ(match.fit, 0);
   }
-  // Nor does a prior that says nothing move the robot.
+  // A prior without information does not move the robot either.
   const ScanMatch still = matcher().match(scan, mean, grid, kNoPrior);
   EXPECT_EQ(still.pose, mean);
   EXPECT_EQ(still.information, Eigen::Matrix3d::Zero());

@@ -99,7 +99,7 @@ TEST(Tile, ASquareIsFreeIfAllItsCellsAre) {
         bool isFree = true;
         for (int i = 0; i < 64; ++i) isFree &= t.cells()[Tile::index(8 * sx + i % 8, 8 * sy + i / 8)] < 0;
         ASSERT_EQ(t.isFree(sx, sy), isFree) << sx << " " << sy;
-        ASSERT_EQ(t.isFree(sx - 8, sy + 12), isFree);  // of any tile of a grid
+        ASSERT_EQ(t.isFree(sx - 8, sy + 12), isFree);  // for coordinates in any tile of a grid
       }
   };
   expectFlagsOf(tile);

@@ -52,7 +52,7 @@ TEST(Merged, EndsAreTheTwoFarthestOfTheFour) {
 TEST(Merged, IsThePrintedFormWhereTheLeverArmIsNil) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 1000; ++i) {
-    // Both middles at the origin's foot or the lines parallel.
+    // Both midpoints are at the foot of the perpendicular from the origin, or the lines are parallel.
     const double theta = test::uniform(random, -M_PI, M_PI), turn = test::uniform(random, -0.08, 0.08);
     const auto through = [](double direction) {
       return segment(-3 * std::sin(direction), 3 * std::cos(direction), 3 * std::sin(direction),
@@ -77,7 +77,7 @@ TEST(Merged, ThetaIsAlwaysThatOfEquation8) {
     const LineSegment base = test::randomSegment(random, 20);
     const TPoint2D m = middle(base);
     const double turn = test::uniform(random, -0.08, 0.08);
-    // Turned about its own middle.
+    // Rotated about its own midpoint.
     const TPose2D frame(m.x - m.x * std::cos(turn) + m.y * std::sin(turn),
                         m.y - m.x * std::sin(turn) - m.y * std::cos(turn), turn);
     const DatabaseLine line = merged(known(base, 4), transformed(base, frame));
@@ -87,8 +87,8 @@ TEST(Merged, ThetaIsAlwaysThatOfEquation8) {
   }
 }
 
-/// The figure of doc/paper-notes.md: what printed eq. (7) does to two sightings of a wall that differ by 5
-/// deg about one middle, 50 m from the map's origin.
+/// The figure of doc/paper-notes.md: what eq. (7) as printed does to two observations of a wall that differ
+/// by 5 deg and have the same midpoint, 50 m from the map's origin.
 TEST(Merged, PrintedFormDriftsTowardsTheOrigin) {
   const double half = 2.5 * test::kDegree;
   const LineSegment a =
@@ -249,7 +249,7 @@ TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
   std::vector<DatabaseLine> lines(3);
   lines[0].theta = 10 * test::kDegree;
   lines[0].length = 6;
-  lines[1].theta = 100.3 * test::kDegree;  // perpendicular but for 0.3 deg
+  lines[1].theta = 100.3 * test::kDegree;  // 0.3 deg off perpendicular
   lines[1].length = 4;
   lines[1].count = 3;
   lines[2].theta = -79.5 * test::kDegree;  // 0.5 deg from the first: outside its window

@@ -32,8 +32,8 @@ int wallOf(const LineSegment& line, const test::Walls& walls) {
   return -1;
 }
 
-/// A full turn of a laser at the robot's centre, whose two ends meet in the room's first corner, so that no
-/// wall is cut there.
+/// A full turn of a laser at the robot's centre. It starts and ends at the room's first corner, so that no
+/// wall is split there.
 LaserScan roomScan(const TPose2D& robot, double noise, RandomStream& random) {
   const TPose2D sensor(0, 0, std::atan2(robot.y + 2, robot.x + 3) - robot.phi);
   return test::scanOf(kRoom, robot, sensor, 720, 359.5 * test::kDegree, noise, random);
@@ -88,7 +88,7 @@ TEST(LineExtractor, ARectangularRoomGivesItsFourWalls) {
   }
 }
 
-/// With noise a corner may be cut a beam or two off, which now and then leaves a short piece askew.
+/// Noise may shift the split at a corner by a beam or two, which occasionally leaves a short, skewed piece.
 TEST(LineExtractor, ARoomWithNoise) {
   RandomStream random(2, 0, 0);
   double total = 0, onWalls = 0;

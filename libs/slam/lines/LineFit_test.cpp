@@ -86,7 +86,7 @@ TEST(PaperFit, CoefficientsByHand) {
   EXPECT_NEAR(verticalError(test::range(points), line), sum, 1e-12);
 }
 
-/// What eq. (2)-(4) are: the least squares solution of (a/c) x + (b/c) y = -1.
+/// Eq. (2)-(4) are the least-squares solution of (a/c) x + (b/c) y = -1.
 TEST(PaperFit, MinimisesTheAlgebraicResidual) {
   RandomStream random(4, 0, 0);
   for (int i = 0; i < 300; ++i) {

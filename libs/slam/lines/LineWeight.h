@@ -29,8 +29,8 @@ struct LineWeightOptions : Options {
 
 /// Agreement of one direction with a database.
 struct DirectionMatch {
-  double value = 0;        ///< in [0, 1]
-  double slope = 0;        ///< derivative of value by the direction, 1/rad; 0 for eq. (9), which is a step
+  double value = 0;  ///< in [0, 1]
+  double slope = 0;  ///< derivative with respect to the direction, 1/rad; 0 for eq. (9), which is a step
   bool isMatched = false;  ///< parallel or perpendicular within 2 sigma, or the threshold of eq. (9)
 };
 
@@ -47,7 +47,7 @@ DirectionMatch matchDirection(double theta, const LineDatabase& database, const 
 
 struct LineWeight {
   double value = 1;  ///< in [floor, 1]; 1 if no line was observed or the database has no direction yet
-  double slope = 0;  ///< derivative of value by the heading, 1/rad; 0 at the floor
+  double slope = 0;  ///< derivative of value with respect to the heading, 1/rad; 0 at the floor
   int seen = 0;      ///< observed lines
   int matched = 0;   ///< of these, parallel or perpendicular to lines of the database
 };

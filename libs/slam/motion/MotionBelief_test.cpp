@@ -81,7 +81,7 @@ TEST(MotionBelief, FindsTheTrueMeansWhateverItBeganWith) {
   RandomStream random(2, 0, 0);
   const MotionModelOptions truth = test::trueModel();
   const auto odometry = test::randomOdometry(3000, random);
-  MotionModelOptions options = unsure(truth, 0.05);  // its variances; the means of a perfect odometry
+  MotionModelOptions options = unsure(truth, 0.05);  // variances of `truth`, means of perfect odometry
   options.distance.meanD = 1, options.distance.meanT = options.drift.meanD = options.drift.meanT = 0;
   options.turn.meanD = 0, options.turn.meanT = 1;
   MotionBelief belief;

@@ -42,7 +42,7 @@ TEST(MotionModelFit, RecoversTheParametersOfSimulatedOdometry) {
   }
 }
 
-/// The bounds of the test above say little if they are wide.
+/// The test above is only meaningful if its bounds are narrow.
 TEST(MotionModelFit, TheBoundsOfTheRecoveryAreNarrow) {
   RandomStream random(1, 0, 0);
   const test::Parameters errors =
@@ -77,7 +77,7 @@ TEST(MotionModelFit, NeverLowersTheLikelihood) {
   }
 }
 
-/// No neighbour is more likely, a twentieth of a standard error to either side in any parameter.
+/// Changing any parameter by a twentieth of a standard error, up or down, does not raise the likelihood.
 TEST(MotionModelFit, FindsTheTopOfTheLikelihood) {
   RandomStream random(7, 0, 0);
   const auto odometry = test::randomOdometry(300, random);

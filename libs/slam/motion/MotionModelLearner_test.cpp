@@ -13,10 +13,10 @@ using namespace test;
 using mrpt::math::TPose2D;
 using testing::HasSubstr;
 
-/// Of the noise that hides the true motions: as much as that of the odometry in a short step.
+/// Variances of the noise that hides the true motions: as large as the odometry noise of a short step.
 constexpr double kNoiseXY = 1e-4, kNoisePhi = 1e-4;  // m^2, rad^2
 
-/// A drive whose true D, C and T are seen with noise, so that its E-step has a closed form.
+/// A drive whose true D, C and T are observed with noise, so that its E-step has a closed form.
 class HiddenMotions {
  public:
   HiddenMotions(const MotionModelOptions& truth, size_t steps, uint64_t seed) {
@@ -30,8 +30,8 @@ class HiddenMotions {
     }
   }
 
-  /// Each posterior is normal; two points one deviation to either side of its mean have its mean and
-  /// variance, which is all that the M-step sees.
+  /// Each posterior is normal. Two points, one standard deviation on either side of the mean, have the same
+  /// mean and variance, and the M-step uses nothing else.
   Expectation expect(const MotionModelOptions& model) const {
     Expectation e;
     for (size_t i = 0; i < odometry.size(); ++i) {
@@ -79,10 +79,11 @@ TEST(MotionModelLearner, RecoversTheParametersOfHiddenMotionsAndTheLikelihoodRis
     const HiddenMotions motions(truth, 4000, seed);
     const Learning run = learn([&](const auto& model) { return motions.expect(model); }, 100);
     EXPECT_TRUE(run.learnt.isConverged);
-    EXPECT_GE(run.iterations.size(), 3u);  // more than one M-step would do
+    EXPECT_GE(run.iterations.size(), 3u);  // a single M-step is not enough
     for (size_t i = 1; i < run.iterations.size(); ++i)
       EXPECT_GT(run.iterations[i].logLikelihood, run.iterations[i - 1].logLikelihood) << i;
-    // At the stop, less than 1e-4 nats per step are missing: 0.4 in total, or one standard error; so allow 5.
+    // Learning stops less than 1e-4 nats per step below the maximum: 0.4 in total, or one standard error.
+    // Allow 5.
     const auto expectNear = [&](const MotionTerm& term, const MotionTerm& expected, double minStd,
                                 double noise) {
       const test::Parameters errors = test::standardErrors(expected, minStd, motions.odometry, noise);

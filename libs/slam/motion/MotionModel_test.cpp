@@ -13,10 +13,10 @@ using mrpt::math::TPose2D;
 
 constexpr double kDegree = M_PI / 180;
 constexpr int kDraws = 100000;
-// Of the mean (sigma / sqrt n) and of the variance (sigma^2 sqrt(2 / n)) of normal numbers.
+// Standard errors of the mean (sigma / sqrt n) and the variance (sigma^2 sqrt(2 / n)) of normal numbers.
 constexpr double kErrors = 5;
 
-/// D, C and T of each draw, taken back from the pose increments.
+/// D, C and T of each draw, recovered from the pose increments.
 struct Samples {
   std::vector<double> distance, drift, turn;
 };
@@ -43,7 +43,7 @@ void expectNormal(const std::vector<double>& values, double mean, double varianc
   EXPECT_NEAR(squares / (n - 1), variance, kErrors * variance * std::sqrt(2 / n)) << name;
 }
 
-/// The formulas of MotionTerm, with d along the odometry's mean heading and what it moved sideways kept.
+/// The formulas of MotionTerm, with d along the odometry's mean heading; its sideways motion is kept.
 void expectMoments(const TPose2D& odometry, const MotionModelOptions& o) {
   const double c = std::cos(odometry.phi / 2), s = std::sin(odometry.phi / 2);
   const double d = c * odometry.x + s * odometry.y, sideways = -s * odometry.x + c * odometry.y;
@@ -102,7 +102,7 @@ TEST(MotionModel, WithoutErrorsTheOdometryItselfComesOut) {
   for (MotionTerm* term : {&exact.distance, &exact.drift, &exact.turn}) term->varianceD = term->varianceT = 0;
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 1000; ++i) {
-    // Sideways too: not every robot has its wheels where its frame is.
+    // Sideways as well: the origin of the robot frame is not always between the wheels.
     const TPose2D odometry(2 * random.uniform() - 1, 2 * random.uniform() - 1, 6 * random.uniform() - 3);
     const TPose2D p = sampleMotion(odometry, exact, random);
     ASSERT_NEAR(p.x, odometry.x, 1e-12);
@@ -127,8 +127,9 @@ TEST(MotionModel, DistanceDriftAndTurnAreDrawnIndependently) {
   EXPECT_NEAR(correlation(all.drift, all.turn), 0, bound);
 }
 
-/// The linear part, so good to second order: |D| sigma_T^2 / 8 in the place, and as much times the deviation
-/// in the covariance; the rest is the error of the samples' own mean and covariance.
+/// The approximation is linear, so its error is of second order: |D| sigma_T^2 / 8 in the position, and that
+/// times the standard deviation in the covariance. The rest of the bound is the sampling error of mean and
+/// covariance.
 TEST(MotionModel, TheDistributionIsThatOfTheSamples) {
   for (const MotionModelOptions& options : {MotionModelOptions(), biased()})
     for (const double heading : {0.0, 1.2, -2.5, 3.1})
@@ -186,7 +187,7 @@ TEST(MotionModel, MrptsGaussianModelGetsTheDeviations) {
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.a4, 0.1);               // rad/rad
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.minStdXY, 0.007);
   EXPECT_DOUBLE_EQ(mrptModel.gaussianModel.minStdPHI, 0.3 * kDegree);
-  o.turn.meanStd = 0.2;  // it does not learn: for it, that is noise
+  o.turn.meanStd = 0.2;  // MRPT's model does not learn: it treats this as noise
   EXPECT_DOUBLE_EQ(toMrpt(o).gaussianModel.a3, std::sqrt(0.0025 + 0.04));
 }
 

@@ -12,7 +12,7 @@ namespace hybrid_slam {
 
 mrpt::math::TPose2D odometryIncrement(const mrpt::obs::CActionCollection& action) {
   auto flat = action.getBestMovementEstimation();
-  if (!flat) flat = action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();  // of great uncertainty
+  if (!flat) flat = action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();  // large uncertainty
   if (flat) {
     if (flat->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry)
       return flat->rawOdometryIncrementReading.asTPose();

@@ -29,7 +29,7 @@ TEST(SpreadNormals, OneParticlesNumbersAreStandardNormalAndIndependent) {
   }
 }
 
-/// Copies of a particle have consecutive indices: no two of them draw nearly the same. The nearest of 20
+/// Copies of a particle have consecutive indices and must not draw nearly the same numbers. The nearest of 20
 /// independent points of the unit cube are 0.096 apart in the median, of 50 0.049.
 TEST(SpreadNormals, ParticlesInARowKeepApart) {
   for (const size_t first : {0u, 3u, 4000u})

@@ -13,7 +13,7 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-/// A thin grey frame at the left and below, a grid, and plain text: `_` and `^` are no markup.
+/// A thin grey frame at the left and below, a grid, and plain text: `_` and `^` are not markup.
 const char* const kStyle = R"(set border 3 linecolor rgb '#888888'
 set tics nomirror out scale 0.5 textcolor rgb '#333333' format '%g'
 set grid linecolor rgb '#dddddd' linetype 1
@@ -26,8 +26,7 @@ std::string settings(const Plot& plot, const std::string& file) {
          gnuplotText(file) + "\n" + kStyle;
 }
 
-/// gnuplot's drawing as an element of a page that has others too: with a description, and identifiers that
-/// no other plot has.
+/// gnuplot's drawing as one of several elements of a page: with a description, and with unique identifiers.
 std::string embedded(const std::string& file, const Plot& plot, size_t number) {
   std::ifstream in(file, std::ios::binary);
   const std::string svg(std::istreambuf_iterator<char>(in), {});
@@ -48,7 +47,7 @@ std::string embedded(const std::string& file, const Plot& plot, size_t number) {
 }  // namespace
 
 std::string gnuplotText(const std::string& text) {
-  // Nothing is special between single quotes, neither a backslash nor a shell command in backquotes.
+  // Single quotes make backslashes and backquotes ordinary characters.
   std::string quoted = "'";
   for (const char c : text)
     quoted += c == '\'' ? "''" : static_cast<unsigned char>(c) < 32 ? " " : std::string(1, c);

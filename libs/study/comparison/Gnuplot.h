@@ -13,7 +13,7 @@ struct Plot {
   std::string script;         ///< gnuplot commands; empty if there is nothing to show
 };
 
-/// A string as gnuplot takes it.
+/// A string literal for gnuplot.
 std::string gnuplotText(const std::string& text);
 
 /// Numbers for `plot $NAME`, a row per line; an empty row separates lines.
@@ -28,10 +28,10 @@ class DataBlock {
   std::string text_;
 };
 
-/// Runs gnuplot. The same plots give the same bytes: neither the locale nor the user's settings count.
+/// Runs gnuplot. The same plots give the same bytes for every locale and user setting.
 class Gnuplot {
  public:
-  /// @param program  found along PATH if it has no slash
+  /// @param program  searched in PATH if it has no slash
   explicit Gnuplot(std::string program = "gnuplot") : program_(std::move(program)) {}
 
   /// The plots with a script, one element after the other. Empty if there are none or gnuplot fails; after a

@@ -23,7 +23,7 @@ Plot line(const std::string& title) {
           "set title " + gnuplotText(title) + "\n" + data.script() + "plot $data with linespoints notitle\n"};
 }
 
-/// An environment variable for the time of a test.
+/// Sets an environment variable during a test.
 struct Environment {
   Environment(const char* name, const std::string& value) : name_(name) {
     if (const char* before = getenv(name)) before_ = before, isSet_ = true;

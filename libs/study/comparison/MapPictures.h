@@ -11,8 +11,9 @@ namespace hybrid_slam::comparison {
 /// The map of the median run and of the worst run of each group, as `<figure>` elements: `map.png`, reduced.
 std::string mapPictures(const ReportInput& input);
 
-/// A PNG of at most 700 pixels a side and 16 levels for each colour; a tenth of the bytes of a large one.
-/// @returns PNG; empty for what is no picture
+/// Reduces a PNG to at most 700 pixels a side and 16 levels per colour; a large one shrinks to a tenth of its
+/// bytes.
+/// @returns the PNG; empty if the input is not a picture
 std::string reducedPicture(const std::string& png);
 
 /// Bytes as base64 (RFC 4648) without the line breaks that MRPT inserts.

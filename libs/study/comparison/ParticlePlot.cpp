@@ -72,7 +72,7 @@ const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run
 
 namespace {
 
-/// m; 1, 2 or 5 times a power of ten, so that the labels of at most four fit beside each other.
+/// Distance of the ticks (m): 1, 2 or 5 times a power of ten, so that at most four labels stand side by side.
 double ticStep(double side) {
   for (double power = std::pow(10, std::floor(std::log10(side / 4)));; power *= 10)
     for (const double factor : {1, 2, 5})

@@ -13,7 +13,7 @@ using mrpt::math::TPoint2D;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What stands between a block's first and last line.
+/// The text between a block's first and last line.
 std::string block(const std::string& script, const std::string& name) {
   const std::string head = "$" + name + " << EOD\n";
   const size_t begin = script.find(head), end = script.find("EOD\n", begin + head.size());

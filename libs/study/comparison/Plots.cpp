@@ -14,7 +14,7 @@ std::string withUnit(const FigureName& name) {
   return std::string(name.title) + (*name.unit ? std::string(" (") + name.unit + ")" : std::string());
 }
 
-/// gnuplot's number of the dashes that stand for each group's particles.
+/// gnuplot's dash type for each group's particle count.
 std::vector<size_t> dashesOf(const std::vector<Group>& groups) {
   std::map<int, size_t> particles;
   for (const Group& group : groups) particles.emplace(group.particles, particles.size());
@@ -35,8 +35,8 @@ struct Range {
   bool isEmpty() const { return low > high; }
 };
 
-/// From zero, unless the values spread over decades: errors of runs that close the loop and of those that do
-/// not.
+/// The axis starts at zero, unless the values span decades, like the errors of runs that close the loop and
+/// of runs that do not.
 std::string verticalAxis(const Range& range) {
   if (range.low <= 0 || range.high / range.low <= 20)
     return "set yrange [" + shortNumber(std::min(0.0, range.low)) + ":" + (range.high > 0 ? "*" : "1") +

@@ -11,7 +11,7 @@
 
 namespace hybrid_slam::comparison {
 
-/// Okabe & Ito's colours, which the colour-blind can tell apart; one for each method and variant.
+/// Okabe & Ito's colour-blind-safe colours, one for each method and variant.
 /// @returns one for each group, 0xRRGGBB
 std::vector<int> plotColours(const std::vector<Group>& groups);
 

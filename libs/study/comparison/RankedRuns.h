@@ -14,16 +14,17 @@ RunFolder folderOf(const ReportInput& input, const RunResult& run);
 
 std::vector<const RunResult*> finishedRuns(const ReportInput& input, size_t group);
 
-/// The figure that ranks the runs; nothing without a reference and relations.
+/// The figure that ranks the runs; empty without a reference and relations.
 std::optional<Figure> rankingFigure(const ReportInput& input);
 
-/// A group's finished runs from the best to the worst, or in their order where nothing ranks them.
+/// A group's finished runs from the best to the worst; in the order of `finishedRuns` if no figure ranks
+/// them.
 std::vector<const RunResult*> rankedRuns(const ReportInput& input, size_t group);
 
-/// Nothing if the group has no finished run.
+/// Null if the group has no finished run.
 const RunResult* medianRun(const ReportInput& input, size_t group);
 
-/// Of a run's map frame in the reference's; zero without a reference.
+/// Pose of a run's map frame in the reference's frame; zero without a reference.
 mrpt::math::TPose2D alignmentOf(const ReportInput& input, const files::Trajectory& trajectory);
 
 }  // namespace hybrid_slam::comparison

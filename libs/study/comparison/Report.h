@@ -29,8 +29,8 @@ struct ReportInput {
 std::string runName(const Group& group, int seed);
 
 /// Writes XHTML. Trajectories, spreads and maps are read from the folders of the finished runs.
-/// @returns why the plots are missing, in one line (no gnuplot): the tables and maps are there; empty if all
-/// is
+/// @returns one line that says why the plots are missing, for example without gnuplot; empty if they are
+/// there
 std::string writeReport(const ReportInput& input, std::ostream& out);
 
 }  // namespace hybrid_slam::comparison

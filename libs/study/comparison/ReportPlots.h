@@ -1,5 +1,5 @@
 /// @file ReportPlots.h
-/// @brief The report's plots of what lies in the folders of the finished runs.
+/// @brief The report's plots that read files in the folders of the finished runs.
 #pragma once
 
 #include <vector>

@@ -16,7 +16,7 @@ std::string escapeXml(const std::string& text) {
     else if (c == '"')
       out += "&quot;";
     else if (static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t')
-      out += '?';  // no other control character may stand in XML
+      out += '?';  // XML allows no other control characters
     else
       out += c;
   }

@@ -6,10 +6,10 @@
 
 namespace hybrid_slam::comparison {
 
-/// `&`, `<`, `>` and `"` as XML wants them; control characters as `?`.
+/// `&`, `<`, `>` and `"` escaped for XML; control characters become `?`.
 std::string escapeXml(const std::string& text);
-/// A number in at most `digits` significant digits, without an exponent where possible, in every locale the
-/// same.
+/// A number in at most `digits` significant digits, without an exponent if possible; the same in every
+/// locale.
 std::string shortNumber(double value, int digits = 4);
 
 }  // namespace hybrid_slam::comparison

@@ -32,7 +32,8 @@ RunResult ended(size_t group, int seed, Status status) {
 const std::vector<Group> kGroups{
     {"general", {}, 20}, {"hybrid", {"eq9", "", "", {"a.b=c"}}, 20}, {"stock", {}, 20}};
 
-/// general: 1, 2, 3, 4 and a failed run; hybrid-eq9: half of each, one missing; stock: nothing but failures.
+/// general: errors 1, 2, 3, 4 and a failed run; hybrid-eq9: half of each error, one run missing; stock: only
+/// failed runs.
 std::vector<RunResult> results() {
   return {done(0, 1, 1, false), done(0, 2, 2, false),        done(0, 3, 3, true),
           done(0, 4, 4, false), ended(0, 5, Status::failed), done(1, 1, 0.5, true),
@@ -84,7 +85,7 @@ TEST(Summary, PairsAreTheSeedsThatBothHave) {
   const auto s = summarise(3, results());
   ASSERT_TRUE(s[1].paired[kAte]);
   const PairedComparison& p = *s[1].paired[kAte];
-  EXPECT_EQ(p.pairs, 3u);  // not the seed that failed for the one or is missing for the other
+  EXPECT_EQ(p.pairs, 3u);  // without the seeds that failed in one group or are missing in the other
   ASSERT_TRUE(p.ratio);
   EXPECT_DOUBLE_EQ(p.ratio->ratio, 0.5);
   EXPECT_DOUBLE_EQ(p.wilcoxonP, 2.0 / 8);

@@ -46,8 +46,8 @@ std::vector<TPoint2D> look(const TPose2D& robot, double halfLength, double halfW
   return points;
 }
 
-/// Twice round a square room of 12 m on a circle of 4 m; on the second lap, which begins after 25.1 m, the
-/// trajectory is `shift` aside in x.
+/// Two laps in a square room of 12 m, on a circle of 4 m radius. On the second lap, which begins after 25.1
+/// m, the trajectory is shifted by `shift` in x.
 Drive twoLaps(double shift) {
   Drive drive;
   constexpr double kStep = 0.21;  // m; the laps' scans are not taken at the same places
@@ -60,8 +60,8 @@ Drive twoLaps(double shift) {
   return drive;
 }
 
-/// `length` m along a corridor 3 m wide, a scan every 0.21 m, and back; on the way back the trajectory is
-/// `shift` aside.
+/// `length` m along a corridor 3 m wide, a scan every 0.21 m, and back. On the way back the trajectory is
+/// shifted sideways by `shift`.
 Drive outAndBack(double length, double shift) {
   Drive drive;
   for (int i = 0; i * 0.21 <= 2 * length; ++i) {
@@ -138,7 +138,7 @@ TEST(RevisitError, RigidMotionOfTheTrajectoryChangesNothing) {
   }
 }
 
-/// `first` seen at the origin, then 20 m away nothing, then each of `again` at the origin.
+/// The scan `first` at the origin, then an empty scan 20 m away, then each scan of `again` at the origin.
 RevisitErrors seenAgain(const std::vector<TPoint2D>& first, const std::vector<std::vector<TPoint2D>>& again) {
   Drive drive;
   drive.add({0, 0, 0}, first);

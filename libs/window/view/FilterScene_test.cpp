@@ -8,7 +8,7 @@
 namespace hybrid_slam::window {
 namespace {
 
-/// A free room of 4 m x 2 m around (10, 5) with walls of a cell; unknown around.
+/// A free room of 4 m x 2 m around (10, 5), with walls one cell thick and unknown cells outside.
 FilterSnapshot room() {
   FilterSnapshot filter;
   filter.method = "hybrid";

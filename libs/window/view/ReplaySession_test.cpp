@@ -66,12 +66,12 @@ TEST_F(ReplaySessionTest, ShowsBothFiltersOnTheSameLog) {
   EXPECT_FALSE(hybrid.lines.empty());
   EXPECT_TRUE(general.lines.empty());
   ASSERT_TRUE(hybrid.dominatingDirection);
-  // The room's walls are all that is seen, and they have been there before. The first pose is the map's
+  // The scan sees only the room's walls, which are already in the database. The first pose is the map's
   // origin.
   const double turned = std::remainder(*hybrid.dominatingDirection + test::poseOnLap(0, 80).phi, M_PI / 2);
   EXPECT_NEAR(turned, 0, 0.05);
   EXPECT_FALSE(hybrid.scanLines.empty());
-  // What is drawn as matched is what w_line counted, as steps.csv has it.
+  // The lines drawn as matched are those that w_line counted, as in steps.csv.
   int matched = 0;
   for (const ScanLine& line : hybrid.scanLines) matched += line.isMatched;
   EXPECT_EQ(matched, hybrid.step.linesMatched);
@@ -177,7 +177,7 @@ TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
   const auto start = Clock::now();
   summarise(c.run.rawlog, c.input);
   const auto whole = Clock::now() - start;
-  bool isQuick = false;  // one of three times: the machine may be busy
+  bool isQuick = false;  // in one of three attempts: the machine may be busy
   for (int attempt = 0; attempt < 3 && !isQuick; ++attempt) {
     const auto opened = Clock::now();
     { const ReplaySession session(c, {Method::hybrid}); }
@@ -196,7 +196,7 @@ TEST_F(ReplaySessionTest, ALogThatIsNoneFailsWithItsName) {
 TEST(UncertaintyEllipse, FollowsTheParticles) {
   std::vector<WeightedPose> poses;
   for (const double t : {-1., 1.}) poses.push_back({{3 + t, 4 + t, 0}, 0});
-  poses.push_back({{100, 0, 0}, -1000});  // weighs nothing
+  poses.push_back({{100, 0, 0}, -1000});  // has no weight
   const UncertaintyEllipse e = uncertaintyOf(poses);
   EXPECT_NEAR(e.centre.x, 3, 1e-9);
   EXPECT_NEAR(e.centre.y, 4, 1e-9);
