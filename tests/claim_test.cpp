@@ -66,7 +66,7 @@ TEST_F(Claim, LinesBeatNoLinesOnTheSimulatedLoop) {
   EXPECT_LT(*std::max_element(lines.begin(), lines.end()), 0.2);
 }
 
-TEST_F(Claim, SoDoesEqNineAsPrintedOnTheSimulatedLoop) {
+TEST_F(Claim, EqNineAsPrintedBeatsNoLinesOnTheSimulatedLoop) {
   const auto lines = onTheLoop(kEqNine), noLines = onTheLoop(kNoLines);
   EXPECT_LT(median(lines), 0.5 * median(noLines));
   EXPECT_GE(wins(lines, noLines), kSeeds - 1);

@@ -105,7 +105,7 @@ class DeviceTest : public testing::Test {
   test::Events events;
 };
 
-TEST_F(DeviceTest, TheLms100sScansComeAsTheyWereMade) {
+TEST_F(DeviceTest, TheLms100sScansArriveAsTheDeviceMadeThem) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events);
   ASSERT_TRUE(test::happens([&] { return sensors.scans().size() >= 3; })) << events.text();
@@ -194,7 +194,7 @@ TEST_F(DeviceTest, APioneerOnASerialLine) {
   EXPECT_TRUE(test::happens([&] { return pioneer.closes() == 1; }));
 }
 
-TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
+TEST_F(DeviceTest, TheRecordingOfBothDevicesReplaysToTheSameMap) {
   test::LmsStandIn lms(robot);
   test::PioneerStandIn pioneer(robot, 100);
   const files::TemporaryFolder folder;
@@ -227,7 +227,7 @@ TEST_F(DeviceTest, BothTogetherMakeAMapThatItsRecordingMakesAgain) {
   EXPECT_GT(way, 3) << "24 steps of 0.26 m";
 }
 
-TEST_F(DeviceTest, AnLms100ThatIsNotThereIsWaitedFor) {
+TEST_F(DeviceTest, AMissingLms100IsRetried) {
   uint16_t port = 0;
   {
     live::TcpListener reserved("127.0.0.1", 0);
@@ -239,7 +239,7 @@ TEST_F(DeviceTest, AnLms100ThatIsNotThereIsWaitedFor) {
   EXPECT_TRUE(test::happens([&] { return !sensors.scans().empty(); })) << events.text();
 }
 
-TEST_F(DeviceTest, AnLms100ComesBackAfterEveryFault) {
+TEST_F(DeviceTest, AnLms100RecoversFromEveryFault) {
   test::LmsStandIn lms(robot);
   Sensors sensors(lmsSection(lms.port()), events, 0.3);
   for (const Fault fault : {Fault::cut, Fault::garbled, Fault::silent, Fault::refusing}) {
@@ -254,7 +254,7 @@ TEST_F(DeviceTest, AnLms100ComesBackAfterEveryFault) {
   for (const auto& scan : sensors.scans()) EXPECT_EQ(scan->getScanSize(), 541u) << "no part of a scan";
 }
 
-TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
+TEST_F(DeviceTest, ThePioneersOdometryContinuesAfterEveryFault) {
   for (int i = 0; i < 20; ++i) robot.scan();
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events, 0.3);
@@ -276,7 +276,7 @@ TEST_F(DeviceTest, ThePioneersOdometryGoesOnAfterEveryFault) {
         << "no jump back to zero, nor by the way that nobody saw";
 }
 
-TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreLeftOutAndReported) {
+TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreDroppedAndReported) {
   test::PioneerStandIn pioneer(robot, 100);
   Sensors sensors(pioneerSection(pioneer.port()), events);
   ASSERT_TRUE(test::happens([&] { return !sensors.odometry().empty(); }));

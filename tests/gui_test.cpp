@@ -217,7 +217,7 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
     EXPECT_FALSE(test::contentOf(folder.path(std::string("out/") + name)).empty()) << name;
 }
 
-TEST_F(GuiTest, SaysWhatIsWrongWithTheFiles) {
+TEST_F(GuiTest, ReportsErrorsInTheFiles) {
   menu(window::kOpenRawlog);
   frame->open(folder.path("missing.ini"), "");
   frame->open(folder.write("typo.ini", "[particle_filter]\nparticle = 3\n"), "");

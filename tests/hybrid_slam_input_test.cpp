@@ -102,7 +102,7 @@ TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 21u);
 }
 
-TEST_F(HybridSlam, ACutGzippedLogToo) {
+TEST_F(HybridSlam, ACutGzippedLogGivesResultsUpToTheCut) {
   const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), test::laps(40)));
   EXPECT_EQ(replay(folder.write("cut.rawlog", bytes.substr(0, bytes.size() / 2))), 1);
   EXPECT_THAT(err, AllOf(MatchesRegex(kErrorLine), HasSubstr("gzip file damaged or cut off: entry ")));
@@ -119,7 +119,7 @@ test::Log withBeams(const std::function<void(test::CObservation2DRangeScan&, siz
   return log;
 }
 
-TEST_F(HybridSlam, ReadingsThatAreNoneAreIgnoredBeamByBeam) {
+TEST_F(HybridSlam, InvalidReadingsAreIgnoredBeamByBeam) {
   const test::Log marked = withBeams([](auto& scan, size_t i) { scan.setScanRangeValidity(i, false); });
   const float odd[] = {kNaN, HUGE_VALF, -HUGE_VALF, -3, 0, 20, 81.83f, 1e30f};
   const test::Log unmarked =
@@ -142,7 +142,7 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 10u);
 }
 
-TEST_F(HybridSlam, ScansWithoutBeamsAreLeftOut) {
+TEST_F(HybridSlam, ScansWithoutBeamsAreSkipped) {
   test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
   expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; skipped");

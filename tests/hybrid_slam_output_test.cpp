@@ -46,7 +46,7 @@ TEST_F(HybridSlam, OutputFolderNotWritable) {
   expectError(replay(test::laps(4)), "output folder not writable: " + output);
 }
 
-TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPart) {
+TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPartialFile) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   for (const std::string& name : kResults) {
     SCOPED_TRACE(name);
@@ -108,7 +108,7 @@ std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments
   return {text, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
 }
 
-TEST_F(HybridSlam, ATerminalGetsABarWithTheTimeLeft) {
+TEST_F(HybridSlam, ATerminalShowsABarWithTheTimeLeft) {
   test::Log log = test::laps(100);
   const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
   const auto [text, code] = onTerminal({"hybrid-slam", "-o", output, ini, path});

@@ -32,7 +32,7 @@ const char* const kMalagaStockIni =
 
 // ---- results
 
-TEST_F(HybridSlam, WritesAllResultsAndSumsUp) {
+TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(80));
   expectDone(replay(log, "--seed 7 --threads 2"));
   EXPECT_THAT(out, MatchesRegex("80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ x real time\\): " +
@@ -118,7 +118,7 @@ TEST_F(HybridSlam, ParticlesOfEveryNthUpdate) {
   EXPECT_EQ(row, particles.size());
 }
 
-TEST_F(HybridSlam, QuietSaysNothing) {
+TEST_F(HybridSlam, QuietPrintsNothing) {
   expectDone(replay(test::laps(20), "-q"));
   EXPECT_THAT(out, IsEmpty());
 }

@@ -95,7 +95,7 @@ class LivePrograms : public testing::Test {
   std::string output = folder.path("out"), port;
 };
 
-TEST_F(LivePrograms, TheLiveMapIsThatOfTheLogAndThatOfTheRecording) {
+TEST_F(LivePrograms, TheLiveMapEqualsThatOfTheLogAndOfTheRecording) {
   const auto robot = replaying(100, "500");
   const auto map = live();
   EXPECT_EQ(map->wait(), 0) << map->err();
@@ -131,7 +131,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
   EXPECT_EQ(robot->wait(), 0);
 }
 
-TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
+TEST_F(LivePrograms, AServerRestartContinuesTheSameMap) {
   auto robot = replaying(5000, "100");
   const auto map = live();
   ASSERT_TRUE(isRecording()) << map->err();
@@ -147,7 +147,7 @@ TEST_F(LivePrograms, AKilledServersSuccessorIsFollowedOnTheSameMap) {
   EXPECT_EQ(result("trajectory.tum"), replay(output + "/recording.rawlog", "again"));
 }
 
-TEST_F(LivePrograms, WithoutAServerThereAreNoResultsButNoHarm) {
+TEST_F(LivePrograms, WithoutAServerThereAreNoResults) {
   port = "1";
   const auto map = live();
   ASSERT_TRUE(test::happens([&] { return map->err().find("refused") != std::string::npos; })) << map->err();

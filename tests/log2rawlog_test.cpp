@@ -54,7 +54,7 @@ class Log2Rawlog : public testing::Test {
   std::string out, err;
 };
 
-TEST_F(Log2Rawlog, ConvertsAndSumsUp) {
+TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5") + "SYNC tag\n");
   EXPECT_EQ(convert(log), 0);
   EXPECT_EQ(out, rawlog +
@@ -75,7 +75,7 @@ TEST_F(Log2Rawlog, GzippedGivesTheSameBytes) {
   EXPECT_EQ(test::contentOf(rawlog), plain);
 }
 
-TEST_F(Log2Rawlog, BrokenLinesAreReportedAndDoNotStop) {
+TEST_F(Log2Rawlog, BrokenLinesAreReportedAndSkipped) {
   const std::string log = folder.write("in.clf", scanRow("10") + "ODOM 1 2\n" + scanRow("11"));
   EXPECT_EQ(convert(log), 0);
   EXPECT_EQ(err, "log2rawlog: warning: broken line: " + log +

@@ -53,7 +53,7 @@ class Malaga : public testing::Test {
 /// m and 0.6 deg (improved proposal, 15 particles, seed 1: (4.21, -18.51, -87.8)); raw odometry ends at
 /// (-4.80, -21.16, -106.7 deg). The scans fitted the map with 0.43-0.50, and their lines the database with
 /// 0.56-0.69.
-TEST_F(Malaga, EndsWhereItWasRecordedToEnd) {
+TEST_F(Malaga, EndsAtTheRecordedPose) {
   for (const int seed : {1, 2, 3}) {
     const files::Trajectory trajectory = run("-n 50 -s " + std::to_string(seed));
     ASSERT_EQ(trajectory.size(), 225u);

@@ -147,7 +147,7 @@ TEST(TrueMotions, OfTheLoopFitTheSimulatorsParameters) {
     EXPECT_NEAR(test::parametersOf(fit.turn)[i], test::parametersOf(simulated.turn)[i], 3 * turnErrors[i]);
 }
 
-TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
+TEST_F(MotionModelLearn, LearnsTheParametersOfTheTruePoses) {
   // Ten particles: with five, the likelihoods of the second and third iteration could not be
   // distinguished.
   ASSERT_EQ(learn(kDoorways, "-n 10 --iterations 3"), 0) << err;
@@ -183,7 +183,7 @@ TEST_F(MotionModelLearn, LearnsWhatTheTruePosesTell) {
   EXPECT_THAT(out, HasSubstr("iteration " + std::to_string(best) + " written to " + output + "\n"));
 }
 
-TEST_F(MotionModelLearn, SaysWhatTheLogDoesNotDetermineAndKeepsThePrior) {
+TEST_F(MotionModelLearn, ReportsUndeterminedParametersAndKeepsTheirPrior) {
   ASSERT_EQ(learn(kCorridor, "--iterations 1"), 0) << err;
   const std::string keys = "mean_t, var_t of distance, drift and turn",
                     why = "the robot turned 2.9 deg or more";
@@ -211,7 +211,7 @@ TEST_F(MotionModelLearn, SameSeedSameBytesForAnyNumberOfThreads) {
   EXPECT_NE(test::contentOf(output), first);
 }
 
-TEST_F(MotionModelLearn, ALogThatIsCutOffIsLearntFromUpToThere) {
+TEST_F(MotionModelLearn, LearnsFromTheFirstPartOfATruncatedLog) {
   std::vector<size_t> ends;
   const std::string log = test::writePlain(folder.path("log.rawlog"), test::laps(100), &ends);
   fs::resize_file(log, ends.at(160) + 7);
@@ -262,7 +262,7 @@ TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
   expectError(learn(log), "cannot write: " + output);
 }
 
-TEST_F(MotionModelLearn, CtrlCLeavesNothingHalfWritten) {
+TEST_F(MotionModelLearn, CtrlCLeavesNoPartialFile) {
   const std::string log = logOf(4000);
   folder.write("motion.ini", "before");
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -160,7 +160,7 @@ TEST_F(SimulFloorplan, WrongRoutes) {
   expectInputError(kRun, "unknown word `run`: file room.route, line 2");
 }
 
-TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNothingBehind) {
+TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNoFile) {
   const Outcome outcome = call(std::string("sh -c \"ulimit -f 1; trap '' XFSZ; '") + SIMUL_FLOORPLAN +
                                "' room.ini -o out.rawlog\"");
   EXPECT_EQ(outcome.status, 1);
@@ -198,7 +198,7 @@ TEST_F(SimulFloorplan, TheCommittedCsieLogsAreRemadeByteForByte) {
     EXPECT_LT(fs::file_size(entry.path()), 1000000u) << entry.path();
 }
 
-TEST_F(SimulFloorplan, TheCsieBuildingIsSimulatedForAsLongAsWanted) {
+TEST_F(SimulFloorplan, TheCsieBuildingIsSimulatedForAnyTime) {
   const std::string ini = "'" + std::string(SOURCE_DIR) + "/config-ini/simul-csie.ini'";
   ASSERT_EQ(simulate(ini + " -q -o out.rawlog --set simulation.scans=50").status, 0);
   mrpt::obs::CRawlog rawlog;

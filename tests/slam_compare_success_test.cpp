@@ -17,7 +17,7 @@ using test::contentOf;
 using test::Outcome;
 using testing::HasSubstr;
 
-TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
+TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndDecidesSuccess) {
   const files::Trajectory truth = files::loadTum(kCsie + "csie-corridor.tum");
   std::ostringstream relations;
   relations.precision(15);
@@ -50,7 +50,7 @@ TEST_F(SlamCompare, TheRelationsMetricIsSlamEvalsAndSaysWhatSucceeds) {
               HasSubstr("mean translation error of the relations is"));
 }
 
-TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndSaysWhatSucceeds) {
+TEST_F(SlamCompare, TheRevisitErrorIsSlamEvalsAndDecidesSuccess) {
   test::writeGzipped(folder.path("laps.rawlog"), test::laps(240));
   const std::string compare = std::string("'") + SLAM_COMPARE + "' " + config +
                               " laps.rawlog -o out --methods general --seeds 1 -q --revisits 2.5 ";

@@ -33,7 +33,7 @@ TEST_F(SlamCompare, HelpAndVersion) {
   EXPECT_EQ(version.out, "slam-compare " HYBRID_SLAM_VERSION "\n");
 }
 
-TEST_F(SlamCompare, AWholeComparison) {
+TEST_F(SlamCompare, ACompleteComparison) {
   const Outcome o = run(kSmall + " --variant hybrid/eq9:line_weight.method=paper" + kTruth);
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
@@ -83,7 +83,7 @@ TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
   EXPECT_FALSE(std::regex_search(report, address));
 }
 
-TEST_F(SlamCompare, TheReportOf24RunsIsSmallAndTheSameAgain) {
+TEST_F(SlamCompare, TheReportOf24RunsIsSmallAndReproducible) {
   const std::string sweep =
       "--methods hybrid,general -n 3,5 --seeds 6 -q --set run.particles_every=2" + kTruth;
   ASSERT_EQ(run(sweep).status, 0);
@@ -134,7 +134,7 @@ TEST_F(SlamCompare, WithoutGnuplotTheReportHasItsTables) {
   EXPECT_THAT(report, Not(HasSubstr("<svg")));
 }
 
-TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
+TEST_F(SlamCompare, WithoutTruthItReportsSpreadTimeAndMemory) {
   const Outcome o = run("--methods general --seeds 2 -q");  // particles from the INI file
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_THAT(runs(), UnorderedElementsAre("general-3-1", "general-3-2"));
@@ -147,7 +147,7 @@ TEST_F(SlamCompare, WithoutTruthItStillTellsSpreadTimeAndMemory) {
   EXPECT_THAT(report, Not(HasSubstr("Success rates")));
 }
 
-TEST_F(SlamCompare, ParticlesArePicturedWhereTheRunsHaveThem) {
+TEST_F(SlamCompare, ParticlesArePlottedIfTheRunsHaveThem) {
   ASSERT_EQ(run(kSmall + kTruth + " --set run.particles_every=2").status, 0);
   const std::string report = this->report();
   EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
@@ -189,7 +189,7 @@ TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
     EXPECT_EQ(fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json")), time) << name;
 }
 
-TEST_F(SlamCompare, MoreSeedsKeepTheRunsThatAreThere) {
+TEST_F(SlamCompare, MoreSeedsKeepExistingRuns) {
   ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
   const auto before = fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json"));
   ASSERT_EQ(run("--methods general --seeds 2 -q").status, 0);
@@ -211,7 +211,7 @@ TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
   EXPECT_THAT(errorLine(shell(withCopy)), HasSubstr("out2/runs/general-3-1"));
 }
 
-TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersGoOn) {
+TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersContinue) {
   const Outcome o = run("--methods general --seeds 2 -q --variant broken:input.sensor_label=NONE" + kTruth);
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.err, HasSubstr("run failed: out/runs/general-broken-3-2: no scans of the laser `NONE`"));
@@ -251,7 +251,7 @@ TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
   EXPECT_EQ(table("results.csv").at(0).at("status"), "done");
 }
 
-TEST_F(SlamCompare, OptionsMayStandBeforeTheFiles) {
+TEST_F(SlamCompare, OptionsMayPrecedeTheFiles) {
   for (const std::string last : {"-m hybrid,general", "-n 4,5"}) {
     const Outcome list = shell(std::string("'") + SLAM_COMPARE + "' -o out --seeds 1 --list " + last + " " +
                                config + " " + kLog);
@@ -260,13 +260,13 @@ TEST_F(SlamCompare, OptionsMayStandBeforeTheFiles) {
   }
 }
 
-TEST_F(SlamCompare, TwoAtOnceInOneFolderIsAnError) {
+TEST_F(SlamCompare, TwoProcessesInOneFolderAreAnError) {
   fs::create_directories(folder.path("out"));
   EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),
               HasSubstr("another slam-compare is running"));
 }
 
-TEST_F(SlamCompare, EveryBadInputIsOneLineAndStartsNoRun) {
+TEST_F(SlamCompare, EveryWrongInputIsOneLineAndStartsNoRun) {
   folder.write("far.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
   folder.write("broken.relations", "1287388800.0 1287388801.0 1 0 0 0 0 0\n1287388800.0 oops\n");
   folder.write("far.relations", "1 2 1 0 0 0 0 0\n");

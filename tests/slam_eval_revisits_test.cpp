@@ -51,7 +51,7 @@ TEST_F(Revisits, ClosedAndDoubled) {
   EXPECT_LE(doubled.at("median_m"), doubled.at("p95_m"));
 }
 
-TEST_F(Revisits, OptionsAreTheDefinitions) {
+TEST_F(Revisits, OptionsAreApplied) {
   writeLaps(240, 0.3);
   const int revisits = figures(call).at("revisits");
   EXPECT_EQ(figures(call + "--distance 3 --path 20").at("revisits"), revisits);
@@ -60,7 +60,7 @@ TEST_F(Revisits, OptionsAreTheDefinitions) {
   EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is this close
 }
 
-TEST_F(Revisits, NoneIsAFinding) {
+TEST_F(Revisits, NoRevisitsAreNotAFailure) {
   writeLaps(80, 0);
   const json j = figures(call);
   EXPECT_EQ(j.at("scans"), 80);
@@ -70,7 +70,7 @@ TEST_F(Revisits, NoneIsAFinding) {
     EXPECT_TRUE(j.at(figure).is_null()) << figure;
 }
 
-TEST_F(Revisits, BadInput) {
+TEST_F(Revisits, WrongInput) {
   writeLaps(80, 0);
   write("other.tum", kStraight);
   EXPECT_EQ(errorLine("revisits --trajectory other.tum --rawlog laps.rawlog"),

@@ -59,7 +59,7 @@ TEST_F(SlamEval, AteByHand) {
   EXPECT_NEAR(j.at("alignment").at("y_m"), 5, 1e-9);
 }
 
-TEST_F(SlamEval, RpeByHandOverWayAndTime) {
+TEST_F(SlamEval, RpeByHandOverDistanceAndTime) {
   write("truth.tum", kStraight);
   write("estimate.tum", kLonger);
   for (const char* delta : {"2m", "2s"}) {
@@ -101,14 +101,14 @@ TEST_F(SlamEval, RelationsByHandWithAndWithoutOdometry) {
   }
 }
 
-TEST_F(SlamEval, ToleranceDecidesWhichPosesBelongTogether) {
+TEST_F(SlamEval, ToleranceDecidesWhichPosesArePaired) {
   write("truth.tum", kStraight);
   write("late.tum", "0.01 0 0 0 0 0 0 1\n1.01 1 0 0 0 0 0 1\n2.04 2 0 0 0 0 0 1\n");
   EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum").at("pairs"), 2);
   EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum --tolerance 0.05").at("pairs"), 3);
 }
 
-TEST_F(SlamEval, BadFiles) {
+TEST_F(SlamEval, WrongFiles) {
   write("truth.tum", kStraight);
   write("broken.tum", "# ok\n0 0 0 0 0 0 0 1\n1 0 0\n");
   write("empty.tum", "");
@@ -144,7 +144,7 @@ TEST_F(SlamEval, BadFiles) {
   EXPECT_THAT(errorLine("ate --trajectory . --reference truth.tum"), HasSubstr("cannot read the file"));
 }
 
-TEST_F(SlamEval, BadCommandLines) {
+TEST_F(SlamEval, WrongCommandLines) {
   write("truth.tum", kStraight);
   for (const char* call : {"", "map", "ate", "ate --trajectory truth.tum", "relations --trajectory truth.tum",
                            "ate --trajectory truth.tum --reference truth.tum --delta 1m",
@@ -161,7 +161,7 @@ TEST_F(SlamEval, BadCommandLines) {
   EXPECT_THAT(errorLine("rpe" + pair + "--delta 50m"), HasSubstr("no pose pairs 50 m apart"));
 }
 
-TEST_F(SlamEval, FailedWriteIsNotTakenForSuccess) {
+TEST_F(SlamEval, AFailedWriteIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   write("truth.tum", kStraight);
   const Outcome o = shell(std::string("('") + SLAM_EVAL_PROGRAM +

@@ -16,7 +16,7 @@ TEST(MessageOf, TheMessageOfAnMrptException) {
   }
 }
 
-TEST(MessageOf, OthersAsTheyAre) {
+TEST(MessageOf, OtherMessagesAreUnchanged) {
   EXPECT_EQ(messageOf(std::runtime_error("one\ntwo\n")), "one two");
   EXPECT_EQ(messageOf(std::bad_alloc()), "std::bad_alloc");
 }

@@ -37,9 +37,9 @@ void expectRanges(const LaserScan& scan, double right, double ahead, double left
   EXPECT_EQ(scan.beams[2].range, left);
 }
 
-TEST(LaserScan, CountsFromRightToLeft) { expectRanges(toLaserScan(threeBeams(), 20), 1, 2, 3); }
+TEST(LaserScan, BeamsRunFromRightToLeft) { expectRanges(toLaserScan(threeBeams(), 20), 1, 2, 3); }
 
-TEST(LaserScan, ClockwiseSensorIsTurnedRound) {
+TEST(LaserScan, ClockwiseBeamsAreReversed) {
   auto o = threeBeams();
   o.rightToLeft = false;
   expectRanges(toLaserScan(o, 20), 3, 2, 1);
@@ -100,7 +100,7 @@ TEST(LaserScan, UnusableReadingsAreInvalidOneByOne) {
   }
 }
 
-TEST(LaserScan, TheSmallerMaximumHolds) {
+TEST(LaserScan, TheSmallerMaximumRangeApplies) {
   auto o = threeBeams();
   o.maxRange = 2.5f;
   const LaserScan scan = toLaserScan(o, 20);

@@ -13,7 +13,7 @@
 namespace hybrid_slam {
 namespace {
 
-TEST(Numbers, AreReadWhole) {
+TEST(Numbers, AreParsedCompletely) {
   for (const char* text : {"0.5", "+0.5", "5e-1", ".5"}) EXPECT_EQ(parseFinite(text), 0.5) << text;
   EXPECT_EQ(parseFinite("-2"), -2);
   EXPECT_EQ(parseNumber("-inf"), -std::numeric_limits<double>::infinity());
@@ -23,7 +23,7 @@ TEST(Numbers, AreReadWhole) {
   for (const char* text : {"nan", "inf", "-inf"}) EXPECT_FALSE(parseFinite(text)) << text;
 }
 
-TEST(Numbers, AreWrittenAsPrintfDoes) {
+TEST(Numbers, AreFormattedLikePrintf) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const double value = std::pow(10, 20 * random.uniform() - 10) * random.gaussian();

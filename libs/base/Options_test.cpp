@@ -54,7 +54,7 @@ TEST(Options, LoadsEveryType) {
   EXPECT_EQ(s.colour, Colour::blue);
 }
 
-TEST(Options, KeepsWhatTheSectionDoesNotName) {
+TEST(Options, KeepsKeysThatTheSectionLacks) {
   Sample s;
   s.count = 42;
   load(s, "length = 1\n");
@@ -80,7 +80,7 @@ TEST(Options, WrongTypeAndRangeSayWhatWasExpected) {
   EXPECT_THAT(errorOf("length =\n"), HasSubstr("wrong value ``"));
 }
 
-TEST(Options, SavedAndLoadedAgainIsTheSame) {
+TEST(Options, SaveAndLoadRoundTrip) {
   Sample s;
   s.length = 1.0 / 3;
   s.angle = 0.5 * M_PI / 180;

@@ -46,7 +46,7 @@ std::string noise(size_t lines) {
   return text;
 }
 
-TEST(LineReader, GivesPlainAndGzippedLinesWithTheirNumbers) {
+TEST(LineReader, ReadsPlainAndGzippedLinesWithTheirNumbers) {
   const TemporaryFolder folder;
   const std::string text = "one\n\nthree \r\nlast without an end";
   folder.write("plain.gz", text);  // the content decides, not the name
@@ -78,7 +78,7 @@ TEST(LineReader, LinesLongerThanTheBufferAndZeroBytesPass) {
   EXPECT_THAT(readAll(lines), ElementsAre(longLine, zeros));
 }
 
-TEST(LineReader, WhatCannotBeReadSaysWhy) {
+TEST(LineReader, UnreadableFilesGiveTheReason) {
   const TemporaryFolder folder;
   EXPECT_EQ(errorOf(folder.path("none")),
             "no such file: " + folder.path("none") + "; expected a log, plain or gzipped");
@@ -87,7 +87,7 @@ TEST(LineReader, WhatCannotBeReadSaysWhy) {
               HasSubstr("line 1; expected lines of at most 1 MiB"));
 }
 
-TEST(LineReader, CutGzipIsAnErrorWhereverItIsCut) {
+TEST(LineReader, TruncatedGzipIsAnErrorForEveryCut) {
   const TemporaryFolder folder;
   writeGzip(folder.path("whole"), noise(20000));
   std::ifstream in(folder.path("whole"), std::ios::binary);

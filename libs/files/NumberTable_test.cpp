@@ -74,7 +74,7 @@ TEST_F(NumberTable, EmptyMissingAndUnreadableFiles) {
   EXPECT_THROW(readNumberTable(testing::TempDir(), "a b c"), InputError);  // a folder
 }
 
-TEST_F(NumberTable, GzipFileThatWasCutOffIsNotTakenForAShortOne) {
+TEST_F(NumberTable, TruncatedGzipIsAnError) {
   std::string text;
   for (int i = 0; i < 20000; ++i) text += std::to_string(i * 7919 % 10007) + " 0.5 -1\n";
   writeGzipped(text);

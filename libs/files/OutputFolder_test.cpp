@@ -34,7 +34,7 @@ std::string errorOf(const std::function<void()>& body) {
   return "no error";
 }
 
-TEST(OutputFolder, IsMadeWithItsParentsAndLeftEmpty) {
+TEST(OutputFolder, IsCreatedEmptyWithItsParents) {
   const TemporaryFolder root;
   const OutputFolder folder(root.path("a/b/c"));
   EXPECT_THAT(namesIn(root.path("a/b/c")), IsEmpty());
@@ -65,7 +65,7 @@ TEST(OutputFolder, AStreamThatFailedIsAnError) {
   EXPECT_THAT(namesIn(root.path("out")), IsEmpty());
 }
 
-TEST(OutputFolder, AFileOrADeviceInItsPlace) {
+TEST(OutputFolder, AFileOrDeviceOfThatNameIsAnError) {
   const TemporaryFolder root;
   const std::string file = root.write("file", "content");
   EXPECT_THAT(errorOf([&] { OutputFolder{file}; }), HasSubstr(file));
@@ -74,7 +74,7 @@ TEST(OutputFolder, AFileOrADeviceInItsPlace) {
   EXPECT_EQ(test::contentOf(file), "content");
 }
 
-TEST(OutputFolder, AFolderInPlaceOfAResult) {
+TEST(OutputFolder, AFolderWithTheNameOfAResultIsAnError) {
   const TemporaryFolder root;
   const OutputFolder folder(root.path("out"));
   fs::create_directory(folder.path("x"));
@@ -90,7 +90,7 @@ TEST(OutputFolder, NotWritable) {
   EXPECT_THAT(errorOf([&] { OutputFolder{root.path("out")}; }), HasSubstr("not writable"));
 }
 
-TEST(GrowingFile, TakesNumbersTheSameInEveryLocale) {
+TEST(GrowingFile, WritesNumbersTheSameInEveryLocale) {
   const test::CommaLocale german;
   const TemporaryFolder root;
   GrowingFile file(root.path("steps.csv"));
@@ -99,7 +99,7 @@ TEST(GrowingFile, TakesNumbersTheSameInEveryLocale) {
   EXPECT_EQ(test::contentOf(root.path("steps.csv")), "1234 0.5");
 }
 
-TEST(GrowingFile, HasItsNameOnlyOnceFinished) {
+TEST(GrowingFile, GetsItsNameWhenFinished) {
   const TemporaryFolder root;
   {
     GrowingFile file(root.path("steps.csv"));

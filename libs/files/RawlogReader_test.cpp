@@ -52,7 +52,7 @@ TEST(RawlogReader, ReadsPlainAndGzipped) {
   EXPECT_EQ(readAll(test::writeGzipped(folder.path("gzip"), smallLog())), (Read{5, "", ""}));
 }
 
-TEST(RawlogReader, EveryCutOfAPlainLogIsToldFromItsEnd) {
+TEST(RawlogReader, EveryCutOfAPlainLogIsDetected) {
   const TemporaryFolder folder;
   std::vector<size_t> ends;
   const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), smallLog(), &ends));
@@ -109,7 +109,7 @@ TEST(RawlogReader, AWrongCheckSumIsADefect) {
   }
 }
 
-TEST(RawlogReader, AnEmptyObjectIsPassedOver) {
+TEST(RawlogReader, AnEmptyObjectIsSkipped) {
   const TemporaryFolder folder;
   const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
   const std::string null = std::string("\x87") + "nullptr" + "\x88";
@@ -128,7 +128,7 @@ TEST(RawlogReader, AnUnknownClassIsADefectInOneLine) {
   EXPECT_THAT(read.defect, testing::Not(HasSubstr("====")));
 }
 
-TEST(RawlogReader, WhatIsNoLog) {
+TEST(RawlogReader, AFileThatIsNotALogIsAnError) {
   const TemporaryFolder folder;
   EXPECT_THAT(readAll(folder.path("none")).error, HasSubstr("no such file: " + folder.path("none")));
   EXPECT_THAT(readAll(folder.path("")).error, HasSubstr("not a file"));

@@ -20,7 +20,7 @@ CObservationOdometry odometry(double x) {
   return observation;
 }
 
-TEST(RawlogWriter, WritesWhatMrptReads) {
+TEST(RawlogWriter, WritesFilesThatMrptReads) {
   const TemporaryFolder folder;
   RawlogWriter writer(folder.path("out.rawlog"));
   for (int i = 0; i < 1000; ++i) writer.write(odometry(i));
@@ -32,7 +32,7 @@ TEST(RawlogWriter, WritesWhatMrptReads) {
     EXPECT_EQ(rawlog.asObservation<CObservationOdometry>(i)->odometry.x(), static_cast<double>(i));
 }
 
-TEST(RawlogWriter, HasItsNameOnlyOnceFinished) {
+TEST(RawlogWriter, GetsItsNameWhenFinished) {
   const TemporaryFolder folder;
   const std::string path = folder.write("out.rawlog", "the old one"),
                     partial = folder.path(".partial.out.rawlog");
@@ -50,7 +50,7 @@ TEST(RawlogWriter, HasItsNameOnlyOnceFinished) {
   EXPECT_NE(fs::file_size(path), 11u);
 }
 
-TEST(RawlogWriter, WhereItCannotWriteIsAnError) {
+TEST(RawlogWriter, AnUnwritableFileIsAnError) {
   const TemporaryFolder folder;
   EXPECT_THROW(RawlogWriter(folder.path("none/out.rawlog")), InputError);
   EXPECT_THROW(RawlogWriter(folder.path("")), InputError);

@@ -65,7 +65,7 @@ TEST_F(TrajectoryFile, TumRoundedQuaternionIsAcceptedAndABrokenOneIsNot) {
   }
 }
 
-TEST_F(TrajectoryFile, SavedAndLoadedAgainIsTheSameInTheSameOrder) {
+TEST_F(TrajectoryFile, SaveAndLoadRoundTripKeepsTheOrder) {
   RandomStream random(1, 0, 0);
   Trajectory saved;
   for (int i = 0; i < 1000; ++i) {  // timestamps as in real logs: they step back and repeat
@@ -85,14 +85,14 @@ TEST_F(TrajectoryFile, SavedAndLoadedAgainIsTheSameInTheSameOrder) {
   }
 }
 
-TEST_F(TrajectoryFile, SavingLeavesTheStreamsFormatAlone) {
+TEST_F(TrajectoryFile, SavingKeepsTheStreamsFormat) {
   std::ostringstream text;
   saveTum({{12.5, {1, -2, 0}}}, text);
   text << 0.5;
   EXPECT_EQ(text.str(), "12.500000 1.000000000 -2.000000000 0 0 0 0.000000000 1.000000000\n0.5");
 }
 
-TEST_F(TrajectoryFile, OdometryKeepsItsRowsAsTheyStand) {
+TEST_F(TrajectoryFile, OdometryKeepsTheOrderOfItsRows) {
   const Trajectory odometry = loadOdometry(fileWith("2 0.5 -1 4\n1 0 0 0\n"));
   ASSERT_EQ(odometry.size(), 2u);
   EXPECT_EQ(odometry[0].timestamp, 2);

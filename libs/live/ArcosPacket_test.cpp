@@ -32,7 +32,7 @@ std::vector<Payload> decodedBy(arcos::Decoder& decoder, const std::string& bytes
   return all;
 }
 
-TEST(ArcosPacket, CommandsAreAsTheManualPrintsThem) {
+TEST(ArcosPacket, CommandsMatchTheManual) {
   EXPECT_EQ(arcos::encode({arcos::sync0}), bytesOf({0xFA, 0xFB, 3, 0, 0, 0}));
   EXPECT_EQ(arcos::encode({arcos::sync1}), bytesOf({0xFA, 0xFB, 3, 1, 0, 1}));
   EXPECT_EQ(arcos::encode({arcos::sync2}), bytesOf({0xFA, 0xFB, 3, 2, 0, 2}));
@@ -41,7 +41,7 @@ TEST(ArcosPacket, CommandsAreAsTheManualPrintsThem) {
   EXPECT_EQ(arcos::encode({4, 0x3B, 1, 0}), bytesOf({0xFA, 0xFB, 6, 4, 0x3B, 1, 0, 5, 0x3B}));
 }
 
-TEST(ArcosPacket, TheSumOfAnOddPacketXorsItsLastByte) {
+TEST(ArcosPacket, TheChecksumXorsAnOddLastByte) {
   EXPECT_EQ(arcos::checksum({0x12, 0x34, 0x56}), 0x1234 ^ 0x56);
   EXPECT_EQ(arcos::checksum({0xFF, 0xFF, 0x00, 0x02}), 0x0001) << "16 bits";
 }
@@ -58,18 +58,18 @@ TEST(ArcosPacket, DecodesASip) {
   EXPECT_FALSE(sip->isMoving);
 }
 
-TEST(ArcosPacket, TheHighestBitOfACounterDoesNotCount) {
+TEST(ArcosPacket, TheHighestBitOfACounterIsIgnored) {
   EXPECT_EQ(arcos::decodeSip({0x33, 0x01, 0x80, 0, 0, 0, 0})->x, 1);
   EXPECT_TRUE(arcos::decodeSip({0x33, 0, 0, 0, 0, 0, 0})->isMoving);
 }
 
-TEST(ArcosPacket, OtherPacketsAreNoSips) {
+TEST(ArcosPacket, OtherPacketsAreNotSips) {
   EXPECT_FALSE(arcos::decodeSip({0xB0, 0, 0, 0, 0, 0, 0})) << "I/O";
   EXPECT_FALSE(arcos::decodeSip({0x32, 0, 0, 0, 0, 0})) << "too short";
   EXPECT_FALSE(arcos::decodeSip({}));
 }
 
-TEST(ArcosPacket, ComesByteByByte) {
+TEST(ArcosPacket, ArrivesByteByByte) {
   arcos::Decoder decoder;
   size_t packets = 0;
   for (const char byte : kSip + kSip) packets += decodedBy(decoder, std::string(1, byte)).size();
@@ -88,7 +88,7 @@ TEST(ArcosPacket, FindsThePacketsInNoise) {
   }
 }
 
-TEST(ArcosPacket, NoChangedBitPasses) {
+TEST(ArcosPacket, EveryChangedBitIsDetected) {
   for (size_t i = 0; i < kSip.size(); ++i)
     for (int bit = 0; bit < 8; ++bit) {
       std::string wrong = kSip;
@@ -113,7 +113,7 @@ arcos::Sip sip(int x, int y, int heading = 0) {
           true};
 }
 
-TEST(SipOdometry, CountsOnOverTheWrapAround) {
+TEST(SipOdometry, ContinuesAcrossTheWrapAround) {
   SipOdometry odometry(0.001);
   odometry(sip(32700, 100));
   auto pose = odometry(sip(32767, 0));
@@ -127,13 +127,13 @@ TEST(SipOdometry, CountsOnOverTheWrapAround) {
   EXPECT_NEAR(pose.y, -0.3 + 100, 1e-9);
 }
 
-TEST(SipOdometry, StartsAtZeroAndTakesTheUnitsOfItsRobot) {
+TEST(SipOdometry, StartsAtZeroAndUsesTheUnitsOfItsRobot) {
   SipOdometry odometry(0.000485);
   EXPECT_EQ(odometry(sip(5000, 6000)).x, 0);
   EXPECT_NEAR(odometry(sip(6000, 6000)).x, 0.485, 1e-12);
 }
 
-TEST(SipOdometry, HeadingIs4096ToTheTurn) {
+TEST(SipOdometry, HeadingHas4096UnitsPerTurn) {
   SipOdometry odometry(0.001);
   EXPECT_NEAR(odometry(sip(0, 0, 1024)).phi, M_PI / 2, 1e-12);
   EXPECT_NEAR(odometry(sip(0, 0, -1024)).phi, -M_PI / 2, 1e-12);

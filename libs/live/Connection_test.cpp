@@ -135,7 +135,7 @@ TEST(Connection, CyclesOfSeveralThreadsAreInOrder) {
   EXPECT_EQ(listener.client().lost(), 0u);
 }
 
-TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
+TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndBlocksNoOne) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(20), events.log());
   TcpSocket lazy = TcpSocket::connectTo(kAnywhere, server.port(), 10);
@@ -169,7 +169,7 @@ TEST(Connection, AClientThatDoesNotReadLosesOldCyclesAndHoldsUpNobody) {
   EXPECT_TRUE(test::happens([&] { return events.count("keeps up again") == 1; }));
 }
 
-TEST(Connection, AHundredSilentClientsStopNobody) {
+TEST(Connection, AHundredSilentClientsBlockNoOne) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   std::vector<TcpSocket> silent;
@@ -184,7 +184,7 @@ TEST(Connection, AHundredSilentClientsStopNobody) {
   EXPECT_TRUE(test::happens([&] { return listener.count() == 21; }));
 }
 
-TEST(Connection, MoreClientsThanPlacesWaitUntilOneLeaves) {
+TEST(Connection, SurplusClientsWaitUntilOneLeaves) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(10, 2), events.log());
   auto first = std::make_unique<Listener>(server.port(), events);
@@ -201,7 +201,7 @@ TEST(Connection, MoreClientsThanPlacesWaitUntilOneLeaves) {
   }));
 }
 
-TEST(Connection, WhatClientsSayIsThrownAway) {
+TEST(Connection, BytesFromClientsAreDiscarded) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   TcpSocket chatty = TcpSocket::connectTo(kAnywhere, server.port(), 10);
@@ -212,7 +212,7 @@ TEST(Connection, WhatClientsSayIsThrownAway) {
   EXPECT_TRUE(test::happens([&] { return listener.count() == 1; }));
 }
 
-TEST(Connection, AServerThatIsNotThereIsWaitedForAndReportedOnce) {
+TEST(Connection, AMissingServerIsRetriedAndReportedOnce) {
   test::Events events;
   uint16_t port = 0;
   {
@@ -229,7 +229,7 @@ TEST(Connection, AServerThatIsNotThereIsWaitedForAndReportedOnce) {
   EXPECT_TRUE(test::happens([&] { return listener.count() == 1; }));
 }
 
-TEST(Connection, AfterAnotherServersStartTheOdometryGoesOn) {
+TEST(Connection, OdometryContinuesAfterAServerRestart) {
   test::Events events;
   auto server = std::make_unique<ObservationServer>(kAnywhere, 0, limits(), events.log());
   const uint16_t port = server->port();
@@ -248,7 +248,7 @@ TEST(Connection, AfterAnotherServersStartTheOdometryGoesOn) {
   EXPECT_EQ(events.count("continues from the last pose"), 1u);
 }
 
-TEST(Connection, WhatTheSameServerMadeMeanwhileIsCountedAsLost) {
+TEST(Connection, CyclesMissedWhileDisconnectedCountAsLost) {
   test::Events events;
   FakeServer server({bytesOf(7, 1, 1), bytesOf(7, 5, 5) + endOf(7, 6)});
   Listener listener(server.port(), events);
@@ -269,7 +269,7 @@ void expectSurvived(const std::string& wrong, const std::string& report) {
   EXPECT_EQ(events.count(report), 1u) << events.text();
 }
 
-TEST(Connection, WrongBytesEndTheConnectionAndNothingElse) {
+TEST(Connection, WrongBytesEndOnlyTheConnection) {
   expectSurvived("garbage", "bytes that are not a message");
   expectSurvived(std::string(100000, '\0'), "bytes that are not a message");
   expectSurvived(bytesOf(7, 2, 2).substr(0, 100), "closed the connection");
@@ -298,7 +298,7 @@ TEST(Connection, AHalfOpenConnectionIsGivenUp) {
   EXPECT_EQ(events.count("silent"), 1u) << events.text();
 }
 
-TEST(Connection, AServerWithNothingToSayBeats) {
+TEST(Connection, AnIdleServerSendsHeartbeats) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   TcpSocket socket = TcpSocket::connectTo(kAnywhere, server.port(), 10);
@@ -312,7 +312,7 @@ TEST(Connection, AServerWithNothingToSayBeats) {
   EXPECT_EQ(message->kind, MessageKind::heartbeat);
 }
 
-TEST(Connection, WhereItCannotListenIsAnError) {
+TEST(Connection, AnAddressItCannotListenOnIsAnError) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   EXPECT_THROW(ObservationServer(kAnywhere, server.port(), limits(), events.log()), InputError);

@@ -52,14 +52,14 @@ TEST(CycleGrouper, ACycleEndsWithTheFirstOdometryAfterItsScan) {
   EXPECT_EQ(c.texts.size(), 3u);
 }
 
-TEST(CycleGrouper, OdometryOfTheScansOwnTimeIsEnough) {
+TEST(CycleGrouper, OdometryAtTheScansTimeClosesTheCycle) {
   Cycles c(5);
   c.odo(10), c.laser(10);
   c.odo(10.2), c.laser(10.2);
   EXPECT_THAT(c.texts, ElementsAre("o10.00 s10.00", "o10.20 s10.20"));
 }
 
-TEST(CycleGrouper, AScanThatComesLateIsPutInItsPlace) {
+TEST(CycleGrouper, ALateScanIsSortedIn) {
   Cycles c(5);
   c.odo(10.0), c.odo(10.1), c.odo(10.2), c.laser(10.15);
   EXPECT_THAT(c.texts, ElementsAre("o10.00 o10.10 s10.15 o10.20"));
@@ -93,7 +93,7 @@ TEST(CycleGrouper, WithoutARateEveryScanIsACycle) {
   EXPECT_EQ(c.texts.size(), 5u);
 }
 
-TEST(CycleGrouper, NobodyWaitsWhereThereIsNoOdometry) {
+TEST(CycleGrouper, WithoutOdometryScansDoNotWait) {
   Cycles c(5);
   c.laser(10), c.laser(10.2);
   EXPECT_THAT(c.texts, ElementsAre("s10.00", "s10.20"));
@@ -103,7 +103,7 @@ TEST(CycleGrouper, NobodyWaitsWhereThereIsNoOdometry) {
   EXPECT_EQ(c.texts.back(), "o10.30 s10.40 s10.60 s11.00 s11.50") << "the odometry has ended";
 }
 
-TEST(CycleGrouper, OdometryAloneIsGivenEverySecond) {
+TEST(CycleGrouper, OdometryAloneIsDeliveredEverySecond) {
   Cycles c(5);
   for (int i = 0; i <= 30; ++i) c.odo(10 + 0.1 * i);
   c.grouper.finish();
@@ -111,7 +111,7 @@ TEST(CycleGrouper, OdometryAloneIsGivenEverySecond) {
   EXPECT_LE(c.texts.size(), 4u);
 }
 
-TEST(CycleGrouper, AClockThatIsSetBackStartsAnew) {
+TEST(CycleGrouper, AClockThatIsSetBackStartsANewCycle) {
   Cycles c(5);
   c.odo(1000), c.laser(1000);
   c.odo(10), c.laser(10), c.odo(10.2), c.laser(10.2);

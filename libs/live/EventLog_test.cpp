@@ -8,7 +8,7 @@
 namespace hybrid_slam::live {
 namespace {
 
-TEST(EventLog, TellsAStateOnceUntilItChanges) {
+TEST(EventLog, ReportsAStateOnceUntilItChanges) {
   std::vector<std::string> lines;
   EventLog log("program", [&lines](const std::string& line) { lines.push_back(line); });
   for (int i = 0; i < 3; ++i) log.report("server", "refused");

@@ -54,7 +54,7 @@ TEST(ObservationWire, TheHeaderIsAsDocumented) {
   EXPECT_EQ(bytes.size(), 32u);
 }
 
-TEST(ObservationWire, ObservationsComeBackToTheBit) {
+TEST(ObservationWire, ObservationsRoundTripBitForBit) {
   const auto back = deserialise(serialise(cycle()));
   ASSERT_EQ(back->size(), 2u);
   EXPECT_EQ(serialise(*back), serialise(cycle()));
@@ -66,7 +66,7 @@ TEST(ObservationWire, ObservationsComeBackToTheBit) {
   EXPECT_EQ(scan->timestamp, original->timestamp);
 }
 
-TEST(ObservationWire, MessagesMayComeByteByByteOrTogether) {
+TEST(ObservationWire, MessagesMayArriveByteByByteOrTogether) {
   const std::string bytes = encode(message()) + encode(message(MessageKind::heartbeat)) + encode(message());
   MessageDecoder decoder;
   std::vector<Message> messages;
@@ -89,7 +89,7 @@ TEST(ObservationWire, MessagesMayComeByteByByteOrTogether) {
   EXPECT_EQ(messages[1].kind, MessageKind::heartbeat);
 }
 
-TEST(ObservationWire, NoChangedBitPasses) {
+TEST(ObservationWire, EveryChangedBitIsDetected) {
   const std::string bytes = encode(message());
   for (size_t i = 0; i < bytes.size(); i += i < 40 ? 1 : 97)
     for (int bit = 0; bit < 8; ++bit) {
@@ -99,7 +99,7 @@ TEST(ObservationWire, NoChangedBitPasses) {
     }
 }
 
-TEST(ObservationWire, GarbageShowsAtOnce) {
+TEST(ObservationWire, GarbageIsDetectedImmediately) {
   EXPECT_THAT(answerTo("G"), HasSubstr("not a message"));
   EXPECT_THAT(answerTo("HSO2"), HasSubstr("not a message"));
   EXPECT_EQ(answerTo("HSO"), "");
@@ -108,7 +108,7 @@ TEST(ObservationWire, GarbageShowsAtOnce) {
   EXPECT_THAT(answerTo(bytes), HasSubstr("unknown kind 9"));
 }
 
-TEST(ObservationWire, ALengthOfFourGigabytesIsNotWaitedFor) {
+TEST(ObservationWire, ALengthOfFourGigabytesIsAnError) {
   std::string header = encode(message()).substr(0, 32);
   for (size_t i = 24; i < 28; ++i) header[i] = '\xff';
   EXPECT_EQ(answerTo(header), "a message of 4294967295 bytes");
@@ -120,7 +120,7 @@ TEST(ObservationWire, AWrongChecksum) {
   EXPECT_THAT(answerTo(bytes), HasSubstr("wrong checksum"));
 }
 
-TEST(ObservationWire, OnlyOneWholeFrameOfObservationsIsTaken) {
+TEST(ObservationWire, OnlyOneCompleteFrameIsAccepted) {
   const std::string payload = serialise(cycle());
   EXPECT_EQ(errorOf(payload), "no error");
   EXPECT_THAT(errorOf(payload + "x"), HasSubstr("bytes after"));

@@ -22,7 +22,7 @@ TEST(OdometryContinuity, ChangesNothingUntilARestart) {
   EXPECT_EQ(early(first), first) << "there is nothing to go on from";
 }
 
-TEST(OdometryContinuity, GoesOnFromTheLastPoseInItsDirection) {
+TEST(OdometryContinuity, ContinuesFromTheLastPose) {
   OdometryContinuity odometry;
   odometry({2, 1, M_PI / 2});
   odometry.restart();
@@ -35,7 +35,7 @@ TEST(OdometryContinuity, GoesOnFromTheLastPoseInItsDirection) {
   EXPECT_NEAR(odometry({7, 7, 0}).y, 2, 1e-12) << "twice";
 }
 
-TEST(OdometryContinuity, AJumpThatNoRobotMakesIsARestart) {
+TEST(OdometryContinuity, AnImpossibleJumpIsARestart) {
   OdometryContinuity odometry;
   odometry({1000, 0, 0});
   EXPECT_EQ(odometry({1001, 0, 0}).x, 1001);
@@ -43,7 +43,7 @@ TEST(OdometryContinuity, AJumpThatNoRobotMakesIsARestart) {
   EXPECT_EQ(odometry({0.5, 0, 0}).x, 1001.5);
 }
 
-TEST(OdometryContinuity, OnlyOdometryThatIsANumberCounts) {
+TEST(OdometryContinuity, OdometryThatIsNotFiniteIsIgnored) {
   OdometryContinuity odometry;
   rebase(*test::odometry(1, {1, 0, 0}), odometry);
   odometry.restart();

@@ -38,7 +38,7 @@ Played played(const test::Log& log, double cycleRate, size_t stopAfter = 1000000
   return out;
 }
 
-TEST(RawlogPlayer, GivesEveryScanOfALogWithItsMotion) {
+TEST(RawlogPlayer, DeliversEveryScanOfALogWithItsMotion) {
   const Played p = played(test::laps(50), 5);
   ASSERT_EQ(p.readings.size(), 50u);
   EXPECT_EQ(p.cycles, 50u);
@@ -46,7 +46,7 @@ TEST(RawlogPlayer, GivesEveryScanOfALogWithItsMotion) {
     EXPECT_LT((p.readings[i].motion - (test::poseOnLap(i, 80) - test::poseOnLap(i - 1, 80))).norm(), 1e-6);
 }
 
-TEST(RawlogPlayer, ThinsAFastLogOut) {
+TEST(RawlogPlayer, ThinsAFastLog) {
   test::Log log;
   for (int i = 0; i < 100; ++i) {  // 50 scans/s for 2 s
     log.push_back(test::odometry(10 + 0.02 * i, {0.01 * i, 0, 0}));
@@ -68,7 +68,7 @@ TEST(RawlogPlayer, TheActionsOfPairsBecomeOdometry) {
   EXPECT_NEAR(p.readings[2].motion.y, 0, 1e-9);
 }
 
-TEST(RawlogPlayer, StopsWhenItIsToldTo) { EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u); }
+TEST(RawlogPlayer, StopsOnRequest) { EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u); }
 
 TEST(RawlogPlayer, ALogWithoutScansIsAnError) {
   EXPECT_THROW(played({test::odometry(1, {})}, 5), InputError);

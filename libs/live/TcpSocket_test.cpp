@@ -88,7 +88,7 @@ TEST(TcpSocket, StoppingDoesNotWaitForAnAnswer) {
 
 TEST(TcpSocket, StoppingDoesNotWaitForALookUp) { EXPECT_LT(timeToStop("slow.test", 4550), 3); }
 
-TEST(TcpSocket, WhoDoesNotAnswerIsGivenUp) {
+TEST(TcpSocket, AnUnansweredConnectionTimesOut) {
   const FullListener full("127.0.0.1");
   EXPECT_THROW(TcpSocket::connectTo("127.0.0.1", full.port(), 0.2), std::runtime_error);
   EXPECT_THROW(TcpSocket::connectTo("slow.test", 4550, 0.2), std::runtime_error);

@@ -78,7 +78,7 @@ TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
 }
 
 /// MRPT's filter also depends only on the seed, in any thread.
-TEST_F(LiveRunTest, SoItDoesForMrptsFilter) {
+TEST_F(LiveRunTest, TheReplayWithMrptsFilterGivesTheSameBytes) {
   options.maxWaiting = 1000;
   const std::string more = "[run]\nmethod = stock\n";
   runLive(test::laps(100), more);
@@ -86,7 +86,7 @@ TEST_F(LiveRunTest, SoItDoesForMrptsFilter) {
   expectSameResults();
 }
 
-TEST_F(LiveRunTest, SoItDoesForSensorsThatAreOutOfStep) {
+TEST_F(LiveRunTest, TheReplayOfUnsynchronisedSensorsGivesTheSameBytes) {
   options.maxWaiting = 1000;
   test::Log log;
   log.push_back(test::scan(999.9, test::poseOnLap(0, 80)));
@@ -103,7 +103,7 @@ TEST_F(LiveRunTest, SoItDoesForSensorsThatAreOutOfStep) {
   expectSameResults();
 }
 
-TEST_F(LiveRunTest, WithoutOdometryWhereTheInputSaysSo) {
+TEST_F(LiveRunTest, WithoutOdometryIfItIsNotRequired) {
   options.maxWaiting = 1000;
   test::Log log;
   for (size_t i = 0; i < 30; ++i) {

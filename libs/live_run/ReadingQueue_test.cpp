@@ -26,7 +26,7 @@ TEST(ReadingQueue, KeepsUpToItsLimitInOrder) {
   EXPECT_FALSE(queue.pop());
 }
 
-TEST(ReadingQueue, PastItTheNewestCarriesTheMotionOfAll) {
+TEST(ReadingQueue, BeyondTheLimitTheNewestCarriesTheMotionOfAll) {
   ReadingQueue queue(3);
   for (int i = 0; i < 4; ++i) queue.push(reading(i, {1, 0, M_PI / 2}), {});
   queue.push(reading(4), {});

@@ -31,7 +31,7 @@ TEST(BeamAngles, AnUnknownNumberHasNoStep) {
   for (const size_t beams : {0u, 1u, 17u, 182u, 359u, 5000u}) EXPECT_FALSE(angularStepFor(beams)) << beams;
 }
 
-TEST(BeamAngles, TheMiddleBeamLooksAhead) {
+TEST(BeamAngles, TheMiddleBeamPointsAhead) {
   for (size_t beams = 1; beams < 50; ++beams) {
     const BeamAngles angles = beamAngles(beams, 0.1);
     EXPECT_NEAR(angles.first + static_cast<double>(beams / 2) * angles.step, 0, 1e-12) << beams;

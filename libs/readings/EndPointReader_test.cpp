@@ -45,7 +45,7 @@ TEST_F(EndPointReader, LaserAndRangeCanBeChosen) {
   EXPECT_THROW(loadEndPoints(rawlog(), "NONE"), InputError);
 }
 
-TEST_F(EndPointReader, ALogThatIsCutOffIsAnError) {
+TEST_F(EndPointReader, ATruncatedLogIsAnError) {
   test::writePlain(rawlog(), test::laps(20));
   std::filesystem::resize_file(rawlog(), std::filesystem::file_size(rawlog()) - 100);
   EXPECT_THROW(loadEndPoints(rawlog()), InputError);

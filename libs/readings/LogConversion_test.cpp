@@ -77,7 +77,7 @@ Converted convert(const std::string& log, const LogConversionOptions& options = 
   return convertFile(folder.write("in.log", log), options);
 }
 
-TEST(LogConversion, KeepsTheOrderAndTheTimesAlsoWhereTheyStepBack) {
+TEST(LogConversion, KeepsOrderAndTimesThatStepBack) {
   auto result =
       convert(odom("0 0 0", "100.25") + laser("FLASER", 181, "1 0 0", "103.123456") + odom("2 0 0", "101.5") +
               laser("FLASER", 181, "2 0 0", "101.5") + odom("3 4 0", "100"));
@@ -98,7 +98,7 @@ TEST(LogConversion, TimesOfTodayKeepTheirMicroseconds) {
   EXPECT_NEAR(mrpt::Clock::toDouble(result.scan(1)->timestamp), 1134864629.895182, 5e-7);
 }
 
-TEST(LogConversion, AScansOdometryIsWrittenUnlessItStandsThere) {
+TEST(LogConversion, AScansOdometryIsWrittenUnlessIdentical) {
   const auto entries = [](const std::string& log) { return convert(log).entries(); };
   const std::string scan = laser("FLASER", 181, "1 2 3", "10");
   EXPECT_THAT(entries(scan), ElementsAre("ODOMETRY 10", "FLASER 10"));
@@ -240,7 +240,7 @@ TEST(LogConversion, OtherRecordsAreCountedByName) {
   EXPECT_THAT(result.brokenLines, IsEmpty());
 }
 
-TEST(LogConversion, ATellingFormatOverridesTheContent) {
+TEST(LogConversion, AGivenFormatOverridesTheContent) {
   LogConversionOptions options;
   options.format = formatNamed("dpslam");
   EXPECT_THROW(convert(laser("FLASER", 181, "0 0 0", "1"), options), InputError);
@@ -272,7 +272,7 @@ TEST(LogConversion, ActionObservationPairsAddUpToTheOdometry) {
   }
 }
 
-TEST(LogConversion, NothingIsLeftWhereItFails) {
+TEST(LogConversion, AFailureLeavesNoFile) {
   const files::TemporaryFolder folder;
   const auto ignore = [](size_t, const std::string&) {};
   const auto errorOf = [&](const std::string& in, const std::string& out) -> std::string {

@@ -82,7 +82,7 @@ TEST(LogParserCarmen, RearLaserLooksBackwards) {
   expectPose(record.laserPose, 0, 0, M_PI);
 }
 
-TEST(LogParserCarmen, ParametersMountTheLasersFromThereOn) {
+TEST(LogParserCarmen, ParametersApplyToLaterRows) {
   const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
   expectPose(parseAs<LaserRecord>(*parser, kFlaser).laserPose, 0, 0, 0);
   parseAs<std::monostate>(*parser, "PARAM robot_frontlaser_offset 0.40 nohost 0");
@@ -127,14 +127,14 @@ TEST(LogParserCarmen, RobotLaserCarriesItsOwnGeometry) {
               HasSubstr("angular resolution"));
 }
 
-TEST(LogParserCarmen, CommentsBlanksAndOtherRecordsPass) {
+TEST(LogParserCarmen, CommentsBlanksAndOtherRecordsAreSkipped) {
   for (const char* line : {"", "   \t\r", "# message_name [message contents]", "#FLASER 1"})
     parseAs<std::monostate>(formatNamed("carmen"), line);
   EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "SYNC tag 0 host 0").name, "SYNC");
   EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "RAWLASER2 0 1 2").name, "RAWLASER2");
 }
 
-TEST(LogParserCarmen, WindowsLineEndsAndTabsPass) {
+TEST(LogParserCarmen, WindowsLineEndsAndTabsAreAccepted) {
   EXPECT_EQ(parseAs<OdometryRecord>(formatNamed("carmen"), "ODOM\t1 2 3  0 0 0 +5 host 6\r").time, 5);
 }
 
@@ -171,7 +171,7 @@ TEST(LogParserCarmen, BrokenLines) {
 }
 
 /// A row truncated anywhere before its last number is never accepted.
-TEST(LogParserCarmen, EveryCutRowIsBroken) {
+TEST(LogParserCarmen, EveryTruncatedRowIsBroken) {
   for (size_t kept = kFlaser.rfind(' '); kept > 6; --kept)
     EXPECT_THAT(whyBroken(formatNamed("carmen"), kFlaser.substr(0, kept)),
                 testing::Not(HasSubstr("not broken")));
@@ -210,7 +210,7 @@ TEST(LogParserGfs, LaserReading) {
 }
 
 /// GMapping combines the previous reading's pose with the new one's time.
-TEST(LogParserGfs, OdometryGoesBackToItsOwnTime) {
+TEST(LogParserGfs, OdometryGetsItsOwnTime) {
   const auto parser = formatNamed("gfs")->makeParser(threeBeamOptions());
   auto record = parseAs<OdometryRecord>(*parser, "ODOM 0 0 0 100");  // the first reading has its own time
   EXPECT_EQ(record.time, 100);
@@ -229,7 +229,7 @@ TEST(LogParserGfs, OdometryGoesBackToItsOwnTime) {
   EXPECT_THAT(whyBroken(formatNamed("gfs"), "ODOM 3 0 0"), HasSubstr("3 fields where 4"));
 }
 
-TEST(LogParserGfs, StateOfTheParticlesIsPassedOver) {
+TEST(LogParserGfs, StatesOfTheParticlesAreSkipped) {
   for (const std::string name :
        {"ODO_UPDATE", "SM_UPDATE", "FRAME", "RESAMPLE", "NEFF", "ENTROPY", "SIMULATOR_POS", "COMMENT"})
     EXPECT_EQ(parseAs<OtherRecord>(formatNamed("gfs"), name + " 1 2 3").name, name);
@@ -265,7 +265,7 @@ TEST(LogParserDpslam, AMissingRowDoesNotStopTheClock) {
   EXPECT_THAT(whyBroken(formatNamed("dpslam"), "Odometry 1 2"), HasSubstr("2 fields where 3"));
 }
 
-TEST(FormatOf, IsGivenAwayByTheFirstRecordThatCan) {
+TEST(FormatOf, FollowsFromTheFirstSpecificRecord) {
   EXPECT_EQ(formatOf("ODOM 1 2 3 0 0 0 5 host 6"), formatNamed("carmen"));
   EXPECT_EQ(formatOf(kFlaser), formatNamed("carmen"));
   EXPECT_EQ(formatOf("ROBOTLASER1 0"), formatNamed("carmen"));

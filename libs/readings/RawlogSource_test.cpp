@@ -116,7 +116,7 @@ TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   }
 }
 
-TEST(RawlogSource, HeadingsAreInterpolatedTheShortWay) {
+TEST(RawlogSource, HeadingsAreInterpolatedTheShorterWay) {
   const Replayed r = replayed({test::odometry(0, {0, 0, 0}), scan(0), test::odometry(1, {0, 0, M_PI - 0.1}),
                                scan(1.5), test::odometry(2, {0, 0, -M_PI + 0.1}), scan(2)});
   EXPECT_THAT(std::abs(r.phi[1]), testing::DoubleNear(M_PI, 1e-6));
@@ -193,7 +193,7 @@ TEST(RawlogSource, MissingTimestamps) {
   EXPECT_THAT(unstampedOdometry.x, areNear({0, 1}));
 }
 
-TEST(RawlogSource, AnUnstampedScanDoesNotOvertakeOneThatWaits) {
+TEST(RawlogSource, AnUnstampedScanDoesNotOvertakeAWaitingOne) {
   const Replayed r = replayed({test::odometry(10, {0, 0, 0}), scan(10.5, {}, 3), scan(test::kNoTime, {}, 4),
                                test::odometry(11, {1, 0, 0})});
   ASSERT_EQ(r.scans.size(), 2u);
@@ -201,7 +201,7 @@ TEST(RawlogSource, AnUnstampedScanDoesNotOvertakeOneThatWaits) {
   EXPECT_THAT(r.x, areNear({0, -0.5}));
 }
 
-TEST(RawlogSource, AcrossALargeGapTheReadingBeforeHolds) {
+TEST(RawlogSource, AcrossALargeGapThePreviousOdometryIsUsed) {
   const test::Log log{test::odometry(10, {0, 0, 0}), scan(10), scan(10.5), test::odometry(11.5, {3, 0, 0}),
                       scan(11.5)};
   EXPECT_THAT(replayed(log).x, areNear({0, 0, 3}));
@@ -271,7 +271,7 @@ TEST(RawlogSource, ScansOfOneReadingArePlacedByTheOdometryBetweenThem) {
     }
 }
 
-TEST(RawlogSource, TiltedLasersAreLeftOutUnlessNamed) {
+TEST(RawlogSource, TiltedLasersAreIgnoredUnlessNamed) {
   const auto tilted = [](double time) {
     auto s = scan(time, {}, 5, "tilted");
     s->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0.5, 0);
@@ -289,7 +289,7 @@ TEST(RawlogSource, TiltedLasersAreLeftOutUnlessNamed) {
               HasSubstr("the laser's scan plane is tilted: sensor `tilted`"));
 }
 
-TEST(RawlogSource, EveryScanOfAFrameCounts) {
+TEST(RawlogSource, EveryScanOfAFrameIsUsed) {
   const Replayed r = replayed({test::action({1, 0, 0}), test::frame({scan(10), scan(10.1)}),
                                test::action({1, 0, 0}), test::frame({scan(11)})});
   EXPECT_THAT(r.times, areNear({10, 10.1, 11}));
@@ -307,7 +307,7 @@ TEST(RawlogSource, OdometryInsideOfFrames) {
   EXPECT_THAT(replayed(log).x, areNear({0, 2, 3}));
 }
 
-TEST(RawlogSource, ScansWithoutBeamsAreLeftOut) {
+TEST(RawlogSource, ScansWithoutBeamsAreSkipped) {
   const Replayed r =
       replayed({test::odometry(10, {0, 0, 0}), scan(10, {}, 0), scan(10.5), test::odometry(11, {1, 0, 0}),
                 scan(11, {}, 0), test::frame({scan(11, {}, 0), scan(11)})});
@@ -339,7 +339,7 @@ TEST(RawlogSource, EmptyActionsAreNoOdometry) {
   EXPECT_THAT(r.x, areNear({0, 1, 1}));
 }
 
-TEST(RawlogSource, OdometryThatIsNotANumberIsLeftOut) {
+TEST(RawlogSource, OdometryThatIsNotFiniteIsIgnored) {
   const Replayed r =
       replayed({test::odometry(10, {kNaN, 0, 0}), test::odometry(10, {0, 0, 0}), scan(10),
                 test::odometry(11, {1, kNaN, 0}), scan(11), test::odometry(12, {HUGE_VAL, 0, 0}),
@@ -354,7 +354,7 @@ TEST(RawlogSource, OdometryThatIsNotANumberIsLeftOut) {
               areNear({0, 0}));
 }
 
-TEST(RawlogSource, ScansPlacedAtNoNumberAreLeftOut) {
+TEST(RawlogSource, ScansWithoutAFinitePoseAreSkipped) {
   const auto noAperture = scan(1), noPlace = scan(2);
   noAperture->aperture = static_cast<float>(kNaN);
   noPlace->sensorPose.x(kNaN);
@@ -368,7 +368,7 @@ TEST(RawlogSource, NoLaser) {
   EXPECT_THAT(replayed({test::odometry(1, {}), test::odometry(2, {})}).error, HasSubstr("no laser scans"));
 }
 
-TEST(RawlogSource, ReadingsThatAreNoneAreMarkedInvalid) {
+TEST(RawlogSource, InvalidReadingsAreMarked) {
   const auto odd = scan(1, {}, 8);
   const float values[] = {static_cast<float>(kNaN), HUGE_VALF, -HUGE_VALF, -1, 0, 20, 25, 19.9f};
   for (size_t i = 0; i < 8; ++i) odd->setScanRange(i, values[i]);
@@ -376,7 +376,7 @@ TEST(RawlogSource, ReadingsThatAreNoneAreMarkedInvalid) {
   for (size_t i = 0; i < 8; ++i) EXPECT_EQ(r.scans[0]->getScanRangeValidity(i), i == 7) << i;
 }
 
-TEST(RawlogSource, ACutLogGivesWhatWasReadable) {
+TEST(RawlogSource, ATruncatedLogGivesItsReadablePart) {
   const files::TemporaryFolder folder;
   std::vector<size_t> ends;
   const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), test::laps(10), &ends));

@@ -47,7 +47,7 @@ TEST_F(ConfigurationTest, LoadsEverySection) {
   EXPECT_TRUE(load("[run]\nmethod = hybrid\n").filter.useLines);
 }
 
-TEST_F(ConfigurationTest, AFileThatCannotBeRead) {
+TEST_F(ConfigurationTest, UnreadableFile) {
   const auto errorOfFile = [](const std::string& path) -> std::string {
     try {
       Configuration(path, {});
@@ -63,7 +63,7 @@ TEST_F(ConfigurationTest, AFileThatCannotBeRead) {
               StartsWith("not a text file: "));
 }
 
-TEST_F(ConfigurationTest, NoSectionOfOurs) {
+TEST_F(ConfigurationTest, NoneOfOurSections) {
   for (const char* text : {"", "[other]\nx = 1\n", "# nothing but a comment\n"})
     EXPECT_THAT(errorOf(text), StartsWith("missing section: " + ini + "; expected at least one of")) << text;
   EXPECT_EQ(errorOf("[MappingApplication]\nsampleSize = 3\n"), "no error") << "MRPT's own INI";
@@ -95,7 +95,7 @@ TEST_F(ConfigurationTest, WrongTypeAndRange) {
   EXPECT_THAT(errorOf("[grid]\nresolution = 0\n"), HasSubstr("expected a number in 0.01..1 m"));
 }
 
-TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
+TEST_F(ConfigurationTest, LinesThatTheParserIgnoresAreErrors) {
   EXPECT_EQ(errorOf("[particle_filter]\nparticles 7\n"),
             "wrong line `particles 7`: " + ini + "; expected [section], key = value, or # comment");
   EXPECT_THAT(errorOf("particles\n[run]\n"), StartsWith("wrong line `particles`"));
@@ -106,13 +106,13 @@ TEST_F(ConfigurationTest, LinesThatNobodyWouldRead) {
   EXPECT_EQ(errorOf("\xEF\xBB\xBF[run]\nmethod = general\n"), "no error") << "a byte order mark";
 }
 
-TEST_F(ConfigurationTest, MrptsSubstitutions) {
+TEST_F(ConfigurationTest, ExpandsMrptsSubstitutions) {
   EXPECT_EQ(load("@define N 7\n[particle_filter]\nparticles = ${N}\n").filter.filter.particles, 7);
   EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"),
               StartsWith("cannot parse: " + ini + "; "));
 }
 
-TEST_F(ConfigurationTest, SettingsAreStrongerThanTheFile) {
+TEST_F(ConfigurationTest, SettingsOverrideTheFile) {
   const Configuration c = load("[particle_filter]\nparticles = 7\nseed = 2\n",
                                {"particle_filter.particles=8", "particle_filter.particles=9",
                                 "run.method=stock", "run.rawlog=a=b.c d", "grid.max_range= 12 "});
@@ -139,7 +139,7 @@ TEST_F(ConfigurationTest, WrongSettingsNameTheCommandLine) {
   EXPECT_EQ(errorOf("[run]\n[MappingApplication]\n", {"MappingApplication.sampleSize=3"}), "no error");
 }
 
-TEST_F(ConfigurationTest, TextReadBackGivesTheSame) {
+TEST_F(ConfigurationTest, TextRoundTrip) {
   Configuration c = load(
       "# my file\n[run]\nmethod = stock // comment\nrawlog = /a "
       "b/c.rawlog\n[particle_filter]\nupdate_angle_deg = 12.345\n"
@@ -157,7 +157,7 @@ TEST_F(ConfigurationTest, TextReadBackGivesTheSame) {
   EXPECT_EQ(again.source.read_double("MappingApplication", "BETA", 0), 0.25);
 }
 
-TEST_F(ConfigurationTest, TextHasEveryKeyOfOurs) {
+TEST_F(ConfigurationTest, TextHasEveryKey) {
   Configuration c;
   const std::string text = c.text();
   for (const auto& [name, options] : c.sections()) {
@@ -167,7 +167,7 @@ TEST_F(ConfigurationTest, TextHasEveryKeyOfOurs) {
   EXPECT_EQ(load(text).text(), text);
 }
 
-TEST_F(ConfigurationTest, ManualHasEveryKeyOfOurs) {
+TEST_F(ConfigurationTest, ManualListsEveryKey) {
   const std::string manual = configurationManual();
   Configuration c;
   for (const auto& [name, options] : c.sections()) {

@@ -37,7 +37,7 @@ class MapFiles : public testing::Test {
   files::OutputFolder folder{root.path("out")};
 };
 
-TEST_F(MapFiles, RosMapReadsBackAtItsPlaceForEveryCellSize) {
+TEST_F(MapFiles, RosMapRoundTripForEveryCellSize) {
   for (const float cell : {0.05f, 0.1f, 0.025f, 0.0125f, 0.03f}) {
     SCOPED_TRACE(cell);
     const COccupancyGridMap2D grid = roomGrid(cell);
@@ -56,7 +56,7 @@ TEST_F(MapFiles, RosMapReadsBackAtItsPlaceForEveryCellSize) {
   }
 }
 
-TEST_F(MapFiles, RosMapIsWhatMapServerTakes) {
+TEST_F(MapFiles, RosMapIsValidForMapServer) {
   saveRosMap(folder, roomGrid(0.05f));
   EXPECT_EQ(test::contentOf(folder.path("map.yaml")),
             "image: map.pgm\nresolution: 0.05\norigin: [0.5, -3.5, 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
@@ -74,7 +74,7 @@ TEST_F(MapFiles, RosMapIsWhatMapServerTakes) {
   EXPECT_EQ(pixel(50, 30), 254);  // inside
 }
 
-TEST_F(MapFiles, GridMapReadsBackEqual) {
+TEST_F(MapFiles, GridMapRoundTrip) {
   const COccupancyGridMap2D grid = roomGrid(0.05f);
   saveGridMap(folder, grid);
   mrpt::io::CFileGZInputStream in(folder.path("map.gridmap.gz"));
@@ -121,7 +121,7 @@ TEST_F(Picture, WallsPathLinesAndRobotAreWhereTheyShouldBe) {
   EXPECT_TRUE(blue.B > 200 && blue.R < 150) << "the robot is at the end of its path and looks along x";
 }
 
-TEST_F(Picture, OfNothingKnown) {
+TEST_F(Picture, OfAnUnknownMap) {
   COccupancyGridMap2D grid;
   grid.setSize(0, 1, 0, 1, 0.05f, 0.5f);
   savePicture(folder, grid, {}, {});

@@ -47,7 +47,7 @@ TEST(SimpleMapFile, HasTheScansOfTheUpdatesAtTheirPoses) {
   }
 }
 
-TEST(SimpleMapFile, OfNothing) {
+TEST(SimpleMapFile, OfNoScans) {
   const files::TemporaryFolder root;
   const std::string log = test::writeGzipped(root.path("log"), test::laps(2));
   readings::RawlogSource source(log, {}, readings::summarise(log, {}));

@@ -33,7 +33,7 @@ TEST(StepsTable, ARow) {
       "12.346,0.875,1\n");
 }
 
-TEST(StepsTable, WhatAFilterDoesNotTellIsLeftEmpty) {
+TEST(StepsTable, MissingValuesAreEmpty) {
   std::ostringstream out;
   writeStep(out, 1, FilterStep(), 2);
   EXPECT_EQ(out.str(), "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000,,\n");

@@ -39,12 +39,12 @@ TEST(TrajectoryRecorder, BetweenTwoUpdatesTheClosingErrorIsSpreadEvenly) {
               {{0, 0, 0}, {1.1, 0.2, 0.1}, {2.2, 0.4, 0.2}, {3.3, 0.6, 0.3}, {4.4, 0.8, 0.4}});
 }
 
-TEST(TrajectoryRecorder, TheOdometryBetweenIsSeenFromTheUpdateBefore) {
+TEST(TrajectoryRecorder, TheOdometryBetweenIsInTheFrameOfThePreviousUpdate) {
   expectPoses(straight({1, 1, 2}).trajectory({{3, 3, M_PI / 2}, {3, 5, M_PI / 2}}),
               {{3, 3, M_PI / 2}, {3, 4, M_PI / 2}, {3, 5, M_PI / 2}});
 }
 
-TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShortWayRound) {
+TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShorterWay) {
   TrajectoryRecorder recorder;
   recorder.add(10, {}, 1);
   recorder.add(11, {}, 1);
@@ -53,7 +53,7 @@ TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShortWayRound) {
               {{0, 0, M_PI - 0.1}, {0, 0, M_PI}, {0, 0, -M_PI + 0.1}});
 }
 
-TEST(TrajectoryRecorder, BeforeTheFirstAndAfterTheLastUpdateOdometryAloneCarries) {
+TEST(TrajectoryRecorder, BeforeTheFirstAndAfterTheLastUpdateOnlyOdometryIsUsed) {
   expectPoses(straight({0, 0, 1, 1, 2, 2, 2}).trajectory({{0, 0, 0}, {2, 1, M_PI / 2}}), {{-2, 0, 0},
                                                                                           {-1, 0, 0},
                                                                                           {0, 0, 0},

@@ -64,7 +64,7 @@ TEST(HybridMapBuilder, TheFirstScanIsInsertedWhereTheOdometrySays) {
   EXPECT_EQ(builder.lastStep().resampled, false);
 }
 
-TEST(HybridMapBuilder, RunsWhenTheRobotHasMovedFarEnough) {
+TEST(HybridMapBuilder, UpdatesWhenTheRobotHasMovedFarEnough) {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.updateDistance = 0.5;
   c.filter.updateAngle = 90 * test::kDegree;
@@ -78,7 +78,7 @@ TEST(HybridMapBuilder, RunsWhenTheRobotHasMovedFarEnough) {
   EXPECT_EQ(updates, (std::vector<size_t>{1, 1, 1, 1, 2, 2, 2, 2, 3}));
 }
 
-TEST(HybridMapBuilder, RunsWhenTheRobotHasTurnedFarEnough) {
+TEST(HybridMapBuilder, UpdatesWhenTheRobotHasTurnedFarEnough) {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.updateDistance = 10;
   c.filter.updateAngle = 0.5;
@@ -94,7 +94,7 @@ TEST(HybridMapBuilder, RunsWhenTheRobotHasTurnedFarEnough) {
   }
 }
 
-TEST(HybridMapBuilder, WithoutAScanItOnlyGathersOdometry) {
+TEST(HybridMapBuilder, WithoutAScanItOnlyAccumulatesOdometry) {
   HybridMapBuilder builder(test::roomConfiguration());
   RandomStream random(1, 0, 0);
   feed(builder, {{}, {}, test::roomScan({}, random)});
@@ -156,7 +156,7 @@ TEST(HybridMapBuilder, TheBestParticleIsTheOneWithTheGreatestWeightBeforeResampl
     EXPECT_EQ(particle.logWeight, 0);  // MRPT does not reset them: see ParticleSet::performSubstitution
 }
 
-TEST(HybridMapBuilder, EveryParticleMatchesAnotherPlaceNoBetter) {
+TEST(HybridMapBuilder, AScanThatFitsNoParticleLeavesFiniteWeights) {
   // With the weight of 1000 beams, no outliers and a scan of another place, all weights underflow.
   FilterConfiguration c = test::roomConfiguration();
   c.gridWeight.exponent = 1000;
@@ -205,7 +205,7 @@ TEST(HybridMapBuilder, GivesTheViewsOfMrptsOwnBuilder) {
   expectPose(meanPose(builder), steps.back().truth, 0.3);
 }
 
-TEST(HybridMapBuilder, RemembersNoScansWhenItIsTold) {
+TEST(HybridMapBuilder, KeepsNoScansIfSwitchedOff) {
   HybridMapBuilder builder(test::roomConfiguration());
   builder.rememberScans(false);
   feed(builder, builder, test::drive(1));
@@ -214,7 +214,7 @@ TEST(HybridMapBuilder, RemembersNoScansWhenItIsTold) {
   EXPECT_EQ(scans.size(), 0u);
 }
 
-TEST(HybridMapBuilder, ScansRememberedForAWhileKeepTheirPoses) {
+TEST(HybridMapBuilder, KeptScansKeepTheirPoses) {
   HybridMapBuilder builder(test::roomConfiguration());
   const auto steps = test::drive(1);
   const size_t third = steps.size() / 3;
@@ -239,7 +239,7 @@ TEST(HybridMapBuilder, ScansRememberedForAWhileKeepTheirPoses) {
   }
 }
 
-TEST(HybridMapBuilder, InitializeStartsAnew) {
+TEST(HybridMapBuilder, InitializeRestarts) {
   HybridMapBuilder builder(test::roomConfiguration()), fresh(test::roomConfiguration());
   const auto steps = test::drive(1);
   feed(builder, builder, steps);
@@ -255,7 +255,7 @@ TEST(HybridMapBuilder, InitializeStartsAnew) {
 }
 
 /// As with MRPT's builder: the new map holds the scans of the old one.
-TEST(HybridMapBuilder, GoesOnFromAMapOfScans) {
+TEST(HybridMapBuilder, ContinuesFromAMapOfScans) {
   const auto steps = test::drive(4);
   HybridMapBuilder first(test::roomConfiguration());
   feed(first, first, {steps.begin(), steps.begin() + 44});

@@ -143,7 +143,7 @@ TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
   EXPECT_LT(std::sqrt(drawn.covariance(1, 1) / motion(1, 1)), 0.5);
 }
 
-TEST_P(ImprovedProposals, NothingSeenOrMappedLeavesTheMotionModel) {
+TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
   FilterConfiguration c = configuration(GetParam());
   c.improved.minFit = 0.01;
   Particle particle = test::particleAt(test::room(), kStart);

@@ -30,7 +30,7 @@ std::vector<LineSegment> wallFrom(const TPose2D& pose) {
   return {transformed(makeSegment({2, -1}, {2, 1}), TPose2D() - pose)};
 }
 
-TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
+TEST(LineLikelihood, AKnownWallGivesTheSquaredAngleAndDistance) {
   FilterConfiguration c;
   const LineDatabase database = cornerOf(c.database.minCount);
   const TPose2D truth(0.3, 0.2, 0.4);
@@ -48,7 +48,7 @@ TEST(LineLikelihood, OfAKnownWallIsTheSquaredAngleAndDistance) {
   EXPECT_NEAR(lines({truth.x + 0.4, truth.y, truth.phi}).value, -4.5, 1e-9);  // another wall
 }
 
-TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDirections) {
+TEST(LineLikelihood, ARarelySeenWallIsComparedWithTheDirections) {
   FilterConfiguration c;
   const LineDatabase database = cornerOf(c.database.minCount - 1);
   const TPose2D truth(0.3, 0.2, 0.4);
@@ -59,7 +59,7 @@ TEST(LineLikelihood, AWallSeenTooSeldomCountsAgainstTheDirections) {
               -0.5 * std::pow(d / c.improved.lineSigma, 2), 1e-9);
 }
 
-TEST(LineLikelihood, NoLinesSayNothing) {
+TEST(LineLikelihood, NoLinesAreNeutral) {
   const LineDatabase database = cornerOf(9);
   const std::vector<LineSegment> none;
   const LogDensity density =
@@ -69,7 +69,7 @@ TEST(LineLikelihood, NoLinesSayNothing) {
   EXPECT_EQ(density.information, Eigen::Matrix3d::Zero());
 }
 
-TEST(LineLikelihood, TheGradientIsThatOfTheValue) {
+TEST(LineLikelihood, TheGradientMatchesTheValue) {
   const Particle particle = test::particleAt(test::room(), kStart);
   const PreparedScan scan = scanAt(kStart);
   FilterConfiguration c;

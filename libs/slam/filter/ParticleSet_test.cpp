@@ -90,7 +90,7 @@ TEST(ParticleSet, CopiesKeepOneMapAndOthersTheirOwn) {
   EXPECT_FALSE(sameCells(particles.m_particles[1].d->grid, particles.m_particles[2].d->grid));
 }
 
-TEST(ParticleSet, ResamplingMakesTheWeightsEqualAndSaysSo) {
+TEST(ParticleSet, ResamplingMakesTheWeightsEqualAndIsRecorded) {
   for (const double threshold : {0.0, 0.9}) {
     FilterConfiguration c = fourParticles();
     c.filter.essThreshold = threshold;
@@ -107,7 +107,7 @@ TEST(ParticleSet, ResamplingMakesTheWeightsEqualAndSaysSo) {
 
 /// One step from particles of different weight, with and without resampling after it: the scan's likelihood
 /// is the mean of p(scan | pose) under the weights before the step.
-TEST(ParticleSet, TheStepTellsItsMotionsAndTheLikelihoodOfTheScan) {
+TEST(ParticleSet, TheStepHasItsMotionsAndTheLikelihoodOfTheScan) {
   for (const double threshold : {0.0, 1.0}) {
     FilterConfiguration c = fourParticles();
     c.useLines = false;

@@ -19,7 +19,7 @@ TEST(Path, AnEmptyPathIsAtTheOrigin) {
   EXPECT_TRUE(path.poses().empty());
 }
 
-TEST(Path, GivesItsPosesOldestFirst) {
+TEST(Path, ListsItsPosesOldestFirst) {
   Path path;
   for (size_t i = 0; i < 5; ++i) path.push(pose(i));
   EXPECT_EQ(path.size(), 5u);
@@ -27,7 +27,7 @@ TEST(Path, GivesItsPosesOldestFirst) {
   EXPECT_EQ(path.poses(), (std::vector<TPose2D>{pose(0), pose(1), pose(2), pose(3), pose(4)}));
 }
 
-TEST(Path, TheLastMotionIsSeenFromThePoseBefore) {
+TEST(Path, TheLastMotionIsInTheFrameOfThePreviousPose) {
   Path path;
   EXPECT_EQ(path.lastMotion(), TPose2D());
   path.push({1, 2, M_PI / 2});
@@ -38,7 +38,7 @@ TEST(Path, TheLastMotionIsSeenFromThePoseBefore) {
   EXPECT_NEAR(path.lastMotion().phi, M_PI / 2, 1e-12);
 }
 
-TEST(Path, CopiesShareUntilOneGoesOn) {
+TEST(Path, CopiesShareUntilOneGrows) {
   Path first;
   first.push(pose(0));
   Path second = first;

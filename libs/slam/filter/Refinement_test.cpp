@@ -51,7 +51,7 @@ TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].pose, three[i].pose);
 }
 
-TEST(Refinement, NoPassChangesNothing) {
+TEST(Refinement, ZeroPassesChangeNothing) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> scans = driven(truth);
   const std::vector<PosedScans> before = scans;

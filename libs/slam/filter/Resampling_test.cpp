@@ -134,7 +134,7 @@ TEST(Resampling, OurResidualSchemeHasTheExpectedCounts) {
   expectAtLeastTheWholePart(draw, 0);
 }
 
-TEST(Resampling, OurResidualSchemeDoesNotMindTheScaleOfTheWeights) {
+TEST(Resampling, OurResidualSchemeIsInvariantToTheScaleOfTheWeights) {
   const std::vector<double> logWeights = {-1000, -1001, -1002, -1e9};
   RandomStream a(3, 0, 0), b(3, 0, 0);
   const auto drawn = residualResampling(logWeights, a);

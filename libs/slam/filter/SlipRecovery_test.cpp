@@ -93,7 +93,7 @@ TEST(SlipRecovery, CanBeSwitchedOff) {
   EXPECT_EQ(motion.start, kOdometry);
 }
 
-TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNoSlip) {
+TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
   const FilterConfiguration c;
   Particle particle = test::particleAt(test::room(), kStart);
   SlipRecovery recovery = used(c, particle, test::room());
@@ -106,7 +106,7 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNoSlip) {
 }
 
 /// A corridor whose map ends: its new part must not pull the robot back to where it has seen walls.
-TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNoSlip) {
+TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
   const FilterConfiguration c;
   const TPose2D start(0, 0.1, 0);
   Particle particle;

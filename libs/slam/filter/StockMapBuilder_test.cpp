@@ -52,7 +52,7 @@ TEST(StockMapBuilder, TakesOurSettings) {
   EXPECT_NEAR(options.localizeAngDistance, 25 * test::kDegree, 1e-6);
 }
 
-TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
+TEST(StockMapBuilder, CanBeQueriedBeforeTheFirstScan) {
   const StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
   EXPECT_EQ(builder.updates(), 0u);
   EXPECT_TRUE(builder.bestPath().empty());
@@ -60,7 +60,7 @@ TEST(StockMapBuilder, CanBeLookedAtBeforeTheFirstScan) {
   EXPECT_TRUE(builder.bestLines().empty());
 }
 
-TEST(StockMapBuilder, MapsTheRoomBehindTheSameFace) {
+TEST(StockMapBuilder, MapsTheRoomThroughTheSameInterface) {
   StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
   const test::Replayed replayed = feed(builder, builder, test::drive(2));
   const auto path = builder.bestPath();

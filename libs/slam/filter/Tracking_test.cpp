@@ -99,7 +99,7 @@ TEST_P(Proposals, SameSeedSameRunForAnyNumberOfThreads) {
   }
 }
 
-TEST_P(Proposals, AnotherSeedIsAnotherRun) {
+TEST_P(Proposals, DifferentSeedsGiveDifferentRuns) {
   const auto steps = test::drive(1);
   FilterConfiguration c = configuration();
   const Outcome one = run(c, steps);
@@ -181,7 +181,7 @@ TEST(Tracking, TheImprovedProposalSurvivesASlip) {
   }
 }
 
-TEST(Tracking, StartedAnewItIsTheSameRun) {
+TEST(Tracking, AReinitialisedFilterRepeatsTheRun) {
   for (const auto proposal : {Proposal::standard, Proposal::improved}) {
     HybridMapBuilder builder(with(proposal, true));
     const auto steps = driveWithSlip();
@@ -218,7 +218,7 @@ TEST(Tracking, EveryResamplingSchemeTracks) {
   }
 }
 
-TEST(Tracking, MrptsLikelihoodsTakeThreads) {
+TEST(Tracking, MrptsLikelihoodsWorkInSeveralThreads) {
   const auto steps = test::drive(1);
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
   for (const auto method : {GridWeightOptions::Method::likelihoodField, GridWeightOptions::Method::rayTracing,
@@ -249,7 +249,7 @@ TEST(Tracking, TheStandardProposalLearnsASystematicError) {
   EXPECT_LT(learnt, 0.7 * notLearnt);  // 0.49
 }
 
-TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsRefused) {
+TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsAnError) {
   for (const auto proposal : {Proposal::auxiliaryStandard, Proposal::auxiliaryOptimal}) {
     FilterConfiguration c = with(proposal, true);
     c.filter.resampling = CParticleFilter::prResidual;

@@ -53,7 +53,7 @@ TEST(BeamSelection, OneStraightWallIsSampledEvenly) {
   EXPECT_EQ(BeamSelection({scan}).take(3), (std::vector<size_t>{13, 40, 67}));
 }
 
-TEST(BeamSelection, TakesAllWhereThereAreNoMore) {
+TEST(BeamSelection, TakesAllBeamsIfThereAreTooFew) {
   RandomStream random(2, 0, 0);
   LaserScan scan = corridorScan(0.1, 0, random);
   std::vector<size_t> valid;
@@ -67,14 +67,14 @@ TEST(BeamSelection, TakesAllWhereThereAreNoMore) {
   EXPECT_EQ(selection.take(static_cast<int>(valid.size())), valid);
 }
 
-TEST(BeamSelection, NothingOfNothing) {
+TEST(BeamSelection, AnEmptyScanGivesNoBeams) {
   EXPECT_THAT(BeamSelection(LaserScans()).take(10), IsEmpty());
   LaserScan blind;
   blind.beams.assign(100, {0, 0, false});
   EXPECT_THAT(BeamSelection({blind}).take(10), IsEmpty());
 }
 
-TEST(BeamSelection, AnyScanGivesSoManyDifferentValidBeamsInOrder) {
+TEST(BeamSelection, GivesTheRequestedNumberOfValidBeamsInOrder) {
   RandomStream random(3, 0, 0);
   for (int k = 0; k < 200; ++k) {
     LaserScan scan;

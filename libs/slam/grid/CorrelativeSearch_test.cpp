@@ -17,7 +17,7 @@ const SearchWindow kWindow{0.5, 30 * kDegree};
 double away(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 double turned(const TPose2D& a, const TPose2D& b) { return std::abs(mrpt::math::wrapToPi(a.phi - b.phi)); }
 
-TEST(CorrelativeSearch, OneOfItsPlacesIsWithinAClimbOfTheTruth) {
+TEST(CorrelativeSearch, OneOfItsMaximaIsInTheBasinOfTheTruth) {
   const OccupancyGrid grid = test::gridOf(kRoom);
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 100; ++i) {
@@ -59,7 +59,7 @@ TEST(CorrelativeSearch, TheBestComesFirst) {
   EXPECT_EQ(one[0], TPose2D());  // the true pose
 }
 
-TEST(CorrelativeSearch, NothingSeenOrMappedIsNowhere) {
+TEST(CorrelativeSearch, AnEmptyScanOrMapGivesNoPose) {
   RandomStream random(4, 0, 0);
   EXPECT_TRUE(
       correlativeSearch(test::beamsAt(kRoom, {}, random), {}, OccupancyGrid(0.05), kWindow, 8).empty());

@@ -54,7 +54,7 @@ TEST(GridConversion, FarFromTheOriginToo) {
   }
 }
 
-TEST(GridConversion, ACellIsWhereMrptLooksForIt) {
+TEST(GridConversion, ACellIsWhereMrptExpectsIt) {
   RandomStream random(2, 0, 0);
   const OccupancyGrid grid = randomGrid(random, 0.05, 2000, 300);
   const COccupancyGridMap2D mrptGrid = toMrpt(grid);

@@ -92,7 +92,7 @@ TEST_P(GridWeightMethods, AnEmptyScanIsNeutral) {
   EXPECT_EQ(weight(scan, {0, 0, 0}), 0);
 }
 
-TEST_P(GridWeightMethods, ReadingsThatAreNotValidDoNotCount) {
+TEST_P(GridWeightMethods, InvalidReadingsAreIgnored) {
   RandomStream random(4, 0, 0);
   const CObservation2DRangeScan whole = scanAt({0.5, 0.5, 1}, random);
   CObservation2DRangeScan marked = whole, unmarked = whole;

@@ -71,7 +71,7 @@ TEST(OccupancyGrid, TheNextScanMayMissIt) {
   EXPECT_EQ(grid.tiles().at({3, 0}), kHit + kMiss);
 }
 
-TEST(OccupancyGrid, StaysBetweenPMinAndPMaxAndCanChangeItsMind) {
+TEST(OccupancyGrid, StaysBetweenPMinAndPMaxAndCanChange) {
   OccupancyGrid grid(1);
   for (int i = 0; i < 100; ++i) grid.insert(beams({{0, 3}}), {0.5, 0.5, 0}, update());
   EXPECT_EQ(row(grid, 0, 4, 0), (std::vector<int>{kLowest, kLowest, kLowest, kHighest, 0}));
@@ -88,7 +88,7 @@ TEST(OccupancyGrid, TheExtremeOptionsFitIntoACell) {
   EXPECT_NEAR(grid.occupancy({1, 0}), 0.001, 1e-4);
 }
 
-TEST(OccupancyGrid, TheSensorsPlaceOnTheRobotCounts) {
+TEST(OccupancyGrid, TheSensorPoseIsApplied) {
   // Robot at (2, 3.5) looking along y, sensor 1 m ahead and 0.5 m to the left, turned to the left: the beam
   // starts at (1.5, 4.5) and runs 3 m along -x.
   OccupancyGrid grid(1);
@@ -96,7 +96,7 @@ TEST(OccupancyGrid, TheSensorsPlaceOnTheRobotCounts) {
   EXPECT_EQ(row(grid, -3, 2, 4), (std::vector<int>{0, kHit, kMiss, kMiss, kMiss, 0}));
 }
 
-TEST(OccupancyGrid, ABeamAlongTheDiagonalLeavesTheCellsThatItOnlyTouches) {
+TEST(OccupancyGrid, ADiagonalBeamSkipsCellsThatItOnlyTouches) {
   OccupancyGrid grid(1);
   ScanBeams diagonal = beams({{0, 3 * M_SQRT2}});
   diagonal.rays[0].dirX = diagonal.rays[0].dirY = M_SQRT1_2;  // equal to the last bit
@@ -171,7 +171,7 @@ TEST(OccupancyGrid, ACopyKeepsItsMap) {
   EXPECT_EQ(second.tiles().at({3, 0}), 2 * kHit);
 }
 
-TEST(OccupancyGrid, WhatHasComeToItsBoundsStaysShared) {
+TEST(OccupancyGrid, CellsAtTheirBoundsStayShared) {
   const ScanBeams scan = beams({{-0.5, 3}, {0, 4}, {0.5, 3.5}});
   OccupancyGrid first(0.05);
   for (int i = 0; i < 120; ++i) first.insert(scan, {}, update());

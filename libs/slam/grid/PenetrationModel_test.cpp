@@ -86,7 +86,7 @@ TEST(PenetrationModel, AThickWallIsExpectedInItsMiddle) {
               1e-12);
 }
 
-TEST(PenetrationModel, AThickWallLetsThroughWhatAllItsCellsDo) {
+TEST(PenetrationModel, AThickWallTransmitsTheProductOfItsCells) {
   Corridor corridor(0.05, {});
   corridor.fill(0, 300, kFree);
   corridor.fill(58, 60, 20);

@@ -10,7 +10,7 @@
 namespace hybrid_slam {
 namespace {
 
-TEST(RaySamples, TheCellsAreThoseOfThePlaces) {
+TEST(RaySamples, TheCellsMatchTheExactPositions) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 500; ++i) {
     // On both sides of the origin, and a hundred kilometres away.
@@ -31,7 +31,7 @@ TEST(RaySamples, TheCellsAreThoseOfThePlaces) {
   }
 }
 
-TEST(RaySamples, AheadIsWhereItWillBe) {
+TEST(RaySamples, AheadEqualsAdvance) {
   RaySamples place(-3.3, 7.7, -0.8, 0.6);
   const RaySamples ahead = place.ahead(7);
   for (int i = 0; i < 7; ++i) place.advance();

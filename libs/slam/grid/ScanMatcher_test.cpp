@@ -93,7 +93,7 @@ TEST(ScanMatcher, AnOccupiedCellIsHighestAtItsMiddle) {
   EXPECT_NEAR(mapAt(grid, x + 0.1001, y), 0, 1e-12);
 }
 
-TEST(ScanMatcher, TheGradientIsThatOfTheValue) {
+TEST(ScanMatcher, TheGradientMatchesTheValue) {
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 200; ++i) {
     const TPose2D truth = somePose(random);
@@ -108,7 +108,7 @@ TEST(ScanMatcher, TheGradientIsThatOfTheValue) {
 }
 
 /// For one beam the information is g g^T with g the gradient of m, and the likelihood's gradient (1 - m) g.
-TEST(ScanMatcher, TheInformationOfABeamIsThatOfItsSlope) {
+TEST(ScanMatcher, TheInformationOfABeamFollowsFromItsSlope) {
   RandomStream random(3, 0, 0);
   int sloped = 0;
   for (int i = 0; i < 300; ++i) {
@@ -125,7 +125,7 @@ TEST(ScanMatcher, TheInformationOfABeamIsThatOfItsSlope) {
   EXPECT_GT(sloped, 100);
 }
 
-TEST(ScanMatcher, SigmaDividesAllOfTheLikelihood) {
+TEST(ScanMatcher, SigmaScalesTheLikelihood) {
   RandomStream random(4, 0, 0);
   const ScanBeams scan = test::beamsAt(kRoom, {}, random);
   const TPose2D pose(0.02, -0.03, 0.01);
@@ -136,7 +136,7 @@ TEST(ScanMatcher, SigmaDividesAllOfTheLikelihood) {
   EXPECT_LT((two.information - one.information / 4).norm(), 1e-9);
 }
 
-TEST(ScanMatcher, AGaussianPriorIsWhatItSays) {
+TEST(ScanMatcher, AGaussianPriorHasItsDensity) {
   RandomStream random(5, 0, 0);
   for (int i = 0; i < 100; ++i) {
     const TPose2D mean = somePose(random), pose = somePose(random);
@@ -168,7 +168,7 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
   }
 }
 
-TEST(ScanMatcher, AFeaturelessCorridorSaysNothingOfThePlaceAlongIt) {
+TEST(ScanMatcher, AFeaturelessCorridorGivesNoInformationAlongIt) {
   RandomStream random(9, 0, 0);
   for (int i = 0; i < 50; ++i) {
     const TPose2D truth(2 * random.uniform() - 1, 0.4 * random.uniform() - 0.2, 6 * random.uniform() - 3);

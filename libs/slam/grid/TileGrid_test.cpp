@@ -37,7 +37,7 @@ TEST(TileGrid, IsUnknownWhereNothingWasWritten) {
   EXPECT_TRUE(grid.bounds().empty());
 }
 
-TEST(TileGrid, GrowsInEveryDirectionAndKeepsWhatItHolds) {
+TEST(TileGrid, GrowsInEveryDirectionAndKeepsItsContent) {
   TileGrid grid;
   Cells cells;
   int8_t value = 0;
@@ -71,7 +71,7 @@ TEST(TileGrid, BoundsAreThoseOfTheTilesWritten) {
   EXPECT_EQ(box.max, (CellIndex{607, 95}));
 }
 
-TEST(TileGrid, AReaderGoesAnyWay) {
+TEST(TileGrid, AReaderFollowsAnyPath) {
   RandomStream random(1, 0, 0);
   TileGrid grid;
   Cells cells;
@@ -178,7 +178,7 @@ void writeAtRandom(TileGrid& grid, uint64_t seed) {
              static_cast<int8_t>(between(random, -127, 127)));
 }
 
-TEST(TileGrid, ThreadsThatWriteCopiesOfOneGridGiveWhatOneThreadGives) {
+TEST(TileGrid, ThreadsThatWriteCopiesOfOneGridGiveTheResultOfOneThread) {
   TileGrid origin;
   writeAtRandom(origin, 99);
   const Cells untouched = knownCells(origin);

@@ -25,7 +25,7 @@ TEST(HoughRefinement, LeavesExactLinesAsTheyAre) {
 
 /// A start that is off by less than the window is corrected, even if the segment is far from the foot of the
 /// perpendicular, so that the angle error moves rho far beyond its window.
-TEST(HoughRefinement, PullsAWrongStartOntoTheLine) {
+TEST(HoughRefinement, CorrectsAWrongStart) {
   RandomStream random(2, 0, 0);
   const HoughOptions options;
   for (int i = 0; i < 300; ++i) {

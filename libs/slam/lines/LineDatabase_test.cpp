@@ -49,7 +49,7 @@ TEST(Merged, EndsAreTheTwoFarthestOfTheFour) {
   }
 }
 
-TEST(Merged, IsThePrintedFormWhereTheLeverArmIsNil) {
+TEST(Merged, IsThePrintedFormWithoutALeverArm) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     // Both midpoints are at the foot of the perpendicular from the origin, or the lines are parallel.
@@ -100,7 +100,7 @@ TEST(Merged, PrintedFormDriftsTowardsTheOrigin) {
   EXPECT_NEAR(merged(known(a, 1), b).rho, 50, 1e-9);
 }
 
-TEST(Merged, TheSameLineAnyNumberOfTimesLeavesIt) {
+TEST(Merged, MergingTheSameLineChangesNothing) {
   RandomStream random(3, 0, 0);
   for (int i = 0; i < 300; ++i) {
     const LineSegment original = test::randomSegment(random, 50);
@@ -193,7 +193,7 @@ TEST_F(Database, PrunesRarelySeenLinesEveryTenUpdates) {
   EXPECT_EQ(database.lines()[0].count, 3);
 }
 
-TEST_F(Database, ANewLineHasAnIntervalOfChances) {
+TEST_F(Database, ANewLineIsKeptForOnePruneInterval) {
   for (int i = 1; i <= 9; ++i) update({});
   update({wall});  // inserted in the very update that prunes
   ASSERT_EQ(database.lines().size(), 1u);
@@ -238,7 +238,7 @@ TEST_F(Database, DominatingDirectionWeighsByLengthAndCappedCount) {
   }
 }
 
-TEST_F(Database, NoDirectionPrevailsAmongLinesThatCancel) {
+TEST_F(Database, LinesThatCancelHaveNoDominatingDirection) {
   update({segment(0, 3, 6, 3), transformed(segment(-3, 0, 3, 0), {20, 0, M_PI / 4})});
   ASSERT_EQ(database.lines().size(), 2u);
   EXPECT_FALSE(database.dominatingDirection());
@@ -284,7 +284,7 @@ TEST(SetDirections, TurnWithTheMapAndKeepFramesApart) {
   }
 }
 
-TEST_F(Database, ManySightingsOfARoomConvergeOnItsWalls) {
+TEST_F(Database, ManyObservationsOfARoomConvergeToItsWalls) {
   RandomStream random(6, 0, 0);
   const std::vector<LineSegment> walls{segment(40, 30, 48, 30), segment(48, 30, 48, 36),
                                        segment(48, 36, 40, 36), segment(40, 36, 40, 30)};

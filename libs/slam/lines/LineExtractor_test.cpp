@@ -139,7 +139,7 @@ TEST(LineExtractor, LinesShorterThanTheMinimumAreDropped) {
   EXPECT_TRUE(extractLines(scan, options).empty());
 }
 
-TEST(LineExtractor, NothingToSee) {
+TEST(LineExtractor, AnEmptyScanGivesNoLines) {
   LaserScan scan;
   EXPECT_TRUE(extractLines(scan, kDefault).empty());
   scan.beams.resize(541);  // all invalid
@@ -180,7 +180,7 @@ TEST(LineExtractor, MountingOfTheSensorDoesNotMatter) {
       }
 }
 
-TEST(LineExtractor, ThePaperToTheLetterLosesTheWallAcrossItsWay) {
+TEST(LineExtractor, ThePapersFitLosesTheWallAhead) {
   RandomStream random(5, 0, 0);
   // Two walls apart from each other: ahead (vertical in the sensor frame) and to the left.
   const test::Walls walls{{{4, -2}, {4, 2}}, {{-3, 3}, {1, 3}}};

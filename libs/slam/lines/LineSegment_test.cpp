@@ -83,7 +83,7 @@ TEST(LineSegment, TransformByHand) {
   EXPECT_NEAR(s.end.x, 1, 1e-12);
 }
 
-TEST(LineSegment, TransformedThereAndBackIsTheSame) {
+TEST(LineSegment, TransformRoundTrip) {
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 1000; ++i) {
     const LineSegment s = test::randomSegment(random, 30);

@@ -94,7 +94,7 @@ TEST(LineWeight, GradedCountsEvidence) {
 }
 
 /// Not possible with eq. (9) or one dominating direction: two building directions that both count.
-TEST(LineWeight, SeveralFramesStandSideBySide) {
+TEST(LineWeight, SeveralFramesCoexist) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6), line(30, 6), line(120, 6)});
   const std::vector<LineSegment> wing{line(30, 4), line(120, 4)};
   const auto at = [&](Method m, double error) {
@@ -137,7 +137,7 @@ TEST(LineWeight, TheHeadingTurnsTheLinesIntoTheMap) {
 }
 
 /// The threshold of eq. (9) must be as small as the spread of the headings: within it all weights are equal.
-TEST(LineWeight, EqNineTellsNothingApartWithinItsThreshold) {
+TEST(LineWeight, EqNineIsConstantWithinItsThreshold) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6)});
   const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};
   double previous = 2;
@@ -155,7 +155,7 @@ TEST(LineWeight, EqNineTellsNothingApartWithinItsThreshold) {
   }
 }
 
-TEST(LineWeight, TheSlopeIsThatOfTheValue) {
+TEST(LineWeight, TheSlopeMatchesTheValue) {
   RandomStream random(3, 0, 0);
   int sloped = 0;
   for (int i = 0; i < 1000; ++i) {

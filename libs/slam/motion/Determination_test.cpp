@@ -61,7 +61,7 @@ TEST(Determination, TwentyStepsAreEnoughAndNineteenAreNot) {
   EXPECT_TRUE(determine({}).nothing());
 }
 
-TEST(Determination, CirclesTellOnlyTheSumOfBoth) {
+TEST(Determination, CirclesDetermineOnlyTheSum) {
   const auto circle = [](size_t i) {
     const double d = 0.1 + 0.01 * static_cast<double>(i % 30);
     return MotionStep(d, 0, 0.8 * d);
@@ -72,7 +72,7 @@ TEST(Determination, CirclesTellOnlyTheSumOfBoth) {
   EXPECT_THAT(determined.lacks[0].why, HasSubstr("proportional"));
 }
 
-TEST(Determination, CirclesBothWaysTellTheMeansButNotTheVariances) {
+TEST(Determination, CirclesInBothDirectionsDetermineTheMeansButNotTheVariances) {
   const auto eight = [](size_t i) {
     const double d = 0.1 + 0.01 * static_cast<double>(i % 30);
     return MotionStep(d, 0, i % 2 ? 0.8 * d : -0.8 * d);

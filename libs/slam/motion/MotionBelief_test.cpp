@@ -25,7 +25,7 @@ double valueOf(MotionTerm MotionModelOptions::*term, const MotionSample& sample)
   return term == &MotionModelOptions::drift ? motion.drift - odometry.drift : motion.turn;
 }
 
-TEST(MotionBelief, IsTheOptionsUntilSomethingIsLearnt) {
+TEST(MotionBelief, EqualsTheOptionsBeforeLearning) {
   const MotionModelOptions options = unsure(test::trueModel(), 0.07);
   const MotionModelOptions model = MotionBelief().model(options);
   for (const auto term : kTerms) {
@@ -77,7 +77,7 @@ TEST(MotionBelief, IsTheBayesianRegressionOfTheMotions) {
     }
 }
 
-TEST(MotionBelief, FindsTheTrueMeansWhateverItBeganWith) {
+TEST(MotionBelief, FindsTheTrueMeansFromAnyStart) {
   RandomStream random(2, 0, 0);
   const MotionModelOptions truth = test::trueModel();
   const auto odometry = test::randomOdometry(3000, random);
@@ -97,7 +97,7 @@ TEST(MotionBelief, FindsTheTrueMeansWhateverItBeganWith) {
   }
 }
 
-TEST(MotionBelief, LearnsNothingWhereTheMeansAreKnown) {
+TEST(MotionBelief, LearnsNothingIfTheMeansAreKnown) {
   const MotionModelOptions options = test::trueModel();
   MotionBelief belief;
   belief.learn({0.5, 0, 0.1}, {0.1, 0.3, 0.4}, options);
@@ -107,7 +107,7 @@ TEST(MotionBelief, LearnsNothingWhereTheMeansAreKnown) {
 }
 
 /// A turn by half a circle may come back as one the other way.
-TEST(MotionBelief, TurnsAreTakenTheShorterWayRound) {
+TEST(MotionBelief, TurnsAreTakenTheShorterWay) {
   const MotionModelOptions options;
   MotionBelief belief;
   belief.learn({0, 0, M_PI - 0.01}, {0, 0, -M_PI + 0.01}, options);  // 0.02 rad more than the odometry says

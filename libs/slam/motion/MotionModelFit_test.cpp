@@ -78,7 +78,7 @@ TEST(MotionModelFit, NeverLowersTheLikelihood) {
 }
 
 /// Changing any parameter by a twentieth of a standard error, up or down, does not raise the likelihood.
-TEST(MotionModelFit, FindsTheTopOfTheLikelihood) {
+TEST(MotionModelFit, FindsTheMaximumOfTheLikelihood) {
   RandomStream random(7, 0, 0);
   const auto odometry = test::randomOdometry(300, random);
   const auto samples = simulate(test::trueModel(), odometry, random);

@@ -117,7 +117,7 @@ TEST(MotionModelLearner, KeepsTheBestIterationWhenTheLikelihoodFalls) {
   EXPECT_EQ(run.learnt.best.model.distance.meanD, run.iterations[3].model.distance.meanD);
 }
 
-TEST(MotionModelLearner, EndsAfterTheMostIterationsAndSaysSo) {
+TEST(MotionModelLearner, EndsAfterTheMaximumNumberOfIterations) {
   const HiddenMotions motions(test::trueModel(), 100, 1);
   double likelihood = 0;
   const Learning run = learn(
@@ -132,7 +132,7 @@ TEST(MotionModelLearner, EndsAfterTheMostIterationsAndSaysSo) {
   EXPECT_EQ(run.learnt.best.number, 4);
 }
 
-TEST(MotionModelLearner, WhatIsNotDeterminedKeepsThePriorInEveryIteration) {
+TEST(MotionModelLearner, UndeterminedParametersKeepThePrior) {
   HiddenMotions motions(test::trueModel(), 200, 1);
   for (TPose2D& step : motions.odometry) step = {step.x, 0, 0};
   MotionModelOptions prior;

@@ -88,7 +88,7 @@ TEST(MotionModel, PureRotationMovesTheRobotOnlyByWhatTheTurnAllows) {
   EXPECT_NEAR(p.y, std::sin(heading) * d + std::cos(heading) * c, 1e-12);
 }
 
-TEST(MotionModel, ZeroMotionGivesOnlyTheLeastDeviations) {
+TEST(MotionModel, ZeroMotionGivesOnlyTheMinimumDeviations) {
   const MotionModelOptions options = biased();
   const Samples all = sample({0, 0, 0}, options);
   expectNormal(all.distance, 0, options.minStdXY * options.minStdXY, "distance");
@@ -96,7 +96,7 @@ TEST(MotionModel, ZeroMotionGivesOnlyTheLeastDeviations) {
   expectNormal(all.turn, 0, options.minStdPhi * options.minStdPhi, "turn");
 }
 
-TEST(MotionModel, WithoutErrorsTheOdometryItselfComesOut) {
+TEST(MotionModel, WithoutNoiseTheMotionIsTheOdometry) {
   MotionModelOptions exact;
   exact.minStdXY = exact.minStdPhi = 0;
   for (MotionTerm* term : {&exact.distance, &exact.drift, &exact.turn}) term->varianceD = term->varianceT = 0;
@@ -130,7 +130,7 @@ TEST(MotionModel, DistanceDriftAndTurnAreDrawnIndependently) {
 /// The approximation is linear, so its error is of second order: |D| sigma_T^2 / 8 in the position, and that
 /// times the standard deviation in the covariance. The rest of the bound is the sampling error of mean and
 /// covariance.
-TEST(MotionModel, TheDistributionIsThatOfTheSamples) {
+TEST(MotionModel, TheDistributionMatchesTheSamples) {
   for (const MotionModelOptions& options : {MotionModelOptions(), biased()})
     for (const double heading : {0.0, 1.2, -2.5, 3.1})
       for (const TPose2D& odometry : {TPose2D(0.5, 0, 0), TPose2D(0.4, 0.05, 0.3), TPose2D(0, 0, 0.8),
@@ -161,7 +161,7 @@ TEST(MotionModel, TheDistributionIsThatOfTheSamples) {
       }
 }
 
-TEST(MotionModel, AStepAndItsIncrementAreTheSame) {
+TEST(MotionModel, AStepAndItsIncrementAreEquivalent) {
   // A quarter turn to the left, seen along 45 deg.
   const MotionStep quarter(TPose2D(1, 1, M_PI / 2));
   EXPECT_NEAR(quarter.distance, std::sqrt(2), 1e-12);

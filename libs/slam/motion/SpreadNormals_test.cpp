@@ -31,7 +31,7 @@ TEST(SpreadNormals, OneParticlesNumbersAreStandardNormalAndIndependent) {
 
 /// Copies of a particle have consecutive indices and must not draw nearly the same numbers. The nearest of 20
 /// independent points of the unit cube are 0.096 apart in the median, of 50 0.049.
-TEST(SpreadNormals, ParticlesInARowKeepApart) {
+TEST(SpreadNormals, ConsecutiveParticlesDrawDifferentNumbers) {
   for (const size_t first : {0u, 3u, 4000u})
     for (const auto& [count, apart] : {std::pair{4u, 0.5}, std::pair{20u, 0.28}, std::pair{50u, 0.19}}) {
       const SpreadNormals normals(RandomStream(2, first, count));

@@ -40,7 +40,7 @@ struct ChildProcessesTest : testing::Test {
   }
 };
 
-TEST_F(ChildProcessesTest, TellsHowEachEnded) {
+TEST_F(ChildProcessesTest, ReportsHowEachEnded) {
   EXPECT_TRUE(run({"exit 0", "echo 'prog: error: no such file: x; expected y' >&2; echo more >&2; exit 2",
                    "exit 3", "kill -9 $$", "echo first >&2; echo last >&2; exit 1", "echo warning >&2"},
                   2));
@@ -48,7 +48,7 @@ TEST_F(ChildProcessesTest, TellsHowEachEnded) {
                                 Pair(3, "ended by signal 9"), Pair(4, "last"), Pair(5, "")));
 }
 
-TEST_F(ChildProcessesTest, KeepsToTheNumberAtOnce) {
+TEST_F(ChildProcessesTest, RunsAtMostTheGivenNumberAtOnce) {
   run(std::vector<std::string>(7, "exit 0"), 3);
   EXPECT_EQ(ends.size(), 7u);
   EXPECT_EQ(most, 3u);
@@ -79,14 +79,14 @@ TEST_F(ChildProcessesTest, StoppingEndsTheChildrenAndStartsNoMore) {
 }
 
 /// As for a program started with SIGCHLD ignored: the system keeps no exit status.
-TEST_F(ChildProcessesTest, AnEndThatIsNotKnownIsNoSuccess) {
+TEST_F(ChildProcessesTest, AnUnknownExitStatusIsAFailure) {
   const auto before = signal(SIGCHLD, SIG_IGN);
   EXPECT_TRUE(run({"exit 3"}, 1));
   signal(SIGCHLD, before);
   EXPECT_THAT(ends, ElementsAre(Pair(0, HasSubstr("No child processes"))));
 }
 
-TEST_F(ChildProcessesTest, NothingToDoIsDone) { EXPECT_TRUE(run({}, 2)); }
+TEST_F(ChildProcessesTest, AnEmptyListOfCommandsSucceeds) { EXPECT_TRUE(run({}, 2)); }
 
 }  // namespace
 }  // namespace hybrid_slam::comparison

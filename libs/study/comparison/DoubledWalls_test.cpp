@@ -73,20 +73,20 @@ TEST(DoubledWalls, OnlyWhatMovesAcrossAWallDoublesIt) {
   EXPECT_EQ(twiceAlongACorridor({0.15, 0.15}).share(), 0);
 }
 
-TEST(DoubledWalls, WithinAPassTheyAreDoubledToo) {
+TEST(DoubledWalls, WallsCanBeDoubledWithinAPass) {
   EXPECT_NEAR(twiceAlongACorridor({0, 0.3}, 5).share(), 40.0 / 46, 0.01);
   Drive drive = twiceAlongACorridor({0, 0});
   for (size_t i = 0; i < drive.run.size(); i += 2) drive.run[i].pose.y += 0.3;
   EXPECT_NEAR(drive.share(), 40.0 / 46, 0.01);
 }
 
-TEST(DoubledWalls, AFewStrayPosesAreNot) {
+TEST(DoubledWalls, AFewStrayPosesDoubleNothing) {
   Drive drive = twiceAlongACorridor({0, 0});
   for (const size_t i : {20, 40, 90}) drive.run[i].pose.y += 1;
   EXPECT_EQ(drive.share(), 0);
 }
 
-TEST(DoubledWalls, ABentMapIsNot) {
+TEST(DoubledWalls, ABentMapIsNotDoubled) {
   Drive drive{room(20, 3)};
   drive.maxRange = 8;
   for (int i = 0; i <= 64; ++i) {
@@ -123,7 +123,7 @@ TEST(DoubledWalls, HeadingErrorsByHand) {
   EXPECT_EQ(turning([](int, double progress) { return 0.04 * (1 - std::abs(2 * progress - 1)); }).share(), 0);
 }
 
-TEST(DoubledWalls, WhereNothingIsShownThereIsNoShare) {
+TEST(DoubledWalls, NoShownWallGivesNoShare) {
   const Drive drive = twiceAlongACorridor({0, 0});
   EXPECT_FALSE(drive.sightings().empty());
   files::Trajectory late = drive.run;

@@ -37,7 +37,7 @@ struct Environment {
   bool isSet_ = false;
 };
 
-TEST(GnuplotScript, TextIsTakenAsItIs) {
+TEST(GnuplotScript, TextIsLiteral) {
   EXPECT_EQ(gnuplotText("it's `date` \\n @x"), "'it''s `date` \\n @x'");
   EXPECT_EQ(gnuplotText("two\nlines"), "'two lines'");
 }
@@ -63,7 +63,7 @@ TEST(Gnuplot, DrawsEachPlotAsAnElement) {
   EXPECT_THAT(svg, Not(HasSubstr("<title>gnuplot_plot")));
 }
 
-TEST(Gnuplot, IdentifiersAreThoseOfOnePlot) {
+TEST(Gnuplot, IdentifiersAreUnique) {
   Gnuplot gnuplot;
   const std::string both = gnuplot.draw({line("first"), line("second")}) + gnuplot.draw({line("third")});
   for (const char* number : {"p1-", "p2-", "p3-"})
@@ -82,7 +82,7 @@ TEST(Gnuplot, TheSamePlotsGiveTheSameBytes) {
   EXPECT_EQ(Gnuplot().draw({line("a")}), svg);
 }
 
-TEST(Gnuplot, NoFileStays) {
+TEST(Gnuplot, LeavesNoFile) {
   const files::TemporaryFolder folder;
   const Environment temporary("TMPDIR", folder.path(""));
   EXPECT_NE(Gnuplot().draw({line("`touch " + folder.path("shell") + "`")}), "");

@@ -34,7 +34,7 @@ TEST(Variant, NameMethodSettingsAndFile) {
   EXPECT_THAT(limited.settings, ElementsAre("grid.resolution=0.1"));
 }
 
-TEST(Variant, EveryBadOneIsNamed) {
+TEST(Variant, EveryWrongOneIsNamed) {
   for (const char* text : {"", "eq9", "eq9:", ":a.b=c", "e q:a.b=c", "..:a.b=c", "a/b/c:a.b=c", "eq9:ab=c",
                            "eq9:a.=c", "eq9:.b=c", "eq9:a.b", "eq9:a.b=c,", "eq9:@", "eq9:@a,@b"}) {
     const std::string error = errorOf([&] { parseVariant(text); });
@@ -46,7 +46,7 @@ TEST(Variant, EveryBadOneIsNamed) {
   EXPECT_THAT(errorOf([] { parseVariant("magic/x:a.b=c"); }), HasSubstr("unknown method `magic`"));
 }
 
-TEST(Setting, WhatTheComparisonVariesItselfIsRefused) {
+TEST(Setting, KeysControlledByTheComparisonAreErrors) {
   for (const char* setting : {"run.output=x", "Run.method=stock", "particle_filter.particles=3",
                               "particle_filter.seed=3", "Particle_Filter.Threads=2"})
     EXPECT_THAT(errorOf([&] { checkSetting(setting, "option --set"); }), HasSubstr("option --set"))
@@ -68,7 +68,7 @@ TEST(Groups, MethodsTimesVariantsTimesParticles) {
                                  "general-fine-20", "general-fine-50", "general-fine-60"));
 }
 
-TEST(Groups, BadOnesAreNamed) {
+TEST(Groups, WrongOnesAreNamed) {
   EXPECT_THAT(errorOf([] { makeGroups({}, {}, {{"", 20}}); }), HasSubstr("no method"));
   EXPECT_THAT(errorOf([] {
                 makeGroups({"hybrid", "gmapping"}, {}, {{"", 20}});

@@ -33,12 +33,12 @@ TEST(ReducedPicture, SmallOnesKeepTheirSize) {
   EXPECT_EQ(decoded(reducedPicture(encoded(cv::Mat(30, 40, CV_8UC3, cv::Scalar(255, 255, 255))))).cols, 40);
 }
 
-TEST(ReducedPicture, NoneIsMadeOfWhatIsNone) {
+TEST(ReducedPicture, InvalidInputGivesNone) {
   EXPECT_EQ(reducedPicture(""), "");
   EXPECT_EQ(reducedPicture("no picture"), "");
 }
 
-TEST(Base64, OfRfc4648) {
+TEST(Base64, MatchesRfc4648WithoutLineBreaks) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");

@@ -44,7 +44,7 @@ TEST(Particles, AreReadTheSameInEveryLocale) {
   EXPECT_EQ(run[0].best().x, 1.25);
 }
 
-TEST(Particles, TheMomentsAreThoseOfTheLargestTurns) {
+TEST(Particles, SnapshotsAreAtTheLargestTurns) {
   // Turns of 1 rad at 3 s and, through the half turn, at 6 s; small ones elsewhere.
   const std::vector<ParticleSnapshot> run{at(0, 0),       at(1, 0.1), at(2, 0.1),  at(3, 1.1),
                                           at(4, 2.7 - 2), at(5, 3.0), at(6, -2.0), at(7, -1.9)};
@@ -72,7 +72,7 @@ TEST(Particles, ArePlottedAroundTheRobot) {
   EXPECT_THAT(plotParticles(snapshot, {-9, 4, 1}, nullptr, 2, "").script, Not(HasSubstr("$walls")));
 }
 
-TEST(Particles, OfManySomeArePlotted) {
+TEST(Particles, LargeSetsAreThinned) {
   ParticleSnapshot snapshot{5, {}};
   for (int i = 0; i < 1001; ++i) snapshot.particles.push_back({{0.001 * i, 0, 0}, 0});
   const std::string script = plotParticles(snapshot, {0, 0, 0}, nullptr, 4, "").script;

@@ -53,7 +53,7 @@ TEST(PlanPlots, TrajectoriesLieOverReferenceAndPlan) {
   EXPECT_EQ(plotTrajectories("general-20", 0, {}, {}, nullptr).script, "");
 }
 
-TEST(PlanPlots, ARobotThatStandsHasAPlotToo) {
+TEST(PlanPlots, AStationaryRobotHasAPlot) {
   EXPECT_NE(drawn(plotTrajectories("general-20", 0, {{{0, {3, 4, 0}}, {1, {3, 4, 1}}}}, {}, nullptr)), "");
 }
 

@@ -63,7 +63,7 @@ TEST_F(PlotsTest, AFigureShowsEveryRunAndNamesItsUnit) {
   EXPECT_EQ(plotFigure(name(Figure::rotMean), groups, results).script, "");
 }
 
-TEST_F(PlotsTest, AGroupWithoutTheFigureSaysSo) {
+TEST_F(PlotsTest, AGroupWithoutTheFigureIsMarked) {
   for (RunResult& r : results)
     if (r.run.group == 1) r[Figure::ate].reset();
   EXPECT_EQ(count(drawn(plotFigure(name(Figure::ate), groups, results)), ">no run<"), 1u);

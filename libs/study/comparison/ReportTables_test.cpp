@@ -35,13 +35,13 @@ TEST(SummaryTable, SuccessIsCountedFirst) {
   EXPECT_THAT(table(runs(2)), HasSubstr("<td>2&#160;of&#160;5 <small>11.8&#160;&#8211;&#160;76.9&#160;%"));
 }
 
-TEST(SummaryTable, AGroupOfTwoKindsShowsItsSuccessesFirst) {
+TEST(SummaryTable, AGroupWithBothOutcomesShowsItsSuccessesFirst) {
   EXPECT_THAT(table(runs(2)), HasSubstr("<td>1.5 <small>of 2 successes</small> <small>all 2.5</small> "
                                         "<small>1.75&#160;&#8211;&#160;3.25</small></td>"));
   EXPECT_THAT(table(runs(1)), HasSubstr("<td>1 <small>of 1 success</small>"));
 }
 
-TEST(SummaryTable, AGroupOfOneKindHasOneMedian) {
+TEST(SummaryTable, AGroupWithOneOutcomeHasOneMedian) {
   const std::string median = "<td>2.5 <small>1.75&#160;&#8211;&#160;3.25</small></td>";
   EXPECT_THAT(table(runs(0)), HasSubstr(median));
   EXPECT_THAT(table(runs(2), false), HasSubstr(median));

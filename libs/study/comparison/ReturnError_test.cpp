@@ -31,7 +31,7 @@ TEST(ReturnError, DoesNotDependOnTheFramesNorOnWhatLiesOutsideTheReference) {
   EXPECT_GT(before.translation, 0.1);
 }
 
-TEST(ReturnError, WithoutOverlapIsTheUsersError) {
+TEST(ReturnError, NoOverlapIsAnInputError) {
   EXPECT_THROW(returnError({{0, {}}}, {{10, {}}}, 0.02), InputError);
 }
 

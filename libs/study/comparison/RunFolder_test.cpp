@@ -56,7 +56,7 @@ TEST_F(RunFolderTest, IsFinishedWhenItHasItsFinalName) {
   EXPECT_FALSE(fs::exists(folder.partial()));
 }
 
-TEST_F(RunFolderTest, KeepsWhatTheReportNeedsAndDropsTheLargeRest) {
+TEST_F(RunFolderTest, KeepsTheFilesOfTheReportAndRemovesLargeOnes) {
   finishRun();
   EXPECT_TRUE(fs::exists(folder.file("map.gridmap.gz")));
   for (const char* name : {"map.pgm", "map.yaml", "map.simplemap.gz"})
@@ -88,7 +88,7 @@ TEST_F(RunFolderTest, ExpectsTheSameSettingsAndLog) {
   }
 }
 
-TEST_F(RunFolderTest, WithoutANoteOfItsOriginComparesSettingsAndPathOnly) {
+TEST_F(RunFolderTest, WithoutARecordOfItsOriginComparesSettingsAndPathOnly) {
   finishRun();
   fs::remove(folder.file("origin.json"));
   RunIdentity other = identity;
@@ -116,7 +116,7 @@ TEST_F(RunFolderTest, AnAbandonedRunLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(temporary.path("runs")));
 }
 
-TEST_F(RunFolderTest, AMissingLogIsTheUsersError) {
+TEST_F(RunFolderTest, AMissingLogIsAnInputError) {
   EXPECT_THROW(noteLog(identity, temporary.path("none.rawlog")), InputError);
 }
 

@@ -14,7 +14,7 @@ const char* const kHeader =
     "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
     "lines_seen,lines_matched,step_ms\n";
 
-TEST(SpreadTable, TakesItsColumnsByNameAndLeavesTheFirstScanOut) {
+TEST(SpreadTable, ReadsItsColumnsByNameAndSkipsTheFirstScan) {
   const files::TemporaryFolder folder;
   const auto file = folder.write("steps.csv", std::string(kHeader) +
                                                   "10.5,20,1,0,0,0,0,0,0,,,0,0,7\n"
@@ -54,7 +54,7 @@ TEST(SpreadTable, ABrokenTableIsAnError) {
                std::runtime_error);
 }
 
-TEST(SpreadBands, ARunCountsWithItsLastUpdateBefore) {
+TEST(SpreadBands, ARunContributesItsLastUpdate) {
   const std::vector<SpreadStep> early{{100, {1, 10, 0}}, {102, {3, 30, 0}}},
       late{{101, {5, 50, 0}}, {104, {7, 70, 0}}};
   const SpreadBands bands = spreadBands({early, late}, 5);  // at 100, 101 ... 104 s
@@ -68,7 +68,7 @@ TEST(SpreadBands, ARunCountsWithItsLastUpdateBefore) {
   EXPECT_DOUBLE_EQ(bands.bands[0][1].upper, 4);
 }
 
-TEST(SpreadBands, NoRunsNoTimes) {
+TEST(SpreadBands, NoRunsGiveNoTimes) {
   EXPECT_TRUE(spreadBands({}, 5).times.empty());
   EXPECT_TRUE(spreadBands({{}, {}}, 5).times.empty());
 }

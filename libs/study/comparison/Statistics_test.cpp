@@ -10,7 +10,7 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-TEST(Quantile, OfTypeSevenByHand) {
+TEST(Quantile, TypeSevenByHand) {
   const Quartiles odd = quartiles({5, 1, 4, 2, 3});
   EXPECT_EQ(odd.lower, 2);
   EXPECT_EQ(odd.median, 3);
@@ -62,7 +62,7 @@ TEST(WilcoxonSignedRank, ByHand) {
   EXPECT_DOUBLE_EQ(wilcoxonSignedRank({1, -1}), 1);
 }
 
-TEST(WilcoxonSignedRank, IsTheShareOfAllSignsThatAreAsFarOut) {
+TEST(WilcoxonSignedRank, IsTheShareOfSignsAtLeastAsExtreme) {
   for (uint64_t round = 0; round < 60; ++round) {
     RandomStream random(1, round, 0);
     std::vector<double> d;
@@ -105,7 +105,7 @@ TEST(SignTest, ByHand) {
   EXPECT_DOUBLE_EQ(signTest({1, -1, 1, -1}), 1);
 }
 
-TEST(MedianRatio, OfProportionalSamplesIsCertain) {
+TEST(MedianRatio, ProportionalSamplesGiveAnIntervalOfWidthZero) {
   const std::vector<double> b{1, 2, 3, 4, 5, 6};
   std::vector<double> a;
   for (const double x : b) a.push_back(0.25 * x);
@@ -116,7 +116,7 @@ TEST(MedianRatio, OfProportionalSamplesIsCertain) {
   EXPECT_DOUBLE_EQ(ratio->interval.high, 0.25);
 }
 
-TEST(MedianRatio, IntervalHoldsTheTrueRatioAboutAsOftenAsItSays) {
+TEST(MedianRatio, IntervalHasItsNominalCoverage) {
   size_t held = 0;
   constexpr size_t kRounds = 200;
   for (size_t round = 0; round < kRounds; ++round) {
@@ -134,7 +134,7 @@ TEST(MedianRatio, IntervalHoldsTheTrueRatioAboutAsOftenAsItSays) {
   EXPECT_LT(held, kRounds);
 }
 
-TEST(MedianRatio, SameSeedSameIntervalAndNothingToDivideByIsNothing) {
+TEST(MedianRatio, SameSeedSameIntervalAndAMedianOfZeroGivesNone) {
   const std::vector<double> a{1, 5, 2, 8, 3}, b{2, 2, 7, 1, 9};
   const auto first = medianRatio(a, b, 3), again = medianRatio(a, b, 3);
   ASSERT_TRUE(first && again);

@@ -54,7 +54,7 @@ TEST(Summary, GroupsByHand) {
   EXPECT_FALSE(s[0].figures[static_cast<size_t>(Figure::rotMean)].quartiles);
 }
 
-TEST(Summary, AFailedRunIsNoSuccessAndAMissingOneIsNoRun) {
+TEST(Summary, AFailedRunIsNotASuccessAndAMissingOneIsNotCounted) {
   const auto s = summarise(3, results());
   EXPECT_EQ(s[0].successes, 1u);
   EXPECT_DOUBLE_EQ(s[0].successRate, 1.0 / 5);
@@ -81,7 +81,7 @@ TEST(Summary, SuccessfulRunsHaveAMedianOfTheirOwn) {
   EXPECT_FALSE(s[0].figures[static_cast<size_t>(Figure::cpuTime)].successfulMedian);  // no error
 }
 
-TEST(Summary, PairsAreTheSeedsThatBothHave) {
+TEST(Summary, PairsAreTheCommonSeeds) {
   const auto s = summarise(3, results());
   ASSERT_TRUE(s[1].paired[kAte]);
   const PairedComparison& p = *s[1].paired[kAte];
@@ -130,7 +130,7 @@ TEST(Summary, TablesHaveTheirColumnsInEveryRow) {
   EXPECT_THAT(resultText.str(), HasSubstr("\nstock,,20,2,failed,,"));
 }
 
-TEST(Summary, JsonSaysTheSame) {
+TEST(Summary, JsonHasTheSameContent) {
   const auto json = summaryJson(kGroups, summarise(3, results()));
   ASSERT_EQ(json.at("groups").size(), 3u);
   const auto& group = json["groups"][1];

@@ -27,7 +27,7 @@ TEST(ErrorStatistics, OddNumberAndSingle) {
   EXPECT_EQ(s.max, 0.25);
 }
 
-TEST(ErrorStatistics, OfNothingIsAnError) { EXPECT_THROW(errorStatistics({}), std::invalid_argument); }
+TEST(ErrorStatistics, AnEmptySetIsAnError) { EXPECT_THROW(errorStatistics({}), std::invalid_argument); }
 
 }  // namespace
 }  // namespace hybrid_slam::evaluation

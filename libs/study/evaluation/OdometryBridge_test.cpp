@@ -34,7 +34,7 @@ TEST(OdometryBridge, SpreadsTheClosingErrorInEqualParts) {
   expectPose(bridge.poseAt(4), 4.4, 0.8, 0.2);
 }
 
-TEST(OdometryBridge, CarriesOnInTheFrameOfTheLastPose) {
+TEST(OdometryBridge, ContinuesInTheFrameOfTheLastPose) {
   const files::Trajectory odometry = straightOdometry({0, 1, 2, 3});
   const OdometryBridge bridge({{1, {10, 20, M_PI / 2}}}, odometry, 0.006);
   EXPECT_FALSE(bridge.poseAt(0).has_value()) << "before the first pose";
@@ -42,14 +42,14 @@ TEST(OdometryBridge, CarriesOnInTheFrameOfTheLastPose) {
   expectPose(bridge.poseAt(3), 10, 22, M_PI / 2);
 }
 
-TEST(OdometryBridge, RowsCountNotStampsWhereTimeStepsBack) {
+TEST(OdometryBridge, RowOrderIsUsedWhereTimeStepsBack) {
   const files::Trajectory odometry = straightOdometry({0, 1, 3, 2, 4});  // the robot was at x = 3 at stamp 2
   const OdometryBridge bridge({{0, {0, 0, 0}}, {4, {4, 0.4, 0}}}, odometry, 0.006);
   expectPose(bridge.poseAt(3), 2, 0.2, 0);
   expectPose(bridge.poseAt(2), 3, 0.3, 0);
 }
 
-TEST(OdometryBridge, ClosingErrorOfTheHeadingGoesTheShortWay) {
+TEST(OdometryBridge, HeadingErrorsAreSpreadTheShorterWay) {
   files::Trajectory odometry;
   for (int i = 0; i <= 4; ++i) odometry.push_back({static_cast<double>(i), {0, 0, 3.1}});
   // From 3.1 to -3.1 it is 2 pi - 6.2 forwards, not 6.2 backwards.
@@ -66,7 +66,7 @@ TEST(OdometryBridge, NeedsARowWithinTheToleranceAndNeverTakesMoreThan6Millisecon
   EXPECT_FALSE(narrow.poseAt(1.002).has_value());
 }
 
-TEST(OdometryBridge, OfTwoPosesAtOneRowTheLaterInTheFileStands) {
+TEST(OdometryBridge, OfTwoPosesAtOneRowTheLaterInTheFileIsUsed) {
   const files::Trajectory odometry = straightOdometry({0, 1});
   const OdometryBridge bridge({{0, {5, 0, 0}}, {0, {7, 0, 0}}}, odometry, 0.006);
   expectPose(bridge.poseAt(1), 8, 0, 0);

@@ -51,7 +51,7 @@ TEST(RelationErrors, ByHandWithOdometry) {
   EXPECT_EQ(evaluateRelations(trajectory, relations, nullptr, 0.006).used, 1u);
 }
 
-TEST(RelationErrors, RotationErrorGoesTheShortWay) {
+TEST(RelationErrors, RotationErrorTakesTheShorterWay) {
   const files::Trajectory trajectory{{0, {0, 0, 0}}, {1, {0, 0, -179 * kDegree}}};
   const RelationErrors e = evaluateRelations(trajectory, {{0, 1, {0, 0, 179 * kDegree}}}, nullptr, 0.006);
   EXPECT_NEAR(e.rotation.max, 2 * kDegree, 1e-12);

@@ -116,7 +116,7 @@ TEST(RelativePoseError, OverTimeTheOrderOfTheRowsDoesNotMatter) {
   expectAll(e.translation, 0.03, 1e-12);
 }
 
-TEST(RelativePoseError, WayGoesRoundCornersInFileOrder) {
+TEST(RelativePoseError, DistanceFollowsThePathInFileOrder) {
   const files::Trajectory reference{
       {0, {0, 0, 0}}, {1, {1, 0, 0}}, {3, {1, 1, 0}}, {2, {0, 1, 0}}, {4, {0, 2, 0}}};
   files::Trajectory estimate = reference;

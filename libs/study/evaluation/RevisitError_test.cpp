@@ -80,7 +80,7 @@ TEST(RevisitError, ExactPosesCloseTheRoom) {
   EXPECT_LT(e.error.max, 1e-9);
 }
 
-TEST(RevisitError, ShiftIsSeenOnTheWallsAcrossOnly) {
+TEST(RevisitError, AShiftIsSeenOnlyOnTheWallsAcrossIt) {
   const RevisitErrors e = twoLaps(0.15).errors();
   EXPECT_EQ(e.apart, 0u);
   EXPECT_GT(e.error.mean, 0.02);
@@ -108,7 +108,7 @@ TEST(RevisitError, WallsThatDoNotMeetAreApart) {
   EXPECT_EQ(e.error.max, 0.5);
 }
 
-TEST(RevisitError, RevisitsNeedWayAndNearness) {
+TEST(RevisitError, RevisitsNeedDistanceDrivenAndProximity) {
   const RevisitErrors none = outAndBack(9.9, 0).errors();
   EXPECT_EQ(none.scans, 95u);
   EXPECT_EQ(none.revisits, 0u);

@@ -16,7 +16,7 @@ files::Trajectory withStamps(const std::vector<double>& stamps) {
   return t;
 }
 
-TEST(StampIndex, NamesTheRowNotTheRankInTime) {
+TEST(StampIndex, GivesTheRowNotTheRankInTime) {
   const StampIndex index(withStamps({10, 30, 20}));
   EXPECT_EQ(index.nearest(19, 5), 2u);
   EXPECT_EQ(index.nearest(29, 5), 1u);
@@ -41,11 +41,11 @@ TEST(StampIndex, TiesAsDocumented) {
   EXPECT_EQ(index.nearest(2, 1), 3u);
 }
 
-TEST(StampIndex, NothingIsNearestToNothing) {
+TEST(StampIndex, AnEmptyIndexFindsNothing) {
   EXPECT_EQ(StampIndex(files::Trajectory()).nearest(0, 1e9), std::nullopt);
 }
 
-TEST(StampIndex, AgreesWithASearchThroughAllRows) {
+TEST(StampIndex, AgreesWithALinearSearch) {
   RandomStream random(2, 0, 0);
   files::Trajectory t;
   for (int i = 0; i < 300; ++i) t.push_back({100 * random.uniform(), {}});

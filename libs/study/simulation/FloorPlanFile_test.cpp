@@ -49,11 +49,11 @@ TEST(FloorPlanFile, EveryWordMakesItsWalls) {
   EXPECT_NEAR(totalLength(wallsOf("arc 5 5 2 350 10")), 2 * 20 * M_PI / 180, 1e-12);
 }
 
-TEST(FloorPlanFile, CommentsAndEmptyLinesAreLeftOut) {
+TEST(FloorPlanFile, CommentsAndEmptyLinesAreSkipped) {
   EXPECT_EQ(wallsOf("# a room\n\n  wall 0 0 1 0 # south\n\t\nwall 0 0 0 1\r\n").size(), 2u);
 }
 
-TEST(FloorPlanFile, ADoorIsAGapWhereverItIsWritten) {
+TEST(FloorPlanFile, ADoorIsAGapAnywhereInTheFile) {
   for (const char* text : {"wall 0 0 10 0\ndoor 4 0 5 0\n", "door 5 0 4 0\nwall 10 0 0 0\n"}) {
     const FloorPlan plan(wallsOf(text));
     EXPECT_EQ(plan.walls().size(), 2u);

@@ -131,7 +131,7 @@ std::vector<Wall> randomWalls(RandomStream& random) {
   return walls;
 }
 
-TEST(FloorPlan, TheIndexAgreesWithLookingAtEveryWall) {
+TEST(FloorPlan, TheIndexAgreesWithABruteForceSearch) {
   RandomStream random(4, 0, 0);
   int hits = 0;
   for (int trial = 0; trial < 150; ++trial) {

@@ -165,7 +165,7 @@ std::string errorOf(const LaserOptions& options) {
   return "no error";
 }
 
-TEST(Laser, ModesThatTheSensorDoesNotHaveAreErrors) {
+TEST(Laser, UnsupportedModesAreErrors) {
   LaserOptions options;
   options.resolutionDeg = 1;
   EXPECT_THAT(errorOf(options), HasSubstr("the LMS-100 does not have this resolution: section [laser], key "

@@ -93,7 +93,7 @@ TEST(Simulation, PerfectOdometryIsTheTruth) {
   }
 }
 
-TEST(Simulation, ASlipShowsInTheOdometryFromItsMomentOn) {
+TEST(Simulation, ASlipChangesTheOdometryFromItsTimeOn) {
   TestDrive drive;
   drive.makePerfect();
   const SimulatedLog without = drive.log();
@@ -148,7 +148,7 @@ TEST(Simulation, BothFormsOfRawlogHoldTheSameScansAndOdometry) {
   }
 }
 
-TEST(Simulation, EndsAfterTheScansAskedFor) {
+TEST(Simulation, EndsAfterTheRequestedScans) {
   TestDrive drive;
   drive.options.scans = 17;
   EXPECT_EQ(drive.log().scans.size(), 17u);

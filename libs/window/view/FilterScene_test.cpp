@@ -32,7 +32,7 @@ FilterSnapshot room() {
   return filter;
 }
 
-TEST(MapView, PlacesAndPixelsGoThereAndBack) {
+TEST(MapView, RoundTripBetweenPointsAndPixels) {
   const MapView view{3, -2, 25};
   const PictureSize size{640, 480};
   EXPECT_NEAR(view.toPicture(3, -2, size).x, 320, 1e-9);
@@ -56,7 +56,7 @@ TEST(MapView, TheWholeMapIsInThePicture) {
   }
 }
 
-TEST(FilterScene, HasTheLayersThatAreAskedFor) {
+TEST(FilterScene, HasTheRequestedLayers) {
   const FilterSnapshot filter = room();
   const PictureSize size{600, 400};
   const auto scene = [&](const Layers& layers) {
@@ -73,14 +73,14 @@ TEST(FilterScene, HasTheLayersThatAreAskedFor) {
   EXPECT_TRUE(none->getByName("robot"));
 }
 
-TEST(FilterScene, AnEmptyMapIsNoPlane) {
+TEST(FilterScene, AnEmptyMapGivesNoPlane) {
   EXPECT_FALSE(mapPlane({}));
   const FilterSnapshot nothing;
   EXPECT_TRUE(filterScene(nothing, nullptr, {}, {}, {200, 100}));
 }
 
 /// Rendered off-screen and checked.
-TEST(FilterScene, ThePictureHasEverythingWhereItIs) {
+TEST(FilterScene, ThePictureShowsEverythingInItsPlace) {
   const FilterSnapshot filter = room();
   const PictureSize size{600, 480};
   mrpt::img::CImage picture;

@@ -123,7 +123,7 @@ TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {
   EXPECT_LT(session.snapshot()->scans, kScans);
 }
 
-TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayStartsAnew) {
+TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayRestartsIt) {
   ReplaySession session(laps(), {Method::hybrid});
   session.exportResults(folder.path("early"));
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 1; }));
@@ -186,7 +186,7 @@ TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
   EXPECT_TRUE(isQuick);
 }
 
-TEST_F(ReplaySessionTest, ALogThatIsNoneFailsWithItsName) {
+TEST_F(ReplaySessionTest, AnInvalidLogFailsWithItsName) {
   ReplaySession session(configuration(folder.path("missing.rawlog")), {Method::hybrid});
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::failed; }));
   EXPECT_THAT(session.snapshot()->message, HasSubstr("missing.rawlog"));
