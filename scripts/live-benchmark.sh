@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How well hybrid-slam-live keeps up on the simulated CSIE building: 541 beams, 50 particles, 5 cm, two threads.
+# Throughput and latency of hybrid-slam-live on the simulated CSIE building: 541 beams, 50 particles, 5 cm, two threads.
 #   scripts/live-benchmark.sh [MINUTES [RATE...]]
 # Replays a log of MINUTES (10) at each RATE in cycles per second; 0: real time, 5 (0 10 20 40 80). Prints latency,
 # skipped and lost cycles, and whether replaying the recording gives identical results.

@@ -2,8 +2,8 @@
 # Counts of the logs as Markdown tables, from the programs' output.
 #   scripts/log-facts.sh public     the public logs in the folder HYBRID_SLAM_DATASETS (doc/datasets.md)
 #   scripts/log-facts.sh malaga     the demo's log, from Debian's mrpt-common
-#   scripts/log-facts.sh csie       the simulated logs, regenerated (doc/simulation.md) Uses the programs in PATH, else
-# those in build/release/bin.
+#   scripts/log-facts.sh csie       the simulated logs, regenerated (doc/simulation.md)
+# Uses the programs in PATH, else those in build/release/bin.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 PATH=$PATH:$PWD/build/release/bin

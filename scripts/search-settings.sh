@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The settings that serve a method best, searched with seeds that no comparison uses: strength, deviation and beams of
-# w_grid, learning the odometry's systematic error or not, noise of the motion model, update distance.
+# Searches the best settings of a method, with seeds that no comparison uses: exponent, sigma and beams of w_grid,
+# learning of the systematic odometry error, noise of the motion model, update distance.
 #   scripts/search-settings.sh METHOD PARTICLES [OUT]     OUT defaults to out/search-METHOD
 # `general` is searched with 60 particles and `hybrid` with 10, where some runs succeed and some do not. SEEDS=8 runs of
 # each setting from FIRST_SEED=101 on. About 30 minutes on two cores.

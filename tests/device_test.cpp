@@ -120,7 +120,7 @@ TEST_F(DeviceTest, TheLms100sScansArriveAsTheDeviceMadeThem) {
   };
   ASSERT_EQ(scan->getScanSize(), 541u);
   EXPECT_EQ(std::count_if(truth.begin(), truth.end(), isThis), 1);
-  EXPECT_TRUE(scan->rightToLeft) << "as the INI says, and the device does; the driver says the contrary";
+  EXPECT_TRUE(scan->rightToLeft) << "as in the INI file and the device; the driver reports the opposite";
   EXPECT_NEAR(scan->aperture, 1.5 * M_PI, 1e-4);
   EXPECT_NEAR(scan->sensorPose.x(), 0.15, 1e-6);
   EXPECT_EQ(scan->sensorLabel, "LASER");
@@ -273,7 +273,7 @@ TEST_F(DeviceTest, ThePioneersOdometryContinuesAfterEveryFault) {
   const auto poses = sensors.odometry();
   for (size_t i = 1; i < poses.size(); ++i)
     EXPECT_LT((poses[i] - poses[i - 1]).norm(), 0.6)
-        << "no jump back to zero, nor by the way that nobody saw";
+        << "no jump back to zero, and none by the unobserved motion";
 }
 
 TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreDroppedAndReported) {

@@ -77,7 +77,7 @@ TEST_F(HybridSlam, WrongLog) {
 TEST_F(HybridSlam, UnreadableLog) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   fs::permissions(log, fs::perms::none);
-  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who may read everything";
+  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who can read everything";
   expectError(replay(log), "cannot open: " + log);
 }
 

@@ -42,7 +42,7 @@ TEST_F(HybridSlam, OutputThatCannotBeWritten) {
 TEST_F(HybridSlam, OutputFolderNotWritable) {
   fs::create_directory(output);
   fs::permissions(output, fs::perms::owner_read | fs::perms::owner_exec);
-  if (access(output.c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who may write everywhere";
+  if (access(output.c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who can write everywhere";
   expectError(replay(test::laps(4)), "output folder not writable: " + output);
 }
 

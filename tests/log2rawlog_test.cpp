@@ -166,7 +166,7 @@ TEST_F(Log2Rawlog, CutGzip) {
 TEST_F(Log2Rawlog, UnreadableInput) {
   const std::string log = folder.write("in.clf", scanRow("10"));
   fs::permissions(log, fs::perms::none);
-  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who may read everything";
+  if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who can read everything";
   expectError(convert(log), "cannot read");
 }
 

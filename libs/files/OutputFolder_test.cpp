@@ -86,7 +86,7 @@ TEST(OutputFolder, NotWritable) {
   const TemporaryFolder root;
   fs::create_directory(root.path("out"));
   fs::permissions(root.path("out"), fs::perms::owner_read | fs::perms::owner_exec);
-  if (access(root.path("out").c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who may write everywhere";
+  if (access(root.path("out").c_str(), W_OK) == 0) GTEST_SKIP() << "run as root, who can write everywhere";
   EXPECT_THAT(errorOf([&] { OutputFolder{root.path("out")}; }), HasSubstr("not writable"));
 }
 

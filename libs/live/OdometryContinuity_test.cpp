@@ -19,7 +19,7 @@ TEST(OdometryContinuity, ChangesNothingUntilARestart) {
   EXPECT_EQ(odometry(second), second);
   OdometryContinuity early;
   early.restart();
-  EXPECT_EQ(early(first), first) << "there is nothing to go on from";
+  EXPECT_EQ(early(first), first) << "there is no pose to continue from";
 }
 
 TEST(OdometryContinuity, ContinuesFromTheLastPose) {

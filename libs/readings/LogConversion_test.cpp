@@ -227,7 +227,7 @@ TEST(LogConversion, BrokenLinesAreCountedWithTheirNumbers) {
   strict.strict = true;
   try {
     convert(log, strict);
-    FAIL() << "a broken line passed";
+    FAIL() << "a broken line was accepted";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("broken line: "));
     EXPECT_THAT(e.what(), HasSubstr("in.log, line 2; 2 fields where 9 were expected"));

@@ -184,7 +184,7 @@ TEST(LogParserCarmen, ReasonsNameWhatIsWrong) {
   const auto parser = formatNamed("carmen")->makeParser({});
   try {
     parser->parse(kFlaser);
-    FAIL() << "three beams and no angular step told";
+    FAIL() << "three beams without an angular step";
   } catch (const BrokenLine& e) {
     EXPECT_THAT(e.what(), HasSubstr("3 beams: the angular step must be given"));
   }

@@ -62,7 +62,7 @@ Replayed replayed(const test::Log& log, const InputOptions& options = {}, bool i
     for (const auto& s : reading->scans) out.sizes.back().push_back(s->getScanSize());
     out.poses.push_back(pose);
   }
-  EXPECT_EQ(out.times.size(), out.summary.scans) << "the summary tells how many scans come";
+  EXPECT_EQ(out.times.size(), out.summary.scans) << "the summary gives the number of scans";
   EXPECT_EQ(source.entry(), out.summary.entries);
   EXPECT_FALSE(source.next()) << "an end stays an end";
   return out;
@@ -81,7 +81,8 @@ TEST(RawlogSource, ActionObservationPairsSumUpTheOdometry) {
   for (const bool isGzipped : {false, true}) {
     const Replayed r = replayed(log, {}, isGzipped);
     EXPECT_THAT(r.times, areNear({10, 11, 12}));
-    EXPECT_THAT(r.x, areNear({0, 1, 1 - std::sqrt(0.5)})) << "the way before the first scan does not count";
+    EXPECT_THAT(r.x, areNear({0, 1, 1 - std::sqrt(0.5)}))
+        << "the distance before the first scan is not counted";
     EXPECT_THAT(r.phi, areNear({0, M_PI / 2, 3 * M_PI / 4}));
     EXPECT_TRUE(r.summary.hasActions);
     EXPECT_FALSE(r.summary.hasOdometryReadings);
@@ -177,7 +178,7 @@ TEST(RawlogSource, TimestampsSteppingBackKeepTheOrderOfTheLog) {
 TEST(RawlogSource, MissingTimestamps) {
   const Replayed r = replayed({test::odometry(10, {0, 0, 0}), scan(10), test::odometry(11, {1, 0, 0}),
                                scan(test::kNoTime), test::odometry(12, {2, 0, 0}), scan(12)});
-  EXPECT_THAT(r.times, areNear({10, 10, 12})) << "that of the scan before";
+  EXPECT_THAT(r.times, areNear({10, 10, 12})) << "that of the previous scan";
   EXPECT_THAT(r.x, areNear({0, 1, 2}));
   EXPECT_EQ(r.summary.unstamped.count, 1u);
   EXPECT_EQ(r.summary.unstamped.first, 4u);
@@ -325,9 +326,9 @@ TEST(RawlogSource, NoOdometry) {
   InputOptions options;
   options.requireOdometry = false;
   EXPECT_THAT(replayed(log, options).x, areNear({0, 0, 0}));
-  EXPECT_THAT(replayed(log, options).entries, ElementsAre(1u, 2u, 3u)) << "nobody waits";
+  EXPECT_THAT(replayed(log, options).entries, ElementsAre(1u, 2u, 3u)) << "scans do not wait";
   const test::Log withOdometry{test::odometry(1, {}), scan(1), test::odometry(2, {1, 0, 0}), scan(2)};
-  EXPECT_THAT(replayed(withOdometry, options).x, areNear({0, 1})) << "what is there is used";
+  EXPECT_THAT(replayed(withOdometry, options).x, areNear({0, 1})) << "available odometry is used";
   EXPECT_THAT(replayed({test::action({}), test::frame({scan(1)})}).error, "") << "standing still is odometry";
 }
 

@@ -75,7 +75,7 @@ TEST_F(ConfigurationTest, MisspeltSection) {
   EXPECT_THAT(errorOf("[Run]\n[grid]\n"), HasSubstr("[run]"));
   EXPECT_EQ(errorOf("[run]\n[gui]\nx=1\n[grab]\n[laser]\n[MappingApplication_pointsMap_00_insertOpts]\n"),
             "no error")
-      << "sections of other programs are left alone";
+      << "sections of other programs are ignored";
 }
 
 TEST_F(ConfigurationTest, UnknownKey) {
@@ -101,7 +101,7 @@ TEST_F(ConfigurationTest, LinesThatTheParserIgnoresAreErrors) {
   EXPECT_THAT(errorOf("particles\n[run]\n"), StartsWith("wrong line `particles`"));
   EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));
   EXPECT_THAT(errorOf("[run\nmethod = general\n[grid]\n"), StartsWith("wrong line `[run`"));
-  EXPECT_EQ(errorOf("[run]\n[other]\nfree text\n"), "no error") << "other sections are left alone";
+  EXPECT_EQ(errorOf("[run]\n[other]\nfree text\n"), "no error") << "other sections are ignored";
   EXPECT_EQ(errorOf("[run]\r\n\r\nmethod = general\r\n\r\n"), "no error");
   EXPECT_EQ(errorOf("\xEF\xBB\xBF[run]\nmethod = general\n"), "no error") << "a byte order mark";
 }

@@ -63,7 +63,7 @@ TEST(RelativePoseError, HeadingDriftPerMetre) {
     estimate.push_back({i * 0.1, estimate.back().pose + TPose2D{0.05, 0, 0.001}});
   const RpeErrors e = relativePoseError(estimate, reference, {1, Unit::metres}, 0.01);
   expectAll(e.rotation, 0.02, 1e-12);
-  EXPECT_NEAR(e.translation.std, 0, 1e-12) << "each stretch bends alike";
+  EXPECT_NEAR(e.translation.std, 0, 1e-12) << "each stretch has the same error";
   EXPECT_GT(e.translation.mean, 0.005);
 }
 
