@@ -23,7 +23,8 @@ void ParticleFilterOptions::describe(OptionTable& t) {
   t.add("ess_threshold", essThreshold, 0, 1, "",
         "resample when the effective sample size, as a fraction of the particles, falls below this");
   t.add("update_distance", updateDistance, 0, 100, "m", "update the filter after this distance");
-  t.addAngle("update_angle_deg", updateAngle, 0, 360, "or after this rotation");
+  t.addAngle("update_angle_deg", updateAngle, 0, 360,
+             "update the filter after this rotation, if it comes first");
   t.add("seed", seed, 0, 2147483647,
         "random seed; the same seed gives identical results for any number of threads");
   t.add("threads", threads, 0, 1024, "number of threads; 0: all cores");
@@ -46,9 +47,9 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
         "standard deviation of a line's distance from its wall in the database");
   t.add("slip_distance", slipDistance, 0, 5, "m",
         "search range around the odometry for a scan that fits poorly; 0: no search");
-  t.addAngle("slip_angle_deg", slipAngle, 1, 180, "search range in heading");
+  t.addAngle("slip_angle_deg", slipAngle, 1, 180, "search range of the heading");
   t.add("slip_probability", slipProbability, 1e-12, 1, "",
-        "prior probability of a slip in a step; larger: the search is trusted sooner");
+        "prior probability of a slip in a step; a larger value accepts the search result sooner");
 }
 
 }  // namespace hybrid_slam

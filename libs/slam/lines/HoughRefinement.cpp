@@ -19,7 +19,7 @@ void HoughOptions::describe(OptionTable& table) {
             "cell size; points within half a cell of a line vote for it: use 2 to 4 times the range noise");
   table.addAngle("theta_window_deg", thetaWindow, 0.01, 45,
                  "voting space: angle on either side of the fitted line");
-  table.addAngle("theta_resolution_deg", thetaResolution, 0.01, 10, "cell size");
+  table.addAngle("theta_resolution_deg", thetaResolution, 0.01, 10, "cell size in the angle");
 }
 
 namespace {
