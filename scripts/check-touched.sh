@@ -31,16 +31,14 @@ mapfile -t touched < <(git log --since="@$((head - 6 * 3600))" --name-only --for
 cmake --preset release >/dev/null
 mapfile -t folders < <(sed -nE 's|^ *"file": ".*/(libs/.*)/[^/]*"$|\1|p' build/release/compile_commands.json | uniq)
 mapfile -t threaded < <(scripts/check.sh threaded)
+in_folder() { printf '%s\n' "${touched[@]}" | grep -E "^$1/[^/]*\.(h|cpp)$"; }
 for folder in "${folders[@]}"; do
-  files=()
-  for file in "${touched[@]}"; do
-    source=${file%.h}
-    source=${source%.cpp}.cpp
-    [[ $(dirname "$file") == "$folder" && -f $source && " ${files[*]} " != *" $source "* ]] && files+=("$source")
-  done
-  [[ " ${touched[*]}" == *" $folder/"* ]] || continue
-  ! compgen -G "$folder/*_test.cpp" >/dev/null || step "$folder under ASan and UBSan" scripts/check.sh sanitize "$folder"
+  if ! in_folder "$folder" >/dev/null || ! compgen -G "$folder/*_test.cpp" >/dev/null; then continue; fi
+  step "$folder under ASan and UBSan" scripts/check.sh sanitize "$folder"
   [[ " ${threaded[*]} " != *" $folder "* ]] || step "$folder under TSan" scripts/check.sh tsan "$folder"
+done
+for folder in "${folders[@]}"; do  # a touched header is seen through its .cpp file
+  mapfile -t files < <(in_folder "$folder" | sed 's/\.h$/.cpp/' | sort -u | xargs -r ls 2>/dev/null)
   [[ ${#files[@]} -eq 0 ]] || step "$folder under clang-tidy" scripts/check.sh tidy "${files[@]}"
 done
 for name in "${missed[@]}"; do echo "not run: out of time: $name"; done
