@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Checks what the latest commits touched in libs/, as far as the time goes: clang-format on all files, clang-tidy on
-# the touched ones, the tests of the touched libraries under ASan and UBSan, and under TSan if they use threads.
+# Checks what the latest commits touched in libs/, as far as the time goes: clang-format on all files, the tests of the
+# touched libraries under ASan and UBSan, and under TSan if they use threads, then clang-tidy on the touched files.
 #   scripts/check-touched.sh [MINUTES]     MINUTES defaults to 20
 # Touched: by HEAD and the commits of the six hours before it. Libraries in build order, those that need least first.
 # What does not fit into the time is named and is no failure. Exit status 1 if a check failed.
 source "$(dirname "$0")/lib.sh"
-deadline=$((SECONDS + 60 * ${1:-20}))
+stop=10  # s in which a step that is out of time ends
+deadline=$((SECONDS + 60 * ${1:-20} - stop))
 mkdir -p build
 log=build/check-touched.log
 failed=0 missed=()
@@ -15,7 +16,7 @@ step() {
   local name=$1 left=$((deadline - SECONDS)) start=$SECONDS status=0
   shift
   [[ $left -gt 0 ]] || { missed+=("$name"); return; }
-  timeout -k 10 "$left" "$@" >$log 2>&1 </dev/null || status=$?
+  timeout -k $stop "$left" "$@" >$log 2>&1 </dev/null || status=$?
   case $status in
     0) echo "passed  $name, $((SECONDS - start)) s" ;;
     124 | 137) missed+=("$name") ;;
@@ -23,13 +24,26 @@ step() {
   esac
 }
 
-step "clang-format" scripts/check.sh format
+# Prints the touched files of libs/. The oldest commits of a shallow clone are left out, as their parents are not there:
+# they seem to touch every file. If HEAD is one of them, all files are taken as touched.
+touched_files() {
+  local head boundary
+  head=$(git log -1 --format=%ct) || return
+  mapfile -t boundary < <(cat "$(git rev-parse --git-path shallow)" 2>/dev/null)
+  if [[ " ${boundary[*]} " == *" $(git rev-parse HEAD) "* ]]; then
+    git ls-files libs
+  else
+    git log --since="@$((head - 6 * 3600))" --name-only --format= HEAD "${boundary[@]/#/^}" -- libs | sort -u
+  fi
+}
 
-head=$(git log -1 --format=%ct) || { echo "not run: the touched libraries: no git history" && exit $failed; }
-mapfile -t touched < <(git log --since="@$((head - 6 * 3600))" --name-only --format= -- libs | sort -u)
 # The folders of libs/ in the order in which CMake adds them, where libraries come after those that they need.
 cmake --preset release >/dev/null
 mapfile -t folders < <(sed -nE 's|^ *"file": ".*/(libs/.*)/[^/]*"$|\1|p' build/release/compile_commands.json | uniq)
+
+step "clang-format" scripts/check.sh format
+files=$(touched_files) || { echo "not run: the touched libraries: no git history" && exit $failed; }
+mapfile -t touched <<<"$files"
 mapfile -t threaded < <(scripts/check.sh threaded)
 in_folder() { printf '%s\n' "${touched[@]}" | grep -E "^$1/[^/]*\.(h|cpp)$"; }
 for folder in "${folders[@]}"; do
