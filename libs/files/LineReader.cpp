@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -76,6 +77,13 @@ bool LineReader::fill() {
   if (code != Z_OK && code != Z_STREAM_END)
     throw InputError("damaged gzip file", where, std::string("expected a whole gzip file: ") + message);
   return false;
+}
+
+bool isText(const std::string& path) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file(gzopen(path.c_str(), "rb"), gzclose_r);
+  std::array<char, 512> start{};
+  const int got = file ? gzread(file.get(), start.data(), start.size()) : 0;
+  return got > 0 && !std::memchr(start.data(), 0, static_cast<size_t>(got));
 }
 
 }  // namespace hybrid_slam::files

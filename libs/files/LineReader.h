@@ -35,4 +35,8 @@ class LineReader {
   size_t number_ = 0;
 };
 
+/// Whether a file, plain or gzipped, starts with text: no byte of its first 512 is zero. A rawlog has zeros
+/// there. False for an empty or unreadable file.
+bool isText(const std::string& path);
+
 }  // namespace hybrid_slam::files

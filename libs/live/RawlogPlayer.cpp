@@ -6,7 +6,6 @@
 #include <chrono>
 #include <thread>
 
-#include "files/RawlogReader.h"
 #include "live/CycleGrouper.h"
 #include "readings/RawlogSource.h"
 
@@ -70,7 +69,7 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
     pace.wait(*cycle);
     if (!stop()) sink(cycle);
   });
-  files::RawlogReader reader(file_);
+  readings::LogReader reader(file_);
   mrpt::math::TPose2D travelled;
   bool hasActions = false;
   while (const auto object = stop() ? nullptr : reader.next()) {

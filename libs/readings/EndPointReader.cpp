@@ -15,9 +15,7 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::strin
   options.requireOdometry = false;
   const RawlogSummary summary = summarise(rawlog, options);
   if (!summary.defect.empty())
-    throw InputError("log " + summary.defect,
-                     "entry " + std::to_string(summary.entries + 1) + " of " + rawlog,
-                     "expected a whole rawlog");
+    throw InputError("log " + summary.defect, summary.defectPlace(rawlog), "expected a whole log");
   RawlogSource source(rawlog, options, summary);
   std::vector<EndPoints> scans;
   while (const auto reading = source.next()) {

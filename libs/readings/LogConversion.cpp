@@ -1,172 +1,22 @@
 #include "readings/LogConversion.h"
 
-#include <mrpt/core/Clock.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CSensoryFrame.h>
-
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "base/Errors.h"
-#include "files/LineReader.h"
 #include "files/RawlogWriter.h"
-#include "readings/LogFields.h"
 
 namespace hybrid_slam::readings {
-namespace {
-
-using mrpt::obs::CObservation2DRangeScan;
-
-CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double maxRange) {
-  auto observation = CObservation2DRangeScan::Create();
-  observation->timestamp = mrpt::Clock::fromDouble(record.time);
-  observation->sensorLabel = record.label;
-  observation->maxRange = static_cast<float>(std::min(maxRange, record.maxRange.value_or(maxRange)));
-  observation->rightToLeft = true;
-  const size_t beams = record.ranges.size();
-  const double aperture = static_cast<double>(beams - 1) * record.angles.step;
-  observation->aperture = static_cast<float>(aperture);
-  observation->sensorPose =
-      mrpt::poses::CPose3D(record.laserPose.x, record.laserPose.y, 0,
-                           record.laserPose.phi + record.angles.first + aperture / 2, 0, 0);
-  observation->resizeScan(beams);
-  for (size_t i = 0; i < beams; ++i) {
-    const float range = record.ranges[i];
-    // NaN in a rawlog would reach programs that ignore the validity flags.
-    observation->setScanRange(i, std::isfinite(range) ? range : 0);
-    observation->setScanRangeValidity(i, range > 0 && range < observation->maxRange);
-  }
-  return observation;
-}
-
-/// `CARMEN: FLASER, RLASER, ROBOTLASER1; DP-SLAM: Laser`.
-std::string formatList() {
-  std::string all;
-  for (const LogFormat* format : logFormats())
-    all += (all.empty() ? "" : "; ") + std::string(format->name) + ": " + format->rows;
-  return all;
-}
-
-const LogFormat* recogniseFormat(files::LineReader& lines) {
-  std::string line;
-  while (lines.next(line)) {
-    if (const LogFormat* format = formatOf(line)) {
-      lines.rewind();
-      return format;
-    }
-  }
-  throw InputError("not a robot log", lines.path(), "expected rows of scans (" + formatList() + ")");
-}
-
-/// Writes records as rawlog entries, in either format, and gathers the summary.
-class Conversion {
- public:
-  Conversion(files::RawlogWriter& writer, double maxRange, bool actionObservation)
-      : writer_(writer), maxRange_(maxRange), actionObservation_(actionObservation) {}
-
-  void operator()(std::monostate) {}
-
-  void operator()(const OtherRecord& record) { ++summary.otherRecords[record.name]; }
-
-  void operator()(const OdometryRecord& record) {
-    if (last_) summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
-    last_ = record;
-    ++summary.odometryReadings;
-    seenAt(record.time);
-    if (actionObservation_) return;
-    mrpt::obs::CObservationOdometry observation;
-    observation.timestamp = mrpt::Clock::fromDouble(record.time);
-    observation.sensorLabel = "ODOMETRY";
-    observation.odometry = mrpt::poses::CPose2D(record.pose);
-    writer_.write(observation);
-  }
-
-  void operator()(const LaserRecord& record) {
-    if (record.odometry && !(last_ && last_->time == record.time && last_->pose == *record.odometry))
-      (*this)(OdometryRecord{record.time, *record.odometry});
-    ++summary.scans;
-    seenAt(record.time);
-    const auto observation = observationOf(record, maxRange_);
-    for (size_t i = 0; i < observation->getScanSize(); ++i)
-      if (observation->getScanRangeValidity(i))
-        summary.longestRange = std::max(summary.longestRange, observation->getScanRange(i));
-    if (actionObservation_) {
-      writeActionUpTo(record.time);
-      mrpt::obs::CSensoryFrame frame;
-      frame.insert(observation);
-      writer_.write(frame);
-    } else {
-      writer_.write(*observation);
-    }
-  }
-
-  LogSummary summary;
-
- private:
-  /// The odometry increment since the previous scan; an empty action if there is none.
-  void writeActionUpTo(double time) {
-    mrpt::obs::CActionCollection actions;
-    if (last_) {
-      mrpt::obs::CActionRobotMovement2D movement;
-      movement.timestamp = mrpt::Clock::fromDouble(time);
-      const mrpt::poses::CPose2D now(last_->pose);
-      movement.computeFromOdometry(now - atLastScan_.value_or(now), movement.motionModelConfiguration);
-      actions.insert(movement);
-      atLastScan_ = now;
-    }
-    writer_.write(actions);
-  }
-
-  void seenAt(double time) {
-    const bool first = summary.scans + summary.odometryReadings == 1;
-    summary.earliest = first ? time : std::min(summary.earliest, time);
-    summary.latest = first ? time : std::max(summary.latest, time);
-  }
-
-  files::RawlogWriter& writer_;
-  double maxRange_;
-  bool actionObservation_;
-  std::optional<OdometryRecord> last_;
-  std::optional<mrpt::poses::CPose2D> atLastScan_;
-};
-
-}  // namespace
 
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
                       const LogConversionOptions& options, const BrokenLineReport& report) {
-  files::LineReader lines(logPath);
   std::error_code ignored;
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
+  TextLog log(logPath, options, report);
   files::RawlogWriter writer(rawlogPath);
-
-  const LogFormat* format = options.format ? options.format : recogniseFormat(lines);
-  const double maxRange = options.maxRange.value_or(format->maxRange);
-  const auto parser = format->makeParser(options);
-  Conversion conversion(writer, maxRange, options.actionObservation);
-  LogSummary& summary = conversion.summary;
-  summary.format = format;
-  std::string line;
-  while (lines.next(line)) {
-    LogRecord record;
-    try {
-      record = parser->parse(line);
-    } catch (const BrokenLine& broken) {
-      if (options.strict)
-        throw InputError("broken line", logPath + ", line " + std::to_string(lines.number()), broken.what());
-      ++summary.brokenLines;
-      report(lines.number(), broken.what());
-    }
-    std::visit(conversion, record);
-  }
-  if (summary.scans == 0)
-    throw InputError("no laser scan", logPath, "expected whole rows of scans (" + formatList() + ")");
+  while (const auto object = log.next()) writer.write(*object);
   writer.finish();
-  return summary;
+  return log.summary();
 }
 
 }  // namespace hybrid_slam::readings

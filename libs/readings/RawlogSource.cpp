@@ -21,6 +21,10 @@ void note(Oddity& oddity, size_t entry) {
   if (oddity.count++ == 0) oddity.first = entry;
 }
 
+std::string placeOf(const LogReader& reader, const std::string& file) {
+  return reader.unit() + (" " + std::to_string(reader.entry())) + " of " + file;
+}
+
 using Uses = std::map<std::string, std::map<ScanGrouper::Use, size_t>>;  ///< scans of each laser, by use
 
 std::string quotedList(const Uses& lasers) {
@@ -56,7 +60,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                         const std::function<bool()>& isStopped) {
   RawlogSummary summary;
   const std::vector<std::string> wanted = labelsOf(options.sensorLabel);
-  files::RawlogReader reader(file);
+  LogReader reader(file);
+  summary.unit = reader.unit();
   ScanGrouper grouper(wanted, options.maxOdometryGap);
   Uses uses;
   std::map<std::string, double> last;  // stamp of each laser's scan before
@@ -85,8 +90,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     before->second = t;
   };
   while (const auto object = reader.next()) {
-    if (isStopped())
-      throw std::runtime_error("interrupted: entry " + std::to_string(reader.entry()) + " of " + file);
+    if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
     if (const auto increment = incrementOf(object)) noteOdometry(*increment, summary.hasActions);
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
@@ -101,6 +105,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.duration = latest - earliest;
   summary.entries = reader.entry();
   summary.defect = reader.defect();
+  summary.brokenLines = {reader.brokenLines(), reader.firstBroken()};
   summary.scans = grouper.readings();
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
   noteIgnored(summary, uses);
@@ -128,6 +133,8 @@ RawlogSource::RawlogSource(const std::string& file, const InputOptions& options,
       reader_(file),
       assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap) {}
 
+std::string RawlogSource::place() const { return placeOf(reader_, file_); }
+
 std::optional<Reading> RawlogSource::next() {
   auto reading = assembler_.next();
   while (!reading && !isAtEnd_) {
@@ -140,8 +147,7 @@ std::optional<Reading> RawlogSource::next() {
     reading = assembler_.next();
   }
   if (reading && reading->motion.norm() > kMaxStep)
-    throw InputError("odometry jumps", "entry " + std::to_string(reader_.entry()) + " of " + file_,
-                     "expected at most 100 m between two readings");
+    throw InputError("odometry jumps", place(), "expected at most 100 m between two readings");
   return reading;
 }
 

@@ -1,5 +1,5 @@
 /// @file RawlogSource.h
-/// @brief Scans with odometry from a rawlog in either format.
+/// @brief Scans with odometry from a rawlog, in either format, or a text log.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/Options.h"
-#include "files/RawlogReader.h"
+#include "readings/LogReader.h"
 #include "readings/ReadingAssembler.h"
 
 namespace hybrid_slam::readings {
@@ -32,10 +32,16 @@ struct RawlogSummary {
   size_t scans = 0;                  ///< readings: scans that several lasers take at one time count as one
   Oddity empty, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans of the lasers used
   Oddity wrongOdometry;                                        ///< NaN or infinite
+  Oddity brokenLines;                                          ///< of a text log
   bool hasActions = false, hasOdometryReadings = false;
   double duration = 0;  ///< s, from the earliest scan to the latest
-  size_t entries = 0;
-  std::string defect;  ///< how the log is truncated; empty if complete
+  size_t entries = 0;   ///< lines of a text log
+  std::string unit;     ///< of `entries` and `Oddity::first`: "entry" or "line"
+  std::string defect;   ///< how the log is truncated; empty if complete
+  /// Where the defect is.
+  std::string defectPlace(const std::string& file) const {
+    return unit + " " + std::to_string(entries + 1) + " of " + file;
+  }
 };
 
 /// @throws InputError if there is no laser, a named one is missing, no scan has beams, no laser is mounted
@@ -54,10 +60,12 @@ class RawlogSource {
   /// @throws InputError if the odometry jumps by more than 100 m between two scans
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
+  /// Of the last object read: `entry 12 of FILE`.
+  std::string place() const;
 
  private:
   std::string file_;
-  files::RawlogReader reader_;
+  LogReader reader_;
   ReadingAssembler assembler_;
   bool isAtEnd_ = false;
 };

@@ -47,8 +47,7 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   double logLikelihoods = 0;
   Progress progress(log.scans, isQuiet);
   while (const auto reading = source.next()) {
-    if (stop)
-      throw std::runtime_error("interrupted: entry " + std::to_string(source.entry()) + " of " + file);
+    if (stop) throw std::runtime_error("interrupted: " + source.place());
     const size_t before = hybrid.updates();
     hybrid.process(reading->motion, reading->scans);
     progress.update(++scans, progressNote);

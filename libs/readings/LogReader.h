@@ -1,0 +1,46 @@
+/// @file LogReader.h
+/// @brief The objects of a log in any format that can be replayed: a rawlog, or a robot's text log.
+#pragma once
+
+#include <mrpt/serialization/CSerializable.h>
+
+#include <memory>
+#include <string>
+
+namespace hybrid_slam::files {
+class RawlogReader;
+}
+
+namespace hybrid_slam::readings {
+
+class TextLog;
+
+/// Reads a log, plain or gzipped, as a stream. The format is detected from the content. A text log gives the
+/// objects that log2rawlog writes without options.
+class LogReader {
+ public:
+  /// @throws InputError if the file is missing or unreadable, or if a text file is not a log
+  explicit LogReader(const std::string& file);
+  ~LogReader();
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+
+  /// The next object; null at the end, or where the log is truncated or broken (see `defect`).
+  /// @throws InputError if the first object is not a rawlog object, or if a text log has no scan
+  mrpt::serialization::CSerializable::Ptr next();
+
+  size_t entry() const;                                ///< of the last object: its number, or its line's
+  const char* unit() const;                            ///< of `entry`: "entry" or "line"
+  const std::string& defect() const;                   ///< empty for an intact log
+  size_t brokenLines() const { return brokenLines_; }  ///< of a text log, skipped
+  size_t firstBroken() const { return firstBroken_; }  ///< line of the first
+
+ private:
+  std::string file_;
+  std::unique_ptr<files::RawlogReader> rawlog_;
+  std::unique_ptr<TextLog> text_;
+  std::string textDefect_;
+  size_t brokenLines_ = 0, firstBroken_ = 0;
+};
+
+}  // namespace hybrid_slam::readings
