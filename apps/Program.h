@@ -50,9 +50,9 @@ inline int exitCodeOf(const std::function<int()>& work,
   }
 }
 
-/// Message for a failed run, identified by its INI file.
-inline std::string runFailed(const std::string& config, const std::exception& error) {
-  return "run failed: " + config + "; " + messageOf(error);
+/// Message for a failed run, identified by its INI file or log.
+inline std::string runFailed(const std::string& file, const std::exception& error) {
+  return "run failed: " + file + "; " + messageOf(error);
 }
 
 }  // namespace hybrid_slam

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "HybridSlamProgram.h"
 #include "files/Trajectory.h"
@@ -35,8 +36,13 @@ const char* const kMalagaStockIni =
 TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(80));
   expectDone(replay(log, "--seed 7 --threads 2"));
-  EXPECT_THAT(out, MatchesRegex("80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ x real time\\): " +
-                                output + "/map.png\n"));
+  EXPECT_THAT(out,
+              MatchesRegex("laser LASER: 181 beams every 1 deg, at x 0.00 m, y 0.00 m, 0 deg on the robot\n"
+                           "grid.max_range = 20: [^\n]*\nline_weight.sigma_deg = 0.4: [^\n]*\n"
+                           "improved_proposal.update_distance = 0.1: [^\n]*\n"
+                           "improved_proposal.update_angle_deg = 5: [^\n]*\n"
+                           "80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ x real time\\): " +
+                           output + "/map.png\n"));
 
   const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 80u);
@@ -212,8 +218,8 @@ TEST_F(HybridSlam, HelpVersionAndManual) {
 
 TEST_F(HybridSlam, WrongCommandLine) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
-  expectError(run(""), "no INI file");
-  expectError(run("'" + ini + "' -o '" + output + "'"), "no rawlog");
+  expectError(run(""), "no log");
+  expectError(run("'" + ini + "' -o '" + output + "'"), "no log");
   expectError(replay(log, "--particels 3"), "--particels");
   expectError(replay(log, "one more"), "one");
   expectError(replay(log, "-n"), "--particles");
@@ -232,6 +238,67 @@ TEST_F(HybridSlam, WrongCommandLine) {
   expectError(replay(log, "--set nothing.particles=3"), "[nothing]");
 }
 
+TEST_F(HybridSlam, TheIniFileIsOptional) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
+  expectDone(run("'" + log + "' -n 5 -p standard -o '" + output + "'"));
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_EQ(metrics["method"], "hybrid");
+  EXPECT_THAT(result("config.ini"), HasSubstr("proposal = standard"));
+  expectDone(run("--set run.rawlog='" + log + "' -n 5 -o '" + output + "'"));
+  EXPECT_THAT(result("config.ini"), HasSubstr("proposal = improved"));
+  for (const char* name : {"settings.txt", "settings.INI"}) {
+    SCOPED_TRACE(name);
+    const std::string settings =
+        folder.write(name, "# comment\n\n[run]\nrawlog = " + log + "\n[particle_filter]\nparticles = 7\n");
+    expectDone(run("'" + settings + "' -o '" + output + "'"));
+    EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["particles"], 7);
+  }
+  fs::remove_all(output);
+  expectError(run("'" + folder.path("none.ini") + "' -o '" + output + "'"), "no such file");
+  expectError(run("'" + folder.path("none.clf") + "' -o '" + output + "'"), "no such file");
+  expectError(run("'" + log + "' '" + log + "' -o '" + output + "'"), "not a text file");
+}
+
+/// A CARMEN log of 10 m along a corridor, one line of it broken; 180 beams lie around -0.5 deg, and the laser
+/// is ahead of the robot's centre: both have to come out the same.
+std::string carmenLog() {
+  std::ostringstream log;
+  log << "# made for a test\nPARAM robot_frontlaser_offset 0.4\nFLASER 180 broken\n";
+  for (int i = 0; i < 40; ++i) {
+    const double x = 0.25 * i - 4.5;
+    log << "FLASER 180";
+    for (int beam = 0; beam < 180; ++beam)
+      log << ' ' << 0.01 * std::round(100 * test::rangeInRoom(x + 0.4, 0.3, (beam - 90) * M_PI / 180));
+    const std::string pose = std::to_string(x) + " 0.3 0 ";
+    log << ' ' << pose << pose << 1000 + i << " host " << i << '\n';
+  }
+  return log.str();
+}
+
+TEST_F(HybridSlam, ATextLogGivesWhatItsRawlogGives) {
+  const std::string log = folder.write("log.clf", carmenLog()), rawlog = folder.path("log.rawlog");
+  ASSERT_EQ(test::shell(folder, "'" LOG2RAWLOG "' '" + log + "' '" + rawlog + "'").status, 0);
+  const auto trajectoryOf = [&](const std::string& file, const std::string& warning) {
+    expectDone(run("'" + file + "' -o '" + output + "'"), warning);
+    return result("trajectory.tum");
+  };
+  const std::string expected = trajectoryOf(rawlog, "");
+  EXPECT_THAT(out, AllOf(HasSubstr("laser FLASER: 180 beams every 1 deg, at x 0.40 m"),
+                         HasSubstr("line_weight.sigma_deg = 0.5")));
+  EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 40u);
+  EXPECT_EQ(trajectoryOf(log, "1 broken lines: first at line 3; skipped"), expected);
+  ASSERT_EQ(test::shell(folder, "gzip -k '" + log + "'").status, 0);
+  EXPECT_EQ(trajectoryOf(log + ".gz", "1 broken lines"), expected);
+
+  const std::string bytes = contentOf(log + ".gz");
+  fs::remove_all(output);
+  EXPECT_EQ(
+      run("'" + folder.write("cut.clf.gz", bytes.substr(0, bytes.size() * 3 / 4)) + "' -o '" + output + "'"),
+      1);
+  EXPECT_THAT(err, HasSubstr("gzip file cut off: line "));
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
+}
+
 // ---- INI file
 
 TEST_F(HybridSlam, ShippedInisRun) {
@@ -240,7 +307,7 @@ TEST_F(HybridSlam, ShippedInisRun) {
   std::vector<std::string> all = {"live-p3dx-lms100.ini",    "observation-server.ini",
                                   "simul-csie.ini",          "simul-csie-corridor.ini",
                                   "simul-csie-doorways.ini", "simul-csie-loop.ini"};
-  for (const char* name : {"csie-lms100.ini", "lms-logs.ini", "malaga.ini"}) {
+  for (const char* name : {"csie-lms100.ini", "lms-logs.ini", "malaga.ini", "paper.ini"}) {
     SCOPED_TRACE(name);
     ini = std::string(SOURCE_DIR "/config-ini/") + name;
     expectDone(replay(log, "-n 2"));

@@ -10,12 +10,13 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "InputFiles.h"
 #include "Program.h"
 #include "window/gui/MainFrame.h"
 
 namespace {
 
-std::string config, rawlog;
+hybrid_slam::InputFiles files;
 
 class GuiApp : public wxApp {
  public:
@@ -31,7 +32,7 @@ class GuiApp : public wxApp {
     wxInitAllImageHandlers();
     auto* const frame = new hybrid_slam::window::MainFrame;
     frame->Show();
-    if (!config.empty()) frame->CallAfter([frame] { frame->open(config, rawlog); });
+    if (!files.main().empty()) frame->CallAfter([frame] { frame->open(files.config, files.log); });
     return true;
   }
 };
@@ -42,17 +43,16 @@ wxIMPLEMENT_APP_NO_MAIN(GuiApp);
 
 int main(int argc, char** argv) {
   const auto parseAndShow = [&] {
-    CLI::App app{
-        "Replays rawlogs and maps live robot data in a window, with the hybrid and the general filter",
-        "hybrid-slam-gui"};
+    CLI::App app{"Replays logs and maps live robot data in a window, with the hybrid and the general filter",
+                 "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
-    app.add_option("config", config, "INI file (doc/configuration.md)");
-    app.add_option("dataset", rawlog, "rawlog, plain or gzipped (default: [run] rawlog)");
+    files.add(app, std::string(hybrid_slam::kLogMeans) + " (default: [run] rawlog)");
     app.footer(
         "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 "
         "wrong "
         "command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
+    files.sort();
     // Debian's wxWidgets uses GLX for OpenGL; on Wayland, XWayland provides it.
     if (!std::getenv("DISPLAY"))
       return hybrid_slam::fail(

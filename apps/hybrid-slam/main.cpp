@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "FilterArguments.h"
+#include "InputFiles.h"
 #include "Program.h"
 #include "Settings.h"
 #include "Stop.h"
@@ -15,7 +16,8 @@ namespace {
 using namespace hybrid_slam;
 
 struct CommandLine {
-  std::string config, rawlog, output;
+  InputFiles files;
+  std::string output;
   FilterArguments filter;
   std::vector<std::string> settings;
   int refine = 0;
@@ -24,8 +26,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
-  app.add_option("config", line.config, "INI file (doc/configuration.md)");
-  app.add_option("dataset", line.rawlog, "rawlog, plain or gzipped (default: [run] rawlog)");
+  line.files.add(app, std::string(kLogMeans) + " (default: [run] rawlog)");
   app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
   line.filter.addMethod(app);
   line.filter.addParticles(app);
@@ -37,6 +38,9 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_flag("--profile", line.wantsProfile, "print time and call count of each stage");
   app.add_flag("--help-config", line.wantsManual, "print every section and key of the INI file");
   app.footer(
+      "Settings that follow from the sensor are read off the log and printed; the INI file and --set "
+      "override "
+      "them.\n"
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
       "steps.csv, metrics.json, config.ini (doc/results.md). Ctrl-C ends the run and writes the results.\n"
       "Exit: 0 done, 1 the run failed or covers only part of the log, 2 wrong command line or input.");
@@ -44,7 +48,7 @@ void describe(CLI::App& app, CommandLine& line) {
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {
   std::vector<std::string> settings = line.settings;
-  if (!line.rawlog.empty()) set(settings, "run.rawlog", line.rawlog);
+  if (!line.files.log.empty()) set(settings, "run.rawlog", line.files.log);
   if (!line.output.empty()) set(settings, "run.output", line.output);
   line.filter.addTo(settings, app);
   if (app.count("--refine")) set(settings, "run.refine", std::to_string(line.refine));
@@ -56,13 +60,11 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
     std::cout << run::configurationManual();
     return 0;
   }
-  if (line.config.empty())
-    return fail(2, "no INI file: command line; expected hybrid-slam config.ini [dataset.rawlog]");
+  const std::string usage = "expected hybrid-slam [config.ini] LOG";
   stopOnSignals();
-  run::Configuration configuration(line.config, settings);
+  run::Configuration configuration(line.files.config, settings);
   if (configuration.run.rawlog.empty())
-    return fail(2,
-                "no rawlog: command line; expected hybrid-slam config.ini dataset.rawlog, or [run] rawlog");
+    return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
   const auto outcome = run::replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
   for (const std::string& warning : outcome.warnings)
     std::cerr << "hybrid-slam: warning: " << warning << "\n";
@@ -76,10 +78,11 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
 int main(int argc, char** argv) {
   CommandLine line;
   const auto parseAndRun = [&] {
-    CLI::App app{"Maps a rawlog with the hybrid particle filter: occupancy grids and line directions"};
+    CLI::App app{"Maps a log with the hybrid particle filter: occupancy grids and line directions"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
+    line.files.sort();
     return execute(line, settingsOf(line, app));
   };
-  return exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config, e); });
+  return exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.files.main(), e); });
 }

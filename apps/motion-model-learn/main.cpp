@@ -10,11 +10,13 @@
 #include <sstream>
 
 #include "FilterArguments.h"
+#include "InputFiles.h"
 #include "Program.h"
 #include "Settings.h"
 #include "Stop.h"
 #include "files/OutputFolder.h"
 #include "run/FilteredMotions.h"
+#include "run/LogSettings.h"
 #include "run/MotionModelText.h"
 
 namespace {
@@ -22,7 +24,8 @@ namespace {
 using namespace hybrid_slam;
 
 struct CommandLine {
-  std::string config, log, output;
+  InputFiles files;
+  std::string output;
   int iterations = 10;
   FilterArguments filter;
   std::vector<std::string> settings;
@@ -31,9 +34,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "motion-model-learn " HYBRID_SLAM_VERSION);
-  app.add_option("config", line.config, "INI file, as for hybrid-slam; its [motion_model] is the prior")
-      ->required();
-  app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
+  line.files.add(app, kLogMeans);
   app.add_option("-o,--output", line.output, "INI file to write, with the learnt [motion_model]")
       ->required()
       ->type_name("FILE");
@@ -55,9 +56,9 @@ void describe(CLI::App& app, CommandLine& line) {
 
 run::Configuration configurationOf(const CommandLine& line, const CLI::App& app) {
   std::vector<std::string> settings = line.settings;
-  set(settings, "run.rawlog", line.log);
+  set(settings, "run.rawlog", line.files.log);
   line.filter.addTo(settings, app);
-  return run::Configuration(line.config, settings);
+  return run::Configuration(line.files.config, settings);
 }
 
 /// Comments on the origin of the learnt section.
@@ -69,27 +70,32 @@ std::vector<std::string> comments(const CommandLine& line, const run::Configurat
     return out.str();
   };
   const FilterConfiguration& filter = configuration.filter;
+  const std::string priorName = line.files.config.empty() ? "the defaults" : line.files.config;
   std::vector<std::string> all{
-      text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.log, " with ", line.config,
+      text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.files.log, " with ", priorName,
            "."),
       text("For updates every ", filter.updateDistance(), " m or ", mrpt::RAD2DEG(filter.updateAngle()),
            " deg: the variances hold for steps of this size."),
       text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
            " (the prior's: ", prior.logLikelihood, ")."),
-      text("Use: cat ", line.config, " ", line.output, " > learnt.ini")};
+      line.files.config.empty() ? text("Use: hybrid-slam ", line.output, " LOG")
+                                : text("Use: cat ", line.files.config, " ", line.output, " > learnt.ini")};
   for (const auto& [keys, why] : learnt.determined.lacks)
     all.push_back(
-        text("Not learnt but kept from ", line.config, ": ", keys, " of distance, drift and turn: ", why));
+        text("Not learnt but kept from ", priorName, ": ", keys, " of distance, drift and turn: ", why));
   return all;
 }
 
 int learn(const CommandLine& line, run::Configuration configuration) {
-  for (const std::string& input : {line.config, line.log}) {
+  for (const std::string& input : {line.files.config, line.files.log}) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, line.output, ignored))
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
-  const readings::RawlogSummary log = summarise(line.log, configuration.input);
+  const readings::RawlogSummary log = summarise(line.files.log, configuration.input);
+  for (const std::string& text :
+       applyLogSettings(run::readLogSettings(line.files.log, configuration.input, log), configuration))
+    if (!line.isQuiet) std::cout << text << "\n";
   files::GrowingFile output(line.output);  // opened now: a wrong name fails before the run
 
   int iteration = 0;
@@ -106,17 +112,17 @@ int learn(const CommandLine& line, run::Configuration configuration) {
     std::cout << run::motionModelTableRow(done.number, done.logLikelihood, done.model) << std::flush;
   };
   const LearntMotionModel learnt =
-      learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.log, report);
+      learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.files.log, report);
   for (const auto& [keys, why] : learnt.determined.lacks)
     std::cerr << "motion-model-learn: warning: prior kept for " << keys
-              << " of distance, drift and turn: " << line.log << "; " << why << "\n";
+              << " of distance, drift and turn: " << line.files.log << "; " << why << "\n";
   output.stream() << run::motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
   output.finish();
   if (!line.isQuiet)
     std::cout << (learnt.isConverged ? "converged" : "not converged; raise --iterations") << ": iteration "
               << learnt.best.number << " written to " << line.output << "\n";
   if (!log.defect.empty())
-    return fail(1, "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + line.log +
+    return fail(1, "log " + log.defect + ": " + log.defectPlace(line.files.log) +
                        "; learnt from the log up to this point");
   return 0;
 }
@@ -129,10 +135,13 @@ int main(int argc, char** argv) {
     CLI::App app{"Learns the motion model of a robot from a log by EM (Eliazar & Parr)"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
+    line.files.sort();
+    if (line.files.log.empty())
+      return fail(2, "no log: command line; expected motion-model-learn [config.ini] LOG -o FILE");
     stopOnSignals();
     return learn(line, configurationOf(line, app));
   };
   return exitCodeOf(parseAndLearn, [&](const std::exception& e) {
-    return stop ? messageOf(e) + "; nothing was written" : runFailed(line.config, e);
+    return stop ? messageOf(e) + "; nothing was written" : runFailed(line.files.main(), e);
   });
 }

@@ -9,16 +9,18 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
+#include "InputFiles.h"
 #include "Program.h"
 #include "Settings.h"
 #include "files/OutputFolder.h"
 #include "readings/EndPointReader.h"
 #include "readings/RawlogSource.h"
-#include "run/Configuration.h"
+#include "run/LogSettings.h"
 #include "run/TrajectoryRecorder.h"
 #include "study/comparison/Comparison.h"
 #include "study/comparison/Report.h"
@@ -31,7 +33,8 @@ namespace fs = std::filesystem;
 std::atomic<bool> stop{false};
 
 struct CommandLine {
-  std::string config, log, output, reference, relations, odometry, floorplan;
+  InputFiles files;
+  std::string output, reference, relations, odometry, floorplan;
   std::vector<std::string> methods{"hybrid", "general"}, particles, variants, settings;
   int seeds = 30, firstSeed = 1, jobs = 0;
   std::optional<double> revisits;  // m
@@ -41,8 +44,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
-  app.add_option("config", line.config, "INI file, as for hybrid-slam")->required();
-  app.add_option("dataset", line.log, "rawlog, plain or gzipped")->required();
+  line.files.add(app, kLogMeans);
   app.add_option("-o,--output", line.output, "folder for runs, tables and report, created if missing")
       ->required()
       ->type_name("DIR");
@@ -112,6 +114,8 @@ void check(const CommandLine& line) {
   expect(line.criterion.relations > 0, "--success-relations", "expected a number of metres above 0");
   expect(line.criterion.revisits > 0, "--success-revisit", "expected a number of metres above 0");
   expect(line.revisits.value_or(1) > 0, "--revisits", "expected a number of metres above 0");
+  if (line.files.log.empty())
+    throw InputError("no log", "command line", "expected slam-compare [config.ini] LOG -o DIR");
   for (const std::string& setting : line.settings) comparison::checkSetting(setting, "option --set");
   if (!line.odometry.empty() && line.relations.empty())
     throw InputError("odometry without relations", "option --odometry", "expected --relations as well");
@@ -141,11 +145,11 @@ struct Setup {
 };
 
 Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed) {
-  Setup setup{group.variant.iniFile.empty() ? line.config : group.variant.iniFile, line.settings};
+  Setup setup{group.variant.iniFile.empty() ? line.files.config : group.variant.iniFile, line.settings};
   std::vector<std::string>& settings = setup.settings;
   settings.insert(settings.end(), group.variant.settings.begin(), group.variant.settings.end());
   const std::string particles = std::to_string(group.particles);
-  set(settings, "run.rawlog", fs::weakly_canonical(fs::absolute(line.log)).string());
+  set(settings, "run.rawlog", fs::weakly_canonical(fs::absolute(line.files.log)).string());
   set(settings, "run.method", group.method);
   set(settings, "particle_filter.particles", particles);
   set(settings, "particle_filter.seed", std::to_string(seed));
@@ -182,16 +186,25 @@ std::vector<comparison::ComparisonRun> makeSweep(const CommandLine& line,
                                                  const std::vector<comparison::Group>& groups) {
   const std::string program = besideThisProgram("hybrid-slam");
   comparison::RunIdentity log;
-  comparison::noteLog(log, line.log);
+  comparison::noteLog(log, line.files.log);
+  std::map<std::string, run::LogSettings> byLaser;
+  const auto ofLog = [&](const readings::InputOptions& input) -> const run::LogSettings& {
+    const auto [found, isNew] = byLaser.try_emplace(input.sensorLabel);
+    if (isNew)
+      found->second = run::readLogSettings(line.files.log, input, readings::summarise(line.files.log, input));
+    return found->second;
+  };
   std::vector<comparison::ComparisonRun> sweep;
   for (const comparison::Run& run : comparison::makeRuns(groups.size(), line.firstSeed, line.seeds)) {
     const comparison::Group& group = groups[run.group];
     const Setup setup = setupOf(line, group, run.seed);
     run::Configuration configuration(setup.config, setup.settings);
+    applyLogSettings(ofLog(configuration.input), configuration);
     comparison::RunIdentity identity = log;
     identity.configuration = configuration.text();
     if (group.method == "stock") identity.otherSections = otherSections(configuration);
-    std::vector<std::string> command{program, "-q", setup.config};
+    std::vector<std::string> command{program, "-q"};
+    if (!setup.config.empty()) command.push_back(setup.config);
     for (const std::string& setting : setup.settings) command.insert(command.end(), {"--set", setting});
     sweep.push_back(
         {run, {fs::path(line.output) / "runs", comparison::runName(group, run.seed)}, identity, command});
@@ -207,8 +220,8 @@ struct LogSpan {
 /// One pass over the log, which finds errors before any run starts.
 LogSpan readLog(const CommandLine& line, const Setup& setup) {
   const readings::InputOptions input = run::Configuration(setup.config, setup.settings).input;
-  const readings::RawlogSummary summary = summarise(line.log, input);
-  readings::RawlogSource source(line.log, input, summary);
+  const readings::RawlogSummary summary = summarise(line.files.log, input);
+  readings::RawlogSource source(line.files.log, input, summary);
   run::TrajectoryRecorder recorder;
   while (const auto reading = source.next()) recorder.add(reading->timestamp, reading->motion, 0);
   return {recorder.trajectory({}), summary.duration};
@@ -254,7 +267,7 @@ int execute(const CommandLine& line, const std::string& command) {
   std::vector<comparison::ParticleCount> particles;
   for (const std::string& text : line.particles) particles.push_back(comparison::parseParticleCount(text));
   if (particles.empty())
-    particles = {{"", run::Configuration(line.config, line.settings).filter.filter.particles}};
+    particles = {{"", run::Configuration(line.files.config, line.settings).filter.filter.particles}};
   const std::vector<comparison::Group> groups = comparison::makeGroups(line.methods, variants, particles);
   comparison::GroundTruth truth = loadTruth(line);
   const std::vector<comparison::ComparisonRun> sweep = makeSweep(line, groups);
@@ -268,7 +281,7 @@ int execute(const CommandLine& line, const std::string& command) {
   }
   if (truth.revisits || truth.plan)
     truth.takeScans(readings::loadEndPoints(
-        line.log, run::Configuration(setup.config, setup.settings).input.sensorLabel));
+        line.files.log, run::Configuration(setup.config, setup.settings).input.sensorLabel));
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
@@ -303,8 +316,8 @@ int execute(const CommandLine& line, const std::string& command) {
 
   comparison::ReportInput report{command,
                                  HYBRID_SLAM_VERSION,
-                                 line.config,
-                                 line.log,
+                                 line.files.config,
+                                 line.files.log,
                                  log.duration,
                                  line.settings,
                                  groups,
@@ -355,6 +368,7 @@ int main(int argc, char** argv) {
     std::signal(SIGTERM, onSignal);
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
+    line.files.sort();
     return execute(line, quoted(command));
   });
 }

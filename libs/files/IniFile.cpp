@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/Errors.h"
+#include "files/LineReader.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -79,13 +80,13 @@ void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
              const std::string& expected) {
   std::vector<std::string> present, ours;
   for (const auto& [name, options] : sections) ours.push_back(name);
-  const std::string text = parsed(readText(file), file);
+  const std::string text = file.empty() ? "" : parsed(readText(file), file);
   checkLines(text, file, ours);
   source.setContent(text);
   source.getAllSections(present);
 
   const auto isOurs = [&ours](const std::string& section) { return contains(ours, section); };
-  if (std::none_of(present.begin(), present.end(), isOurs) &&
+  if (!file.empty() && std::none_of(present.begin(), present.end(), isOurs) &&
       (otherwise.empty() || !source.sectionExists(otherwise)))
     throw InputError("missing section", file, expected);
   for (const std::string& section : present) {
@@ -106,6 +107,18 @@ void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
     source.write(section, setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
     load(sections, source, "command line");
   }
+}
+
+bool isIni(const std::string& path) {
+  if (mrpt::system::lowerCase(std::filesystem::path(path).extension().string()) == ".ini") return true;
+  if (!isText(path)) return false;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    line = mrpt::system::trim(line.substr(0, line.find('\r')));
+    if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
+    return line.front() == '[' && line.find(']') != std::string::npos;
+  }
+  return false;
 }
 
 void writeManual(const Sections& sections, std::ostream& out) {

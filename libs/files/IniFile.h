@@ -17,6 +17,7 @@ namespace hybrid_slam::files {
 using Sections = std::vector<std::pair<std::string, Options*>>;
 
 /// Reads a file and the command-line settings into `source`, and from there into the sections.
+/// @param file       empty: none, the settings alone
 /// @param settings   `SECTION.KEY=VALUE` each; override the file
 /// @param otherwise  a section that suffices if the file has none of ours; empty: none
 /// @param expected   error text for a file without any of these
@@ -25,6 +26,10 @@ using Sections = std::vector<std::pair<std::string, Options*>>;
 void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
              const std::vector<std::string>& settings, const Sections& sections, const std::string& otherwise,
              const std::string& expected);
+
+/// Whether a file is an INI file rather than a log: its name ends in .ini, or its first line that is not
+/// blank or a comment is a section's.
+bool isIni(const std::string& path);
 
 /// Every key with default, unit, range and meaning: a Markdown table per section.
 void writeManual(const Sections& sections, std::ostream& out);

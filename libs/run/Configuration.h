@@ -33,7 +33,7 @@ struct Configuration {
   /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
 
-  /// @param file      the INI file
+  /// @param file      the INI file; empty: none
   /// @param settings  `SECTION.KEY=VALUE` each; override the file
   /// @param more      further sections of the program; must outlive the configuration
   /// @throws InputError as loadIni; a file with only MRPT's RBPF section is accepted
@@ -42,6 +42,8 @@ struct Configuration {
   Configuration() = default;
 
   files::Sections sections();
+  /// Sets a key of ours unless the file or the command line sets it. @return whether it did
+  bool setDefault(const std::string& section, const std::string& key, const std::string& value);
   /// All our keys with their values, and the file's other sections; reading it back gives the same run.
   std::string text();
 

@@ -1,10 +1,12 @@
 #include "run/Replay.h"
 
 #include <cmath>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "base/Numbers.h"
 #include "run/FilterRun.h"
+#include "run/LogSettings.h"
 #include "run/Progress.h"
 
 namespace hybrid_slam::run {
@@ -12,11 +14,13 @@ namespace {
 
 std::vector<std::string> warningsOf(const readings::RawlogSummary& log) {
   std::vector<std::string> all;
-  const auto add = [&all](const readings::Oddity& odd, const std::string& what, const std::string& done) {
+  const auto add = [&all, &log](const readings::Oddity& odd, const std::string& what,
+                                const std::string& done) {
     if (odd.count > 0)
-      all.push_back(std::to_string(odd.count) + " " + what + ": first at entry " + std::to_string(odd.first) +
-                    "; " + done);
+      all.push_back(std::to_string(odd.count) + " " + what + ": first at " + log.unit + " " +
+                    std::to_string(odd.first) + "; " + done);
   };
+  add(log.brokenLines, "broken lines", "skipped");
   add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
   add(log.tilted, "scans of a tilted plane", "skipped");
   add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
@@ -38,7 +42,11 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   const auto start = FilterRun::Clock::now();
   const std::string& file = configuration.run.rawlog;
   const readings::RawlogSummary log = summarise(file, configuration.input);
+  const std::vector<std::string> ofLog =
+      applyLogSettings(readLogSettings(file, configuration.input, log), configuration);
   FilterRun run(configuration, start);
+  for (const std::string& line : ofLog)
+    if (!isQuiet) std::cout << line << "\n" << std::flush;
   run.profiler().enable(wantsProfile);
   readings::RawlogSource source(file, configuration.input, log);
   const auto nextReading = [&] {
@@ -54,11 +62,10 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   outcome.warnings = warningsOf(log);
   if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
   if (stop)
-    outcome.incomplete = "interrupted: entry " + std::to_string(source.entry()) + " of " + file +
-                         "; results cover the log up to this point";
+    outcome.incomplete = "interrupted: " + source.place() + "; results cover the log up to this point";
   else if (!log.defect.empty())
-    outcome.incomplete = "log " + log.defect + ": entry " + std::to_string(log.entries + 1) + " of " + file +
-                         "; results cover the log up to this point";
+    outcome.incomplete =
+        "log " + log.defect + ": " + log.defectPlace(file) + "; results cover the log up to this point";
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
   run.profiler().clear(true);  // else MRPT prints it as well

@@ -18,7 +18,8 @@ struct ReplayOutcome {
   std::string profile;     ///< table of stage times; empty unless requested
 };
 
-/// Replays configuration.run.rawlog and writes the result files of doc/results.md to
+/// Completes the configuration with the settings read off the log (LogSettings.h) and prints them on standard
+/// output unless quiet. Replays configuration.run.rawlog and writes the result files of doc/results.md to
 /// configuration.run.output.
 /// @param stop  set externally (Ctrl-C): the run ends after the current scan and writes its results
 /// @param wantsProfile  measure stage times

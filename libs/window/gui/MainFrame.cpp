@@ -194,11 +194,13 @@ void MainFrame::openIni() {
 }
 
 void MainFrame::openRawlog() {
-  if (!settings_)
-    throw InputError("no settings", "the replay", "open an INI file first: File, Open INI file");
-  wxFileDialog dialog(this, "Open rawlog", "", "", "Rawlogs (*.rawlog)|*.rawlog|All files|*",
-                      wxFD_OPEN | wxFD_FILE_MUST_EXIST);
-  if (dialog.ShowModal() == wxID_OK) use(settings_->copy({"run.rawlog=" + dialog.GetPath().utf8_string()}));
+  wxFileDialog dialog(
+      this, "Open log", "", "",
+      "Logs (*.rawlog, *.clf, *.gfs, *.log, *.gz)|*.rawlog;*.clf;*.gfs;*.log;*.gz|All files|*",
+      wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+  if (dialog.ShowModal() != wxID_OK) return;
+  const std::vector<std::string> changes{"run.rawlog=" + dialog.GetPath().utf8_string()};
+  use(settings_ ? settings_->copy(changes) : Settings::fromFile("", changes));
 }
 
 void MainFrame::saveIni() {

@@ -1,18 +1,38 @@
 #include "window/gui/Settings.h"
 
+#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 
 namespace hybrid_slam::window {
 
 std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
                                              const std::vector<std::string>& changes) {
-  return std::shared_ptr<Settings>(new Settings(file, changes));
+  return std::shared_ptr<Settings>(new Settings(file, changes, nullptr));
+}
+
+Settings::Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before)
+    : configuration(file, changes, {{"live", &live}}) {
+  const std::string& log = configuration.run.rawlog;
+  const readings::InputOptions& input = configuration.input;
+  if (log.empty()) return;
+  try {
+    if (before && before->configuration.run.rawlog == log &&
+        before->configuration.input.sensorLabel == input.sensorLabel)
+      ofLog_ = before->ofLog_;  // each edited parameter makes a copy: read the log only once
+    else
+      ofLog_ = std::make_shared<run::LogSettings>(
+          run::readLogSettings(log, input, readings::summarise(log, input)));
+    if (ofLog_) applyLogSettings(*ofLog_, configuration);
+  } catch (const InputError&) {  // the replay reports it
+  }
 }
 
 std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes) const {
+  // Only what the user set: the rest follows from the log, which may change.
+  const std::string text = configuration.source.getContent();
   const files::TemporaryFolder folder;
-  auto present = configuration;  // text() is not const
-  return fromFile(folder.write("settings.ini", present.text()), changes);
+  const std::string file = text.empty() ? text : folder.write("settings.ini", text);
+  return std::shared_ptr<Settings>(new Settings(file, changes, this));
 }
 
 }  // namespace hybrid_slam::window

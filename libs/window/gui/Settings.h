@@ -6,7 +6,7 @@
 #include <string>
 
 #include "live/LiveOptions.h"
-#include "run/Configuration.h"
+#include "run/LogSettings.h"
 
 namespace hybrid_slam::window {
 
@@ -15,6 +15,8 @@ struct Settings {
   live::LiveOptions live;
   run::Configuration configuration;
 
+  /// With the settings read off the log (run/LogSettings.h), if there is one.
+  /// @param file  empty: the defaults
   /// @throws InputError as Configuration does
   static std::shared_ptr<Settings> fromFile(const std::string& file,
                                             const std::vector<std::string>& changes = {});
@@ -22,8 +24,10 @@ struct Settings {
   std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {}) const;
 
  private:
-  Settings(const std::string& file, const std::vector<std::string>& changes)
-      : configuration(file, changes, {{"live", &live}}) {}
+  Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before);
+
+  /// Read off the log; null without one.
+  std::shared_ptr<const run::LogSettings> ofLog_;
 };
 
 }  // namespace hybrid_slam::window

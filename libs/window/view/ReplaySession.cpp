@@ -9,6 +9,7 @@
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "run/FilterRun.h"
+#include "run/LogSettings.h"
 
 namespace hybrid_slam::window {
 namespace {
@@ -159,18 +160,21 @@ void ReplaySession::work() {
 }
 
 void ReplaySession::runPass() {
-  if (!log_)
-    log_ = summarise(configuration_.run.rawlog, configuration_.input, [this] {
+  if (!log_) {
+    const std::string& file = configuration_.run.rawlog;
+    log_ = summarise(file, configuration_.input, [this] {
       const std::lock_guard<std::mutex> lock(mutex_);
       return isClosing_;
     });
+    applyLogSettings(run::readLogSettings(file, configuration_.input, *log_), configuration_);
+  }
   Pass pass(configuration_, methods_, *log_);
   ++runs_;
   publish(pass, State::paused, false);
   if (!pass.log.defect.empty())
-    tell("log " + pass.log.defect + ": entry " + std::to_string(pass.log.entries + 1) + " of " + pass.file +
-             "; the replay ends at this entry",
-         true, State::paused);
+    tell(
+        "log " + pass.log.defect + ": " + pass.log.defectPlace(pass.file) + "; the replay ends at this entry",
+        true, State::paused);
   while (hasWork(pass)) advance(pass);
 }
 

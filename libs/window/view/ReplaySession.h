@@ -68,7 +68,7 @@ class ReplaySession {
   void publish(Pass& pass, ReplaySnapshot::State state, bool withMaps);
   void tell(const std::string& message, bool isError, ReplaySnapshot::State state);
 
-  const run::Configuration configuration_;
+  run::Configuration configuration_;  ///< of the thread; with the settings read off the log
   const std::vector<Method> methods_;
 
   mutable std::mutex mutex_;

@@ -1,0 +1,34 @@
+/// @file InputFiles.h
+/// @brief The positional arguments `[config.ini] [log]`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <string>
+
+#include "files/IniFile.h"
+
+namespace hybrid_slam {
+
+/// An INI file, a log, or both in this order. A single one is an INI file if its name or its content says so.
+struct InputFiles {
+  std::string config, log;  ///< empty: not given
+
+  void add(CLI::App& app, const std::string& logMeans) {
+    app.add_option("config", config, "INI file (doc/configuration.md); without one, the defaults hold");
+    app.add_option("log", log, logMeans);
+  }
+  /// After parsing.
+  void sort() {
+    if (!log.empty() || config.empty() || files::isIni(config)) return;
+    log.swap(config);
+  }
+  /// The file that an error is about.
+  const std::string& main() const { return config.empty() ? log : config; }
+};
+
+/// The log's formats, for --help.
+inline const char* const kLogMeans =
+    "rawlog, or text log of CARMEN, GMapping (.gfs) or DP-SLAM; plain or gzipped";
+
+}  // namespace hybrid_slam

@@ -1,0 +1,144 @@
+#include "run/LogSettings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/Errors.h"
+#include "base/LaserScan.h"
+#include "base/Numbers.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+constexpr size_t kReadings = 2000;
+constexpr double kUsualRange = 20, kLongestRange = 80;  // m
+constexpr double kNoLimit = 200;                        // m; upper bound of grid.max_range
+constexpr double kSparseStep = 0.3;                     // m; the standard proposal's update distance
+constexpr double kCentimetre = 0.01;                    // m
+
+/// What a laser logs for no return, m; 0 if it marks these beams as invalid. Some lasers log one value, or
+/// several close together, for all of them, with few returns just below.
+double noReturn(const std::vector<float>& ranges) {
+  if (ranges.empty()) return 0;
+  const double longest = *std::max_element(ranges.begin(), ranges.end());
+  const double lowest = 0.998 * longest;
+  const auto within = [&](double low, double high) {
+    return static_cast<double>(
+        std::count_if(ranges.begin(), ranges.end(), [&](float r) { return r >= low && r < high; }));
+  };
+  const double share = within(lowest, 2 * longest) / static_cast<double>(ranges.size());
+  const bool isCode =
+      share > 0.01 && share < 0.5 && within(lowest, 2 * longest) > 10 * within(0.95 * longest, lowest);
+  return isCode ? std::floor(lowest / kCentimetre) * kCentimetre : 0;
+}
+
+/// The range within which a share of the returns lies.
+double quantile(std::vector<float> ranges, double share) {
+  const auto at =
+      ranges.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(ranges.size() - 1));
+  std::nth_element(ranges.begin(), at, ranges.end());
+  return *at;
+}
+
+/// @param limit  m, the largest that the log states for a laser
+LogSetting maxRange(std::vector<float> ranges, double limit) {
+  const auto setting = [](double value, const std::string& reason) {
+    return LogSetting{"grid", "max_range", fixedText(value, value == std::round(value) ? 0 : 2), reason};
+  };
+  const double code = noReturn(ranges);
+  const std::string codeText = "the laser logs " + fixedText(code, 2) + " m and more for no return";
+  if (code > 0)
+    ranges.erase(std::remove_if(ranges.begin(), ranges.end(), [&](float r) { return r >= code; }),
+                 ranges.end());
+  const double most = ranges.empty() ? 0 : quantile(ranges, 0.95);
+  const double useful = std::clamp(10 * std::ceil(most / 10), kUsualRange, kLongestRange);
+  if (code > 0 && code <= std::min(useful, limit)) return setting(code, codeText);
+  if (limit <= useful) return setting(limit, "the log's limit for the laser");
+  return setting(useful, "95 % of the returns are within " + fixedText(most, 1) + " m");
+}
+
+LogSetting directionNoise(const std::vector<float>& ranges) {
+  const auto inCentimetres = std::count_if(ranges.begin(), ranges.end(), [](float r) {
+    const double n = r / kCentimetre;
+    return std::abs(n - std::round(n)) < 1e-3;
+  });
+  const bool isCoarse = 10 * inCentimetres > 9 * static_cast<std::ptrdiff_t>(ranges.size());
+  return {"line_weight", "sigma_deg", isCoarse ? "0.5" : "0.4",
+          isCoarse ? "ranges in steps of 1 cm" : "ranges in steps finer than 1 cm"};
+}
+
+/// @param steps  m between readings, of the moving robot
+std::vector<LogSetting> updates(std::vector<float> steps) {
+  if (steps.empty()) return {};
+  const double step = quantile(std::move(steps), 0.5);
+  const bool isSparse = step > kSparseStep;
+  const std::string reason = "scans " + fixedText(step, 2) + " m apart" + (isSparse ? ": use every one" : "");
+  return {{"improved_proposal", "update_distance", isSparse ? "0.02" : "0.1", reason},
+          {"improved_proposal", "update_angle_deg", isSparse ? "1" : "5", reason}};
+}
+
+std::string describe(const std::string& label, const LaserScan& scan) {
+  const auto degrees = [](double angle) { return numberText(std::round(angle * 180 / M_PI * 1e3) / 1e3); };
+  std::string text =
+      (label.empty() ? "laser: " : "laser " + label + ": ") + std::to_string(scan.beams.size()) + " beams";
+  if (scan.beams.size() > 1)
+    text += " every " +
+            degrees((scan.beams.back().angle - scan.beams.front().angle) /
+                    static_cast<double>(scan.beams.size() - 1)) +
+            " deg";
+  return text + ", at x " + fixedText(scan.sensorPose.x, 2) + " m, y " + fixedText(scan.sensorPose.y, 2) +
+         " m, " + degrees(scan.sensorPose.phi) + " deg on the robot";
+}
+
+/// The first readings, up to one that the run will report as an error.
+std::vector<readings::Reading> firstReadings(const std::string& file, const readings::InputOptions& input,
+                                             const readings::RawlogSummary& log) {
+  readings::RawlogSource source(file, input, log);
+  std::vector<readings::Reading> all;
+  try {
+    while (all.size() < kReadings)
+      if (const auto reading = source.next())
+        all.push_back(*reading);
+      else
+        break;
+  } catch (const InputError&) {
+  }
+  return all;
+}
+
+}  // namespace
+
+LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,
+                            const readings::RawlogSummary& log) {
+  std::map<std::string, std::string> lasers;
+  std::vector<float> ranges, steps;
+  double limit = 0;  // m
+  for (const readings::Reading& reading : firstReadings(file, input, log)) {
+    if (reading.motion.norm() > 0.01 || std::abs(reading.motion.phi) > 0.5 * M_PI / 180)
+      steps.push_back(static_cast<float>(reading.motion.norm()));
+    for (const auto& observation : reading.scans) {
+      const LaserScan scan = toLaserScan(*observation, kNoLimit);
+      if (lasers.count(observation->sensorLabel) == 0)
+        lasers[observation->sensorLabel] = describe(observation->sensorLabel, scan);
+      limit = std::max(limit, scan.maxRange);
+      for (const Beam& beam : scan.beams)
+        if (beam.valid) ranges.push_back(static_cast<float>(beam.range));
+    }
+  }
+  LogSettings found;
+  for (const auto& [label, text] : lasers) found.lasers.push_back(text);
+  found.settings = updates(steps);
+  found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
+  return found;
+}
+
+std::vector<std::string> applyLogSettings(const LogSettings& log, Configuration& configuration) {
+  std::vector<std::string> lines = log.lasers;
+  for (const auto& [section, key, value, reason] : log.settings)
+    if (configuration.setDefault(section, key, value))
+      lines.push_back(section + "." + key + " = " + value + ": " + reason);
+  return lines;
+}
+
+}  // namespace hybrid_slam::run

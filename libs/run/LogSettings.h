@@ -1,0 +1,39 @@
+/// @file LogSettings.h
+/// @brief Settings that follow from the sensor, read off a log.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "readings/RawlogSource.h"
+#include "run/Configuration.h"
+
+namespace hybrid_slam::run {
+
+struct LogSetting {
+  std::string section, key, value;
+  std::string reason;  ///< what the log shows
+};
+
+/// What the first 2,000 readings of a log show.
+struct LogSettings {
+  std::vector<std::string> lasers;  ///< one line each: beams, spacing, place on the robot
+  std::vector<LogSetting> settings;
+};
+
+/// - `grid.max_range`: 20 m, or more if over 5 % of the returns are farther; never beyond the laser's own
+///   limit or the value that it logs for no return. Building walls are near, and far returns have a wide
+///   spacing.
+/// - `line_weight.sigma_deg`: 0.5 where ranges are logged in steps of 1 cm, else 0.4.
+/// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot where scans are
+///   sparse, for lack of overlap; else 0.1 m and 5 deg.
+///
+/// @param log  summary of the file
+LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,
+                            const readings::RawlogSummary& log);
+
+/// Applies the settings that neither the INI file nor the command line sets.
+/// @return one line for each laser and each applied setting
+std::vector<std::string> applyLogSettings(const LogSettings& log, Configuration& configuration);
+
+}  // namespace hybrid_slam::run

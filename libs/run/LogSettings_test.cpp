@@ -1,0 +1,120 @@
+#include "run/LogSettings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+using test::CObservation2DRangeScan;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A log of laps with each scan changed.
+class LogSettingsTest : public testing::Test {
+ protected:
+  using Change = std::function<void(CObservation2DRangeScan&)>;
+
+  LogSettings read(const Change& change, size_t beams = 181, size_t stepsPerLap = 80) {
+    const test::Log log = test::laps(20, stepsPerLap, beams);
+    for (const auto& object : log)
+      if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(object)) change(*scan);
+    const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
+    return readLogSettings(file, {}, readings::summarise(file, {}));
+  }
+  std::string valueOf(const std::string& key, const Change& change, size_t stepsPerLap = 80) {
+    for (const LogSetting& setting : read(change, 181, stepsPerLap).settings)
+      if (setting.section + "." + setting.key == key) return setting.value;
+    return "none";
+  }
+  files::TemporaryFolder folder;
+};
+
+/// A laser with this limit (m), in a room `scale` times as large; farther walls give no return, or `code`
+/// (m).
+auto laser(double limit, double scale = 1, double code = 0) {
+  return [=](CObservation2DRangeScan& scan) {
+    scan.maxRange = static_cast<float>(code > 0 ? 80 : limit);
+    for (size_t i = 0; i < scan.getScanSize(); ++i) {
+      const double range = scale * static_cast<double>(scan.getScanRange(i));
+      scan.setScanRange(i, static_cast<float>(range < limit ? range : code));
+      scan.setScanRangeValidity(i, range < limit || code > 0);
+    }
+  };
+}
+
+void asItIs(CObservation2DRangeScan&) {}
+
+TEST_F(LogSettingsTest, MaximumRange) {
+  const auto maxRange = [this](const Change& change) { return valueOf("grid.max_range", change); };
+  EXPECT_EQ(maxRange(laser(80)), "20") << "a building";
+  EXPECT_EQ(maxRange(laser(80, 6)), "50") << "a hall of 60 m by 36 m";
+  EXPECT_EQ(maxRange(laser(200, 15)), "80") << "150 m by 90 m";
+  EXPECT_EQ(maxRange(laser(8)), "8") << "no farther than the laser";
+  EXPECT_EQ(maxRange(laser(5.6, 2)), "5.60");
+  EXPECT_EQ(maxRange(laser(8, 1.7, 8.191)), "8.17") << "what a SICK laser in 8 m mode logs for no return";
+  EXPECT_EQ(maxRange(laser(30, 6, 30)), "29.94");
+  EXPECT_EQ(maxRange([](auto& scan) {
+              for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRange(i, 3);
+            }),
+            "20")
+      << "a round room is no code";
+  EXPECT_EQ(maxRange([](auto& scan) {
+              for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
+            }),
+            "20")
+      << "no returns";
+}
+
+TEST_F(LogSettingsTest, NoiseOfDirections) {
+  const auto inStepsOf = [](double step) {
+    return [step](CObservation2DRangeScan& scan) {
+      for (size_t i = 0; i < scan.getScanSize(); ++i)
+        scan.setScanRange(i, static_cast<float>(step * std::round(scan.getScanRange(i) / step)));
+    };
+  };
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.01)), "0.5");
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.05)), "0.5");
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.001)), "0.4");
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", asItIs), "0.4");
+}
+
+TEST_F(LogSettingsTest, SparseScansAreAllUsed) {
+  EXPECT_EQ(valueOf("improved_proposal.update_distance", asItIs), "0.1") << "0.12 m apart";
+  EXPECT_EQ(valueOf("improved_proposal.update_angle_deg", asItIs), "5");
+  EXPECT_EQ(valueOf("improved_proposal.update_distance", asItIs, 10), "0.02") << "1 m apart";
+  EXPECT_EQ(valueOf("improved_proposal.update_angle_deg", asItIs, 10), "1");
+}
+
+TEST_F(LogSettingsTest, DescribesTheLaser) {
+  EXPECT_THAT(read(asItIs, 180).lasers,
+              ElementsAre(HasSubstr("laser LASER: 180 beams every 1.006 deg, at x 0.00 m")));
+  EXPECT_THAT(read(asItIs, 361).lasers, ElementsAre(HasSubstr("361 beams every 0.5 deg")));
+  EXPECT_THAT(read(asItIs, 541).lasers, ElementsAre(HasSubstr("541 beams every 0.333 deg")));
+  EXPECT_THAT(read(asItIs, 1).lasers, ElementsAre(HasSubstr("1 beams, at")));
+  const auto moved = read([](auto& scan) { scan.sensorPose = mrpt::poses::CPose3D(0.4, -0.1, 0, M_PI / 2); });
+  EXPECT_THAT(moved.lasers, ElementsAre(HasSubstr("at x 0.40 m, y -0.10 m, 90 deg on the robot")));
+}
+
+TEST_F(LogSettingsTest, TheIniFileAndTheCommandLineAreStronger) {
+  const LogSettings log = read(laser(8));
+  const std::string ini = folder.write("run.ini", "[grid]\nmax_range = 30\n");
+  Configuration c(ini, {"line_weight.sigma_deg=1"});
+  EXPECT_THAT(applyLogSettings(log, c), ElementsAre(HasSubstr("laser"), HasSubstr("update_distance = 0.1: "),
+                                                    HasSubstr("update_angle_deg = 5: ")));
+  EXPECT_EQ(c.filter.grid.maxRange, 30);
+  EXPECT_NEAR(c.filter.lineWeight.sigma, M_PI / 180, 1e-12);
+
+  Configuration defaults("", {});
+  applyLogSettings(log, defaults);
+  EXPECT_EQ(defaults.filter.grid.maxRange, 8);
+  EXPECT_THAT(defaults.text(), HasSubstr("max_range = 8"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run
