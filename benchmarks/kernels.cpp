@@ -40,6 +40,7 @@ struct Scene {
   PreparedScan scan = test::prepared(test::room(), {0.1, 0.1, 0.1}, random);
   TPose2D pose{0.1, 0.1, 0.1};
   FilterConfiguration options;
+  options.filter.proposal = ParticleFilterOptions::Proposal::standard;
 };
 
 /// Follows each beam in steps of one cell, to `beyond` (m) behind its reading, and calls visit(cellX, cellY)

@@ -41,7 +41,7 @@ for method in hybrid general; do
     for log in intel-lab csail; do
       [[ -f $out/$log.rawlog ]] ||
         "$after/log2rawlog" "$HYBRID_SLAM_DATASETS/$log.clf.gz" "$out/$log.rawlog" >/dev/null 2>&1
-      same $log-$method-$proposal config-ini/lms-logs.ini "$out/$log.rawlog"
+      same $log-$method-$proposal config-ini/paper.ini "$out/$log.rawlog"
     done
   done
 done

@@ -41,7 +41,7 @@ def compare(name, ini, log, figure, *options):
 
 
 def on_intel(name, *options):
-    return compare(name, "config-ini/lms-logs.ini", intel(), "trans_mean_m", "--relations", f"{logs}/intel-lab.relations",
+    return compare(name, "config-ini/paper.ini", intel(), "trans_mean_m", "--relations", f"{logs}/intel-lab.relations",
                    "--odometry", f"{logs}/intel-lab.odom.gz", *options)
 
 
@@ -86,7 +86,7 @@ def learnt():
     seeds = ["--seeds", os.environ.get("SEEDS", "10")]
     improved = ["--set", "particle_filter.proposal=improved"]
     coarse = ["--set", "improved_proposal.update_distance=0.3", "--set", "improved_proposal.update_angle_deg=15"]
-    lms, csie = "config-ini/lms-logs.ini", "config-ini/csie-lms100.ini"
+    lms, csie = "config-ini/paper.ini", "config-ini/csie-lms100.ini"
     by_improved = learn("improved", lms, intel(), "-n", 5, *improved)
     by_standard = learn("standard", lms, intel(), "-n", 20, *EVERY_03)
     by_coarse = learn("coarse", lms, intel(), "-n", 20, *improved, *coarse)

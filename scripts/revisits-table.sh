@@ -28,7 +28,7 @@ print(form.format(sys.argv[1], **e))' \
 
 echo "| log, \`--distance\` | trajectory | revisits | apart | median_m | p95_m |"
 echo "|---|---|---|---|---|---|"
-dpslam=(config-ini/lms-logs.ini)
+dpslam=(config-ini/paper.ini)
 for seed in 1 2 3; do row "$loop" 8 "hybrid, improved" "${dpslam[@]}" 15 $seed -p improved; done
 for seed in 1 2; do row "$loop" 8 "general, improved" "${dpslam[@]}" 15 $seed -p improved -m general; done
 for seed in 2 3 4; do row "$loop" 8 general "${dpslam[@]}" 20 $seed -m general; done
@@ -36,10 +36,10 @@ for seed in 1 2; do row "$loop" 8 hybrid "${dpslam[@]}" 20 $seed; done
 row "$loop" 8 general "${dpslam[@]}" 5 1 -m general
 row "$loop" 8 stock "${dpslam[@]}" 10 1 -m stock
 row "$malaga" 3 "hybrid, improved" config-ini/malaga.ini 10 1 -p improved
-row "$malaga" 3 hybrid config-ini/malaga.ini 10 1
+row "$malaga" 3 hybrid config-ini/malaga.ini 10 1 -p standard
 
 # The last tenth of the first of these trajectories, shifted: the result for a doubled wall.
-closed=$out/hybridimproved-lms-logs-15-1/trajectory.tum
+closed=$out/hybridimproved-paper-15-1/trajectory.tum
 scans=$(wc -l <"$closed")
 head="| moved aside by (m) |" rule="|---|" cells="| \`median_m\` |"
 for aside in 0.1 0.15 0.2 0.3 0.5; do

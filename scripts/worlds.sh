@@ -51,12 +51,12 @@ compare() {
   local world=$1 folder=$2 log truth
   shift 2
   log=${HYBRID_SLAM_DATASETS:-}/$(log_of "$world")
-  truth=(config-ini/lms-logs.ini "$folder/$world.rawlog" --relations "$log.relations")
+  truth=(config-ini/paper.ini "$folder/$world.rawlog" --relations "$log.relations")
   case $world in
     csail) ;;
     intel | fr079) truth+=(--odometry "$log.odom.gz") ;;
     killian) truth+=(--odometry "$log.odom.gz" --success-relations 0.3) ;;
-    dpslam) truth=(config-ini/lms-logs.ini "$folder/$world.rawlog" --revisits 8) ;;
+    dpslam) truth=(config-ini/paper.ini "$folder/$world.rawlog" --revisits 8) ;;
     *)
       truth=(config-ini/csie-lms100.ini "$folder/$world.rawlog" --reference "$folder/$world.tum"
         --floorplan "$folder/$world.plan")

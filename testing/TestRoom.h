@@ -105,6 +105,7 @@ inline double rms(const std::vector<TPose2D>& path, const std::vector<TPose2D>& 
 inline FilterConfiguration roomConfiguration() {
   FilterConfiguration c;
   c.filter.particles = 20;
+  c.filter.proposal = ParticleFilterOptions::Proposal::standard;
   c.motion.turn.varianceT = 0.05 * 0.05;
   return c;
 }

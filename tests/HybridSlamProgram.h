@@ -53,9 +53,10 @@ class HybridSlam : public testing::Test {
   }
 
   files::TemporaryFolder folder;
-  std::string ini = folder.write("run.ini",
-                                 "[run]\nmethod = hybrid\n[particle_filter]\nparticles = 5\nupdate_distance "
-                                 "= 0.2\n[grid]\nresolution = 0.1\n");
+  std::string ini = folder.write(
+      "run.ini",
+      "[run]\nmethod = hybrid\n[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance "
+      "= 0.2\n[grid]\nresolution = 0.1\n");
   std::string output = folder.path("out");
   std::string out, err;
 };

@@ -23,7 +23,8 @@ inline const std::string kSmall = " --methods hybrid,general --particles 4 --see
 
 struct SlamCompare : testing::Test {
   files::TemporaryFolder folder;
-  std::string config = folder.write("small.ini", "[particle_filter]\nparticles = 3\nupdate_distance = 1\n");
+  std::string config = folder.write(
+      "small.ini", "[particle_filter]\nparticles = 3\nproposal = standard\nupdate_distance = 1\n");
 
   test::Outcome shell(const std::string& command) const { return test::shell(folder, command); }
   std::string call(const std::string& arguments) const {

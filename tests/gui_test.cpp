@@ -49,7 +49,7 @@ class GuiTest : public testing::Test {
     frame->Move(0, 0);
     frame->Show();
     ini = folder.write(
-        "run.ini", "[particle_filter]\nparticles = 8\nupdate_distance = 0.2\n[grid]\nresolution = 0.05\n");
+        "run.ini", "[particle_filter]\nparticles = 8\nproposal = standard\nupdate_distance = 0.2\n[grid]\nresolution = 0.05\n");
     log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(60));
   }
   void TearDown() override {

@@ -117,7 +117,8 @@ TEST_F(HybridSlam, ATerminalShowsABarWithTheTimeLeft) {
   EXPECT_THAT(text, HasSubstr("\n100 scans, ")) << "the bar's line is ended";
 
   std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[log.size() - 2])->odometry.x(1000);
-  ini = folder.write("every.ini", "[particle_filter]\nupdate_distance = 0\nparticles = 300\n");
+  ini = folder.write("every.ini",
+                     "[particle_filter]\nproposal = standard\nupdate_distance = 0\nparticles = 300\n");
   const auto [error, errorCode] =
       onTerminal({"hybrid-slam", "-o", output, ini, test::writeGzipped(path, log)});
   EXPECT_EQ(errorCode, 2);

@@ -55,7 +55,7 @@ class Malaga : public testing::Test {
 /// 0.56-0.69.
 TEST_F(Malaga, EndsAtTheRecordedPose) {
   for (const int seed : {1, 2, 3}) {
-    const files::Trajectory trajectory = run("-n 50 -s " + std::to_string(seed));
+    const files::Trajectory trajectory = run("-p standard -n 50 -s " + std::to_string(seed));
     ASSERT_EQ(trajectory.size(), 225u);
     const auto& end = trajectory.back().pose;
     EXPECT_NEAR(end.x, 4.15, 0.25) << "seed " << seed;
@@ -69,7 +69,7 @@ TEST_F(Malaga, EndsAtTheRecordedPose) {
 /// A filter without further updates follows the odometry, which the figures above would detect.
 TEST_F(Malaga, OdometryAloneEndsElsewhere) {
   const auto end =
-      run("--set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360").back();
+      run("-p standard --set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360").back();
   EXPECT_GT(std::hypot(end.pose.x - 4.15, end.pose.y + 18.49), 5);
 }
 

@@ -33,8 +33,9 @@ std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folde
 TEST(Replay, TheResultsAreTheSameInEveryLocale) {
   const files::TemporaryFolder folder;
   const std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(60));
-  const std::string ini = folder.write(
-      "run.ini", "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\nresolution = 0.1\n");
+  const std::string ini = folder.write("run.ini",
+                                       "[particle_filter]\nparticles = 5\nproposal = "
+                                       "standard\nupdate_distance = 0.2\n[grid]\nresolution = 0.1\n");
   const auto expected = resultsOf(folder, ini, log);
   const test::CommaLocale german;
   for (const auto& [name, text] : resultsOf(folder, ini, log)) {

@@ -12,7 +12,7 @@ void ParticleFilterOptions::describe(OptionTable& t) {
          {Proposal::improved, "improved"},
          {Proposal::auxiliaryStandard, "auxiliary_standard"},
          {Proposal::auxiliaryOptimal, "auxiliary_optimal"}},
-        "standard: the motion model, as in the paper; improved: around a scan match; the others: MRPT's "
+        "improved: around a scan match; standard: the motion model, as in the paper; the others: MRPT's "
         "auxiliary filters");
   t.add("resampling", resampling,
         {{CParticleFilter::prMultinomial, "multinomial"},

@@ -22,9 +22,9 @@ namespace hybrid_slam {
 struct ParticleFilterOptions : Options {
   enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
 
-  int particles = 50;  ///< 0: adaptive
+  int particles = 15;  ///< 0: adaptive
   int minParticles = 8, maxParticles = 60;
-  Proposal proposal = Proposal::standard;
+  Proposal proposal = Proposal::improved;
   mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
       mrpt::bayes::CParticleFilter::prSystematic;
   double essThreshold = 0.5;

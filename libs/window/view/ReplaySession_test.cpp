@@ -22,7 +22,7 @@ class ReplaySessionTest : public testing::Test {
   static constexpr size_t kScans = 60;
   run::Configuration configuration(const std::string& log) {
     const std::string ini = folder.write("run.ini",
-                                         "[particle_filter]\nparticles = 5\nupdate_distance = 0.2\n[grid]\n"
+                                         "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
                                          "resolution = 0.1\n");
     return run::Configuration(ini, {"run.rawlog=" + log});
   }
