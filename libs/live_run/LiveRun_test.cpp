@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
+#include "files/RawlogReader.h"
 #include "files/TemporaryFolder.h"
 #include "live/CycleGrouper.h"
 #include "run/Replay.h"
