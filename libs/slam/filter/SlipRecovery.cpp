@@ -64,8 +64,13 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   std::vector<Hypothesis> hypotheses{usual};
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
-    hypotheses = searchWindow(best, expected, usual, scan);
-    if (contradictedShare(scan.matchedBeams, hypotheses[0].match.pose, best.grid) > kContradicted) {
+    hypotheses = searchWindow({options_.slipDistance, options_.slipAngle}, best, expected, usual, scan);
+    const auto isContradicted = [&] {
+      return contradictedShare(scan.matchedBeams, hypotheses[0].match.pose, best.grid) > kContradicted;
+    };
+    if (isContradicted())
+      hypotheses = searchWindow({options_.slipDistance, M_PI}, best, expected, usual, scan);
+    if (isContradicted()) {
       const auto elsewhere = searchMap(best, scan);
       if (!elsewhere.empty()) hypotheses = elsewhere;
     }
@@ -100,11 +105,11 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
   return kept;
 }
 
-std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const Particle& best,
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const SearchWindow& window,
+                                                                 const Particle& best,
                                                                  const MotionDistribution& expected,
                                                                  const Hypothesis& usual,
                                                                  const PreparedScan& scan) const {
-  const SearchWindow window{options_.slipDistance, options_.slipAngle};
   const Eigen::Matrix3d information = expected.covariance.inverse();
   // ln of the density of a slip over that of the motion model at its mean.
   const double slip =
