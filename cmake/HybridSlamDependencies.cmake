@@ -7,7 +7,7 @@ macro(hybrid_slam_find)
   string(APPEND hybrid_slam_find_dependencies "find_dependency(${package})\n")
 endmacro()
 
-foreach(module core system serialization config comms math random poses img bayes obs maps slam hwdrivers io)
+foreach(module core system serialization config comms math random poses img bayes obs maps slam graphs graphslam hwdrivers io)
   hybrid_slam_find(mrpt-${module} 2.5)
 endforeach()
 hybrid_slam_find(Eigen3)

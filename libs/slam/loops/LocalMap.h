@@ -1,0 +1,30 @@
+/// @file LocalMap.h
+/// @brief A short part of the path with what was seen there, taken as rigid.
+#pragma once
+
+#include <vector>
+
+#include "slam/grid/OccupancyGrid.h"
+
+namespace hybrid_slam {
+
+/// What the closer keeps of an update: a place of the path and its beams.
+struct Keyframe {
+  size_t update = 0;  ///< index of the path
+  ScanBeams beams;
+};
+
+/// The map of some keyframes, in the frame of one of them.
+struct LocalMap {
+  size_t reference = 0;  ///< the keyframe of the frame
+  OccupancyGrid grid;
+  ScanBeams ends;  ///< one beam end for each occupied cell, from the reference
+};
+
+/// The map of keyframes [first, last) in the frame of the middle one.
+/// @param poses    of all keyframes, map frame
+/// @param options  its resolution is that of the map
+LocalMap localMap(const std::vector<Keyframe>& keyframes, const std::vector<mrpt::math::TPose2D>& poses,
+                  size_t first, size_t last, const GridOptions& options);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,285 @@
+#include "slam/loops/LoopCloser.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kKeyframeDistance = 0.95, kKeyframeAngle = 30 * kDegree;
+constexpr size_t kBeams = 181;   // kept of an update
+constexpr double kReach = 6;     // m of path to either side of a place: its local map
+constexpr double kLonger = 2.5;  // times the length, where several places fit
+constexpr size_t kPlaces = 3;    // tried in an attempt
+constexpr double kNear = 3;      // m, between two places that show the same
+constexpr double kSame = 0.2, kSameAngle = 1.5 * kDegree;  // m, rad: the path closes the loop itself
+constexpr double kAgree = 0.4, kAgreeAngle = 3 * kDegree;  // m, rad: two matches agree
+constexpr double kForget = 15;                             // m of path after which a match is forgotten
+constexpr double kMinOverlap = 0.5, kHeldOverlap = 0.3;
+constexpr double kAttempt = 1.5, kAfterHeld = 3;  // m of path between attempts
+constexpr double kMaxAngle = 20 * kDegree;        // searched
+constexpr double kMaxChi2 = 16;                   // of a correction, under the path's uncertainty
+constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
+
+double distanceOf(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double angleOf(const TPose2D& a, const TPose2D& b) { return std::abs(mrpt::math::wrapToPi(a.phi - b.phi)); }
+
+/// The direction of the walls in the lines of a scan, modulo 90 deg.
+std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
+  std::vector<DatabaseLine> all;
+  double length = 0;
+  for (const LineSegment& line : lines) {
+    all.emplace_back();
+    static_cast<LineSegment&>(all.back()) = line;
+    length += line.length;
+  }
+  if (length < 3) return std::nullopt;
+  return directionModuloRightAngle(all);
+}
+
+/// Inverse of the covariance of a match, at least 5 cm and 0.5 deg. The matcher's information is tempered:
+/// its beams are not independent.
+Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match) {
+  const Eigen::Matrix3d floor =
+      Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * kDegree * kDegree).asDiagonal();
+  const Eigen::Matrix3d regular = 0.1 * match + Eigen::Vector3d(0.01, 0.01, 1).asDiagonal().toDenseMatrix();
+  return (regular.inverse() + floor).inverse();
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopClosingOptions& options, const GridOptions& grid)
+    : options_(options), grid_(grid) {
+  grid_.resolution = std::max(0.1, grid.resolution);
+}
+
+void LoopCloser::add(const TPose2D& motion, const LaserScans& scans, const std::vector<LineSegment>& lines,
+                     bool hasSlipped) {
+  motion_ = motion_ + motion;
+  const StepVariance step = stepVariance(motion, hasSlipped);
+  variance_.position += step.position, variance_.heading += step.heading;
+  toAttempt_ -= motion.norm();
+  const size_t update = updates_++;
+  if (!keyframes_.empty() && motion_.norm() < kKeyframeDistance && std::abs(motion_.phi) < kKeyframeAngle)
+    return;
+  ScanBeams beams(scans);
+  if (const size_t every = (beams.rays.size() + kBeams - 1) / kBeams; every > 1) {
+    std::vector<ScanBeams::Ray> some;
+    for (size_t i = 0; i < beams.rays.size(); i += every) some.push_back(beams.rays[i]);
+    beams.rays = some;
+  }
+  beams.rays.shrink_to_fit();
+  keyframes_.push_back({update, std::move(beams)});
+  variances_.push_back(variance_);
+  wallDirections_.push_back(wallDirection(lines));
+  motion_ = TPose2D(), variance_ = StepVariance();
+}
+
+LocalMap LoopCloser::newest(const Visit& visit, double length) const {
+  const auto first =
+      std::lower_bound(visit.distances.begin(), visit.distances.end(), visit.distances.back() - length);
+  return localMap(keyframes_, visit.poses, static_cast<size_t>(first - visit.distances.begin()),
+                  keyframes_.size(), grid_);
+}
+
+LocalMap LoopCloser::around(const Visit& visit, size_t keyframe, double reach) const {
+  const auto& distances = visit.distances;
+  const double end = std::min(distances[keyframe] + reach, distances.back() - options_.minDistance);
+  const auto from = std::lower_bound(distances.begin(), distances.end(), distances[keyframe] - reach);
+  const auto to = std::upper_bound(from, distances.end(), end);
+  return localMap(keyframes_, visit.poses, static_cast<size_t>(from - distances.begin()),
+                  static_cast<size_t>(to - distances.begin()), grid_);
+}
+
+std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
+                                       const PathUncertainty& uncertainty) const {
+  struct Place {
+    double distance;
+    size_t keyframe;
+  };
+  std::vector<Place> all;
+  for (size_t k = 0; k < visit.poses.size(); ++k) {
+    if (visit.distances[k] > visit.distances.back() - options_.stretch - options_.minDistance) break;
+    const double distance = distanceOf(visit.poses[k], visit.poses[here]);
+    if (distance < kNear + options_.maxOffset) all.push_back({distance, k});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Place& a, const Place& b) { return a.distance < b.distance; });
+  std::vector<size_t> chosen;
+  for (const Place& place : all) {
+    const bool isNew = std::none_of(chosen.begin(), chosen.end(), [&](size_t k) {
+      return std::abs(visit.distances[k] - visit.distances[place.keyframe]) < 2 * kReach;
+    });
+    if (!isNew) continue;
+    const Eigen::Matrix3d covariance = uncertainty.between(place.keyframe, here, known_);
+    if (place.distance > kNear + 3 * std::sqrt(covariance(0, 0) + covariance(1, 1))) continue;
+    chosen.push_back(place.keyframe);
+    if (chosen.size() == kPlaces) break;
+  }
+  return chosen;
+}
+
+LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& stretch,
+                                         const PathUncertainty& uncertainty, size_t place, double reach) {
+  const LocalMap older = around(visit, place, reach);
+  const size_t here = stretch.reference;
+  const TPose2D expected = visit.poses[here] - visit.poses[older.reference];
+  const LoopMatch near = matchFrom(expected, stretch, older);
+  const Eigen::Matrix3d covariance = uncertainty.between(older.reference, here, known_);
+  const auto isWhereExpected = [&](const LoopMatch& match) {
+    return distanceOf(match.pose, expected) < kSame && angleOf(match.pose, expected) < kSameAngle;
+  };
+  if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
+    if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
+    // The filter has closed it: hold what it found, by its own relative pose.
+    hold(visit, {older.reference, here, expected, edgeInformation(near.information)});
+    candidates_.clear();
+    return Outcome::held;
+  }
+  const SearchWindow window{
+      std::clamp(3 * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), 0.6, options_.maxOffset),
+      std::clamp(3 * std::sqrt(covariance(2, 2)), 4 * kDegree, kMaxAngle)};
+  const auto best = searchMatch(expected, window, stretch, older);
+  if (!best || best->agreement.fit < options_.minFit || best->agreement.overlap < kMinOverlap)
+    return Outcome::none;
+  if (best->second > options_.maxSecond) return Outcome::ambiguous;
+  if (isWhereExpected(*best)) return Outcome::none;
+  // The correction under the uncertainty, which holds for the axes of the map.
+  const TPose2D corrected = visit.poses[older.reference] + best->pose;
+  const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
+                            mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
+  if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
+  remember(visit, {{older.reference, here, best->pose, edgeInformation(best->information)},
+                   best->agreement,
+                   best->second});
+  return Outcome::found;
+}
+
+void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
+  Eigen::Matrix3d toMap = Eigen::Matrix3d::Identity();
+  toMap.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(visit.poses[edge.from].phi).toRotationMatrix();
+  loops_.push_back(edge);
+  known_.push_back({edge.from, edge.to, toMap * edge.information.inverse() * toMap.transpose()});
+}
+
+void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
+  const size_t here = candidate.edge.to;
+  const TPose2D corrected = visit.poses[candidate.edge.from] + candidate.edge.relative;
+  const bool agrees = std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& before) {
+    if (visit.distances[here] - visit.distances[before.edge.to] > kForget) return false;
+    const TPose2D byBefore = visit.poses[before.edge.from] + before.edge.relative +
+                             (visit.poses[here] - visit.poses[before.edge.to]);
+    return distanceOf(byBefore, corrected) < kAgree && angleOf(byBefore, corrected) < kAgreeAngle;
+  });
+  if (!agrees) candidates_.clear();
+  candidates_.push_back(candidate);
+}
+
+std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
+                                             const std::optional<double>& direction) {
+  toAttempt_ = kAttempt;
+  Visit visit;
+  for (const Keyframe& keyframe : keyframes_) {
+    const TPose2D& pose = path.at(keyframe.update);
+    visit.distances.push_back(
+        visit.poses.empty() ? 0 : visit.distances.back() + distanceOf(visit.poses.back(), pose));
+    visit.poses.push_back(pose);
+  }
+  if (visit.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
+  const LocalMap stretch = newest(visit, options_.stretch);
+  const PathUncertainty uncertainty(visit.poses, variances_);
+  for (const size_t place : places(visit, stretch.reference, uncertainty)) {
+    Outcome outcome = tryPlace(visit, stretch, uncertainty, place, kReach);
+    if (outcome == Outcome::ambiguous)
+      outcome =
+          tryPlace(visit, newest(visit, kLonger * options_.stretch), uncertainty, place, kLonger * kReach);
+    if (outcome == Outcome::held) {
+      toAttempt_ = kAfterHeld;
+      return std::nullopt;
+    }
+    if (outcome == Outcome::found) break;
+  }
+  if (candidates_.size() < static_cast<size_t>(options_.agreeing)) return std::nullopt;
+  return optimise(path, visit, direction);
+}
+
+std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path, const Visit& visit,
+                                                const std::optional<double>& direction) {
+  PoseGraph graph;
+  graph.poses = visit.poses;
+  // How far the walls of a keyframe are off the direction of the others.
+  const auto wallError = [&](size_t i) -> std::optional<double> {
+    if (!direction || !wallDirections_[i]) return std::nullopt;
+    const double off = wrapToRightAngle(visit.poses[i].phi + *wallDirections_[i] - *direction);
+    return std::abs(off) < kMaxWallAngle ? std::optional<double>(off) : std::nullopt;
+  };
+  for (size_t i = 1; i < visit.poses.size(); ++i) {
+    TPose2D motion = visit.poses[i] - visit.poses[i - 1];
+    StepVariance variance = variances_[i];
+    const auto before = wallError(i - 1), after = wallError(i);
+    if (before && after) {
+      motion.phi = mrpt::math::wrapToPi(motion.phi - (*after - *before));
+      variance.heading = std::min(variance.heading, kWallSigma * kWallSigma);
+    }
+    const Eigen::Vector3d inverse(1 / variance.position, 1 / variance.position, 1 / variance.heading);
+    graph.motions.push_back({i - 1, i, motion, inverse.asDiagonal()});
+  }
+  graph.loops = loops_;
+  for (const Candidate& candidate : candidates_) graph.loops.push_back(candidate.edge);
+  const OptimizedGraph result = optimized(graph);
+
+  // All of the new matches must hold, and at most one of the older pairs may be false.
+  const auto newMatches = result.loopWeights.end() - static_cast<ptrdiff_t>(candidates_.size());
+  const auto broken = std::count(result.loopWeights.begin(), result.loopWeights.end(), 0);
+  const bool holds = broken <= 1 && std::count(newMatches, result.loopWeights.end(), 0) == 0;
+  const std::vector<Candidate> candidates = std::move(candidates_);
+  candidates_.clear();
+  if (!holds) return std::nullopt;
+
+  LoopClosure closure;
+  closure.path = path;
+  for (size_t k = 0; k < keyframes_.size(); ++k) {
+    const size_t from = keyframes_[k].update;
+    const size_t to = k + 1 < keyframes_.size() ? keyframes_[k + 1].update : path.size();
+    const auto carried = [&](size_t i) { return result.poses[k] + (path[i] - path[from]); };
+    TPose2D error;
+    if (to < path.size()) {
+      const TPose2D end = carried(to);
+      error = {result.poses[k + 1].x - end.x, result.poses[k + 1].y - end.y,
+               mrpt::math::wrapToPi(result.poses[k + 1].phi - end.phi)};
+    }
+    for (size_t i = from; i < to; ++i) {
+      const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
+      TPose2D pose = carried(i);
+      pose.x += share * error.x, pose.y += share * error.y;
+      pose.phi = mrpt::math::wrapToPi(pose.phi + share * error.phi);
+      closure.path[i] = pose;
+      closure.shift = std::max(closure.shift, distanceOf(pose, path[i]));
+      closure.turn = std::max(closure.turn, angleOf(pose, path[i]));
+    }
+  }
+  for (size_t i = loops_.size(); i-- > 0;)
+    if (result.loopWeights[i] == 0) {
+      loops_.erase(loops_.begin() + static_cast<ptrdiff_t>(i));
+      known_.erase(known_.begin() + static_cast<ptrdiff_t>(i));
+    }
+  const PoseEdge& last = candidates.back().edge;
+  closure.earlier = keyframes_[last.from].update, closure.later = keyframes_[last.to].update;
+  closure.place = closure.path[closure.later];
+  closure.fit = 1;
+  for (const Candidate& candidate : candidates) {
+    closure.fit = std::min(closure.fit, candidate.agreement.fit);
+    closure.second = std::max(closure.second, candidate.second);
+    hold(visit, candidate.edge);
+  }
+  closure.matches = candidates.size();
+  return closure;
+}
+
+}  // namespace hybrid_slam

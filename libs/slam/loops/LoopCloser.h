@@ -1,0 +1,77 @@
+/// @file LoopCloser.h
+/// @brief Finds loops that a path does not close, and the path that closes them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/grid/OccupancyGrid.h"
+#include "slam/lines/LineDatabase.h"
+#include "slam/loops/LocalMap.h"
+#include "slam/loops/LoopClosingOptions.h"
+#include "slam/loops/LoopClosure.h"
+#include "slam/loops/LoopMatch.h"
+#include "slam/loops/PathUncertainty.h"
+#include "slam/loops/PoseGraph.h"
+
+namespace hybrid_slam {
+
+/// The newest stretch of the path is matched, as one rigid map, to the maps of earlier stretches that may be
+/// the same place by the uncertainty of the path. Where the path already fits them, the pair is held. A place
+/// that fits elsewhere, and nowhere else as well, is remembered; where several places fit, a longer stretch
+/// is tried. Once several successive ones agree on the correction, the pose graph
+/// of the motions, the pairs held, the matches and the directions of the walls is optimised.
+///
+/// Keeps about 7 kB for each metre of the path.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopClosingOptions& options, const GridOptions& grid);
+
+  /// The next update: its motion by the best path, what was seen after it, and the lines of that (robot
+  /// frame; empty without lines).
+  void add(const mrpt::math::TPose2D& motion, const LaserScans& scans, const std::vector<LineSegment>& lines,
+           bool hasSlipped);
+  /// Whether the path has grown enough since the last attempt.
+  bool isDue() const { return toAttempt_ <= 0; }
+  /// Tries to close a loop at the end of the path.
+  /// @param path        a pose for each update
+  /// @param directions  of the walls, modulo 90 deg, rad; empty: unknown
+  std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
+                                   const std::optional<double>& direction);
+
+ private:
+  struct Candidate {
+    PoseEdge edge;
+    Agreement agreement;
+    double second;
+  };
+  struct Visit {
+    std::vector<mrpt::math::TPose2D> poses;  ///< of the keyframes, map frame
+    std::vector<double> distances;           ///< m, along the path
+  };
+  enum class Outcome { none, held, ambiguous, found };
+  Outcome tryPlace(const Visit& visit, const LocalMap& stretch, const PathUncertainty& uncertainty,
+                   size_t place, double reach);
+  std::vector<size_t> places(const Visit& visit, size_t here, const PathUncertainty& uncertainty) const;
+  void hold(const Visit& visit, const PoseEdge& edge);
+  void remember(const Visit& visit, const Candidate& candidate);
+  std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Visit& visit,
+                                      const std::optional<double>& direction);
+  LocalMap newest(const Visit& visit, double length) const;
+  LocalMap around(const Visit& visit, size_t keyframe, double reach) const;
+
+  LoopClosingOptions options_;
+  GridOptions grid_;  ///< coarse
+  std::vector<Keyframe> keyframes_;
+  std::vector<StepVariance> variances_;                ///< of the motions between keyframes
+  std::vector<std::optional<double>> wallDirections_;  ///< of each keyframe, robot frame, modulo 90 deg
+  std::vector<PoseEdge> loops_;                        ///< held or closed
+  std::vector<KnownPair> known_;                       ///< the same
+  std::vector<Candidate> candidates_;                  ///< successive, in agreement
+  size_t updates_ = 0;
+  mrpt::math::TPose2D motion_;  ///< since the last keyframe
+  StepVariance variance_;       ///< of it
+  double toAttempt_ = 0;        ///< m of path
+};
+
+}  // namespace hybrid_slam

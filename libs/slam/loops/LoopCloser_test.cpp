@@ -1,0 +1,95 @@
+#include "slam/loops/LoopCloser.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/RingDrive.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+struct Driven {
+  std::vector<TPose2D> path;
+  std::vector<LoopClosure> closures;
+};
+
+/// Drives with the closer, as the filter does: after a closure it goes on from the corrected path.
+Driven closed(const std::vector<DrivenPose>& drive,
+              const LoopClosingOptions& options = LoopClosingOptions()) {
+  LoopCloser closer(options, GridOptions());
+  Driven driven;
+  for (const DrivenPose& step : drive) {
+    driven.path.push_back(driven.path.empty() ? step.truth : driven.path.back() + step.motion);
+    closer.add(step.motion, step.scans, {}, false);
+    if (!closer.isDue()) continue;
+    if (auto closure = closer.close(driven.path, std::nullopt)) {
+      driven.path = closure->path;
+      driven.closures.push_back(*closure);
+    }
+  }
+  return driven;
+}
+
+double largestError(const std::vector<TPose2D>& path, const std::vector<DrivenPose>& drive) {
+  double largest = 0;
+  for (size_t i = 0; i < path.size(); ++i)
+    largest = std::max(largest, std::hypot(path[i].x - drive[i].truth.x, path[i].y - drive[i].truth.y));
+  return largest;
+}
+
+LoopClosingOptions never() {
+  LoopClosingOptions options;
+  options.minDistance = 10000;
+  return options;
+}
+
+TEST(LoopCloser, ClosesARingWhoseHeadingDrifts) {
+  for (const double turn : {0.03, -0.03, 0.05}) {
+    const auto drive = ringDrive(turn * kDegree);
+    const double before = largestError(closed(drive, never()).path, drive);
+    const Driven driven = closed(drive);
+    ASSERT_GE(driven.closures.size(), 1u) << turn;
+    EXPECT_GT(before, 1) << turn;
+    EXPECT_LT(largestError(driven.path, drive), 0.3 * before) << turn;
+    const LoopClosure& first = driven.closures.front();
+    EXPECT_GT(first.fit, 0.8);
+    EXPECT_GE(first.matches, 3u);
+    EXPECT_GT(first.shift, 0.5);
+    EXPECT_LT(first.earlier, first.later);
+  }
+}
+
+TEST(LoopCloser, APathThatClosesItselfStaysAsItIs) { EXPECT_TRUE(closed(ringDrive(0)).closures.empty()); }
+
+TEST(LoopCloser, SuccessiveMatchesMustAgree) {
+  LoopClosingOptions options;
+  options.agreeing = 20;  // more than the second lap has
+  EXPECT_TRUE(closed(ringDrive(0.03 * kDegree), options).closures.empty());
+}
+
+/// A corridor with equal rooms every 1.5 m: on the way back, each looks like its neighbours. A small
+/// correction may be right; one by a room is not.
+TEST(LoopCloser, EqualRoomsAreNotTakenForEachOther) {
+  Walls walls = box(-200, -1.5, 200, 1.5);
+  for (double x = -60; x < 120; x += 1.5) {
+    append(walls, box(x, 0.9, x + 0.5, 1.5));
+    append(walls, box(x, -1.5, x + 0.5, -0.9));
+  }
+  for (const double scale : {1.0, 1.004, 1.008, 0.995}) {
+    const auto drive = driveAlong(walls, {{0, 0}, {60, 0}, {-10, 0}}, 0.005 * kDegree, scale);
+    const Driven driven = closed(drive);
+    for (const LoopClosure& closure : driven.closures) EXPECT_LT(closure.shift, 0.75) << scale;
+    EXPECT_LT(largestError(driven.path, drive), largestError(closed(drive, never()).path, drive) + 0.1)
+        << scale;
+  }
+}
+
+TEST(LoopCloser, NewGroundThatLooksLikeTheOldDoesNotClose) {
+  Walls walls = box(-200, -1.5, 300, 1.5);
+  for (double x = -60; x < 250; x += 5) append(walls, box(x, 0.5, x + 1.5, 1.5));
+  EXPECT_TRUE(closed(driveAlong(walls, {{0, 0}, {150, 0}}, 0.02 * kDegree)).closures.empty());
+}
+
+}  // namespace
+}  // namespace hybrid_slam

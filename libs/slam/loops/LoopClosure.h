@@ -1,0 +1,23 @@
+/// @file LoopClosure.h
+/// @brief What the closing of a loop did to the path, and why.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <vector>
+
+namespace hybrid_slam {
+
+/// A closed loop and its evidence.
+struct LoopClosure {
+  std::vector<mrpt::math::TPose2D> path;  ///< corrected, a pose for each update
+  mrpt::math::TPose2D place;              ///< corrected pose at the later visit
+  size_t earlier = 0, later = 0;          ///< updates of the two visits
+  double shift = 0;                       ///< m, largest displacement of the path
+  double turn = 0;                        ///< rad, largest change of a heading
+  double fit = 0;                         ///< lowest share of agreeing walls among the matches
+  double second = 0;                      ///< highest score of another place, as a fraction of the best
+  size_t matches = 0;                     ///< that agree
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,37 @@
+/// @file LoopMatch.h
+/// @brief Where one local map lies in another, and how well they agree there.
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+
+#include "slam/grid/CorrelativeSearch.h"
+#include "slam/loops/LocalMap.h"
+
+namespace hybrid_slam {
+
+/// How two local maps agree at a relative pose. A cell on which one of them has a wall and the other free
+/// space contradicts; where one of them knows nothing, nothing is compared.
+struct Agreement {
+  double fit = 0;      ///< share of the compared walls on which both agree
+  double overlap = 0;  ///< share of the newer map's walls that are compared
+  double score() const { return fit * fit * overlap; }
+};
+
+struct LoopMatch {
+  mrpt::math::TPose2D pose;                               ///< of the newer map's frame in the older's
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `pose`
+  Agreement agreement;
+  double second = 0;  ///< highest score elsewhere in the window, as a fraction of this one's
+};
+
+Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const mrpt::math::TPose2D& pose);
+
+/// Matches locally, from `start`.
+LoopMatch matchFrom(const mrpt::math::TPose2D& start, const LocalMap& newer, const LocalMap& older);
+
+/// The best match in the window; empty if there is none.
+std::optional<LoopMatch> searchMatch(const mrpt::math::TPose2D& centre, const SearchWindow& window,
+                                     const LocalMap& newer, const LocalMap& older);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,67 @@
+#include "slam/loops/PathUncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double square(double x) { return x * x; }
+constexpr double kDegree = M_PI / 180;
+
+}  // namespace
+
+StepVariance stepVariance(const TPose2D& motion, bool hasSlipped) {
+  StepVariance variance{
+      square(0.05) * motion.norm() + square(0.002),
+      square(0.25 * kDegree) * motion.norm() + square(0.01 * motion.phi) + square(0.02 * kDegree)};
+  if (hasSlipped) variance.position += square(0.3), variance.heading += square(5 * kDegree);
+  return variance;
+}
+
+PathUncertainty::PathUncertainty(const std::vector<TPose2D>& path, const std::vector<StepVariance>& steps) {
+  Sums sum;
+  for (size_t i = 0; i < path.size(); ++i) {
+    places_.emplace_back(path[i].x, path[i].y);
+    if (i > 0) {
+      sum.position += steps[i].position;
+      sum.heading += steps[i].heading;
+      sum.moment += steps[i].heading * places_[i];
+      sum.secondMoment += steps[i].heading * places_[i] * places_[i].transpose();
+    }
+    sums_.push_back(sum);
+  }
+}
+
+Eigen::Matrix3d PathUncertainty::along(size_t a, size_t b, const Eigen::Vector2d& at) const {
+  const Sums &first = sums_[std::min(a, b)], &last = sums_[std::max(a, b)];
+  const double heading = last.heading - first.heading;
+  const Eigen::Vector2d moment = last.moment - first.moment;
+  // The sum of heading x lever x lever^T, each lever from the motion to `at`; then all levers turned by 90
+  // deg: the direction in which a heading error moves `at`.
+  const Eigen::Matrix2d levers = last.secondMoment - first.secondMoment - moment * at.transpose() -
+                                 at * moment.transpose() + heading * at * at.transpose();
+  const Eigen::Vector2d lever = heading * at - moment;
+  Eigen::Matrix3d covariance;
+  covariance << levers(1, 1), -levers(0, 1), -lever.y(),  //
+      -levers(0, 1), levers(0, 0), lever.x(),             //
+      -lever.y(), lever.x(), heading;
+  covariance.topLeftCorner<2, 2>().diagonal().array() += last.position - first.position;
+  return covariance;
+}
+
+Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vector<KnownPair>& known) const {
+  const Eigen::Vector2d& at = places_[to];
+  Eigen::Matrix3d least = along(from, to, at);
+  for (const KnownPair& pair : known) {
+    const Eigen::Matrix3d detour =
+        along(from, pair.earlier, at) + pair.covariance + along(pair.later, to, at);
+    if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
+  }
+  return least;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,54 @@
+/// @file PathUncertainty.h
+/// @brief How far one pose of a path may be off as seen from another.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace hybrid_slam {
+
+/// Variances of a motion of the path after scan matching.
+struct StepVariance {
+  double position = 0;  ///< m^2, in x and in y
+  double heading = 0;   ///< rad^2
+};
+
+/// The error model: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a rotation. Where the odometry
+/// slipped, and a search replaced it, 0.3 m and 5 deg more.
+StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
+
+/// Two poses of the path whose relative pose has been measured.
+struct KnownPair {
+  size_t earlier = 0, later = 0;                         ///< indices of the path
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the later one, map frame
+};
+
+/// Accumulates the errors of a path's motions. A heading error moves all that follows about the place where
+/// it happened.
+class PathUncertainty {
+ public:
+  /// @param path   map frame
+  /// @param steps  of the motions that end at each pose; the first is not used
+  PathUncertainty(const std::vector<mrpt::math::TPose2D>& path, const std::vector<StepVariance>& steps);
+
+  /// Covariance of pose `to` (x, y, phi; map frame) with respect to pose `from`, along the shorter of the
+  /// path and the path with a short cut through one of the known pairs. Constant time per pair.
+  Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
+
+ private:
+  /// Sums over the motions up to each pose.
+  struct Sums {
+    double position = 0, heading = 0;
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero();        ///< heading x place
+    Eigen::Matrix2d secondMoment = Eigen::Matrix2d::Zero();  ///< heading x place x place^T
+  };
+  /// Covariance at `at` by the motions between two poses.
+  Eigen::Matrix3d along(size_t a, size_t b, const Eigen::Vector2d& at) const;
+
+  std::vector<Eigen::Vector2d> places_;
+  std::vector<Sums> sums_;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,48 @@
+#include "slam/loops/PathUncertainty.h"
+
+#include <gtest/gtest.h>
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// 0, 1, ... 100 m along the x axis, each motion with a variance of 1e-4 m^2 and 1e-6 rad^2.
+PathUncertainty straight() {
+  std::vector<TPose2D> path;
+  for (int i = 0; i <= 100; ++i) path.emplace_back(i, 0, 0);
+  return PathUncertainty(path, std::vector<StepVariance>(path.size(), {1e-4, 1e-6}));
+}
+
+TEST(PathUncertainty, AHeadingErrorMovesAllThatFollows) {
+  const Eigen::Matrix3d covariance = straight().between(0, 100);
+  EXPECT_NEAR(covariance(0, 0), 100 * 1e-4, 1e-9);
+  double across = 100 * 1e-4, common = 0;
+  for (int k = 1; k <= 100; ++k) across += 1e-6 * (100 - k) * (100 - k), common += 1e-6 * (100 - k);
+  EXPECT_NEAR(covariance(1, 1), across, 1e-9);
+  EXPECT_NEAR(covariance(1, 2), common, 1e-9);
+  EXPECT_NEAR(covariance(2, 2), 100 * 1e-6, 1e-12);
+}
+
+TEST(PathUncertainty, IsTheSameOnAnyPartOfAStraightPath) {
+  EXPECT_TRUE(straight().between(10, 40).isApprox(straight().between(60, 90), 1e-9));
+}
+
+TEST(PathUncertainty, AKnownPairIsAShortCut) {
+  std::vector<TPose2D> path;  // 50 m out and back
+  for (int i = 0; i <= 100; ++i) path.emplace_back(i <= 50 ? i : 100 - i, 0, 0);
+  const PathUncertainty uncertainty(path, std::vector<StepVariance>(path.size(), {1e-4, 1e-6}));
+  const double direct = uncertainty.between(5, 95).trace();
+  EXPECT_LT(uncertainty.between(5, 95, {KnownPair{10, 90}}).trace(), 0.2 * direct);
+  EXPECT_DOUBLE_EQ(uncertainty.between(5, 10, {KnownPair{0, 90}}).trace(),
+                   uncertainty.between(5, 10).trace());
+}
+
+TEST(PathUncertainty, ASlipIsWide) {
+  const StepVariance normal = stepVariance({0.3, 0, 0.1}, false), slip = stepVariance({0.3, 0, 0.1}, true);
+  EXPECT_GT(slip.position, 10 * normal.position);
+  EXPECT_GT(slip.heading, 10 * normal.heading);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

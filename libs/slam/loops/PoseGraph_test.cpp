@@ -1,0 +1,68 @@
+#include "slam/loops/PoseGraph.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+constexpr double kDegree = M_PI / 180;
+const Eigen::Matrix3d kMatch = Eigen::Vector3d(400, 400, 1e4).asDiagonal();  // 5 cm, 0.6 deg
+
+/// A circle of 100 motions of 1 m whose headings drift by 0.1 deg each.
+struct Ring {
+  std::vector<TPose2D> truth;
+  PoseGraph graph;
+  Ring() {
+    truth.emplace_back();
+    graph.poses.emplace_back();
+    for (size_t i = 1; i <= 100; ++i) {
+      truth.push_back(truth.back() + TPose2D(1, 0, 3.6 * kDegree));
+      const TPose2D motion(1, 0, 3.7 * kDegree);
+      graph.poses.push_back(graph.poses.back() + motion);
+      graph.motions.push_back({i - 1, i, motion, Eigen::Vector3d(400, 400, 5e4).asDiagonal()});
+    }
+  }
+  PoseEdge loop(size_t from, size_t to) const { return {from, to, truth[to] - truth[from], kMatch}; }
+  double error(const std::vector<TPose2D>& poses) const {
+    double largest = 0;
+    for (size_t i = 0; i < poses.size(); ++i)
+      largest = std::max(largest, std::hypot(poses[i].x - truth[i].x, poses[i].y - truth[i].y));
+    return largest;
+  }
+};
+
+TEST(PoseGraph, ClosesARingThatDrifts) {
+  Ring ring;
+  EXPECT_GT(ring.error(ring.graph.poses), 2);
+  for (const size_t i : {0, 1, 2}) ring.graph.loops.push_back(ring.loop(i, 98 + i));
+  const OptimizedGraph result = optimized(ring.graph);
+  EXPECT_LT(ring.error(result.poses), 0.3);
+  for (const double weight : result.loopWeights) EXPECT_EQ(weight, 1);
+  EXPECT_EQ(result.poses[0], ring.graph.poses[0]);
+}
+
+TEST(PoseGraph, RejectsOneFalseLoopAmongTrueOnes) {
+  Ring ring;
+  for (const size_t i : {0, 1, 2}) ring.graph.loops.push_back(ring.loop(i, 98 + i));
+  ring.graph.loops.push_back({20, 70, {0.5, 0, 0}, kMatch});
+  const OptimizedGraph result = optimized(ring.graph);
+  EXPECT_LT(ring.error(result.poses), 0.4);
+  EXPECT_EQ(result.loopWeights[3], 0);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(result.loopWeights[i], 1);
+}
+
+TEST(PoseGraph, WithoutLoopsNothingMoves) {
+  const Ring ring;
+  const OptimizedGraph result = optimized(ring.graph);
+  for (size_t i = 0; i < result.poses.size(); ++i)
+    EXPECT_LT(
+        std::hypot(result.poses[i].x - ring.graph.poses[i].x, result.poses[i].y - ring.graph.poses[i].y),
+        1e-6);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
