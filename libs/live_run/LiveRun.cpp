@@ -86,6 +86,7 @@ void LiveRun::filter() {
       }
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
+      for (const std::string& note : run_.takeLoopNotes()) log_.report("filter", note);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
       if (!isQuiet_ && secondsSince(lastState_) >= 10) tellState();

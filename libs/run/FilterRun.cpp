@@ -52,6 +52,15 @@ double peakMegabytes() {
   return kilobytes / 1024;
 }
 
+std::string describe(const LoopClosure& loop, const std::vector<double>& times) {
+  return "loop closed at (" + fixedText(loop.place.x, 1) + ", " + fixedText(loop.place.y, 1) +
+         ") m between " + fixedText(times.at(loop.earlier), 1) + " s and " +
+         fixedText(times.at(loop.later), 1) + " s: path moved by up to " + fixedText(loop.shift, 2) +
+         " m and " + fixedText(loop.turn * 180 / M_PI, 1) + " deg; " + std::to_string(loop.matches) +
+         " matches agree, at least " + fixedText(100 * loop.fit, 0) +
+         " % of their walls fit, other places score " + fixedText(100 * loop.second, 0) + " % of theirs";
+}
+
 }  // namespace
 
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
@@ -84,9 +93,11 @@ bool FilterRun::process(const readings::Reading& reading) {
   recorder_.add(reading.timestamp, reading.motion, filter_->updates());
   uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
   if (uses_.back() != Use::update) return false;
+  updateTimes_.push_back(reading.timestamp);
   const FilterStep& step = filter_->lastStep();
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
   if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
+  if (step.loop) note(*step.loop);
   writeStep(steps_.stream(), reading.timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
     writeParticles(particles_->stream(), reading.timestamp, step);
@@ -99,13 +110,28 @@ std::string FilterRun::slipNote() const {
          fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
 }
 
-void FilterRun::refineResult(Result& result, readings::RawlogSource& source) const {
+void FilterRun::note(const LoopClosure& loop) {
+  ++loops_;
+  loopNotes_.push_back(describe(loop, updateTimes_));
+}
+
+void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
   std::vector<PosedScans> scans;
   for (const Use use : uses_) {
     const auto reading = source.next();
     if (!reading) break;
     if (use != Use::skipped)
       scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
+  }
+  if (configuration_.filter.loopClosing.enabled) {
+    std::vector<Scans> ofUpdates;
+    for (const PosedScans& posed : scans)
+      if (posed.isMapped) ofUpdates.push_back(posed.scans);
+    for (const LoopClosure& loop :
+         closeLoops(result.path, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter))
+      note(loop);
+    result.trajectory = recorder_.trajectory(result.path);
+    for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
   }
   refine(scans, configuration_.filter, configuration_.run.refine);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
@@ -119,7 +145,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) con
 
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const std::string& version, const nlohmann::ordered_json& more) {
-  const mrpt::system::CTimeLoggerEntry writing(profiler(), "6 write results");
+  const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines()};
   result.trajectory = recorder_.trajectory(result.path);
@@ -157,6 +183,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings_},
       {"slips", slips_},
+      {"loops_closed", loops_},
       {"lines", lines.size()},
       {"distance_m", recorder_.distance()},
       {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};

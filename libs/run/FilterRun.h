@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/OutputFolder.h"
@@ -38,6 +39,8 @@ class FilterRun {
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
+  /// A line for each loop closed since the last call: where, by how much, on what evidence.
+  std::vector<std::string> takeLoopNotes() { return std::exchange(loopNotes_, {}); }
   const FilterView& view() const { return *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
@@ -61,8 +64,9 @@ class FilterRun {
     mrpt::maps::COccupancyGridMap2D grid;
     std::vector<DatabaseLine> lines;
   };
-  /// Matches the scans of the log to the map and rebuilds it.
-  void refineResult(Result& result, readings::RawlogSource& source) const;
+  void note(const LoopClosure& loop);
+  /// Closes the loops that are left open, matches the scans of the log to the map and rebuilds it.
+  void refineResult(Result& result, readings::RawlogSource& source);
 
   Configuration& configuration_;
   Clock::time_point start_;
@@ -72,8 +76,10 @@ class FilterRun {
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;
   enum class Use { skipped, carried, update };
-  std::vector<Use> uses_;  ///< per reading of the log
-  size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
+  std::vector<Use> uses_;            ///< per reading of the log
+  std::vector<double> updateTimes_;  ///< s
+  std::vector<std::string> loopNotes_;
+  size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   double firstSlip_ = 0;  ///< s
 };
 

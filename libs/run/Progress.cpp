@@ -34,6 +34,10 @@ void Progress::update(size_t done, const std::string& note) {
   hasBar_ = true;
 }
 
+void Progress::say(const std::string& line) {
+  std::fprintf(stderr, "%s%s\n", hasBar_ ? "\r\033[K" : "", line.c_str());
+}
+
 void Progress::finish() {
   if (hasBar_) std::fprintf(stderr, "\n");
   hasBar_ = false;

@@ -55,7 +55,10 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   };
   Progress progress(log.scans, isQuiet);
   while (const auto reading = stop ? std::nullopt : nextReading())
-    if (run.process(*reading)) progress.update(run.scans(), spreadNote(run.view().lastStep()));
+    if (run.process(*reading)) {
+      for (const std::string& note : run.takeLoopNotes()) progress.say(note);
+      progress.update(run.scans(), spreadNote(run.view().lastStep()));
+    }
   progress.finish();
 
   ReplayOutcome outcome;
@@ -67,6 +70,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete =
         "log " + log.defect + ": " + log.defectPlace(file) + "; results cover the log up to this point";
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  for (const std::string& note : run.takeLoopNotes()) progress.say(note);
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
   run.profiler().clear(true);  // else MRPT prints it as well
   return outcome;

@@ -6,7 +6,8 @@ namespace hybrid_slam::run {
 
 void writeStepsHeader(std::ostream& out) {
   out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-         "lines_seen,lines_matched,step_ms,matched,slipped\n";
+         "lines_seen,lines_matched,step_ms,matched,slipped,"
+         "loops_closed,loop_shift\n";
 }
 
 void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
@@ -29,7 +30,7 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double 
   else
     out << ',';
   if (s.slipped) out << (*s.slipped ? 1 : 0);
-  out << '\n';
+  out << ',' << (s.loop ? 1 : 0) << ',' << fixedText(s.loop ? s.loop->shift : 0, 6) << '\n';
 }
 
 void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_weight\n"; }

@@ -14,6 +14,7 @@
 #include "slam/lines/LineDatabase.h"
 #include "slam/lines/LineExtractor.h"
 #include "slam/lines/LineWeight.h"
+#include "slam/loops/LoopClosingOptions.h"
 #include "slam/motion/MotionModel.h"
 
 namespace hybrid_slam {
@@ -65,6 +66,7 @@ struct FilterConfiguration {
   LineWeightOptions lineWeight;
   ImprovedProposalOptions improved;
   ScanMatcherOptions matcher;
+  LoopClosingOptions loopClosing;
 
   /// Distance (m) or rotation (rad) between updates.
   double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
@@ -85,7 +87,8 @@ struct FilterConfiguration {
             {"line_database", &database},
             {"line_weight", &lineWeight},
             {"improved_proposal", &improved},
-            {"scan_matcher", &matcher}};
+            {"scan_matcher", &matcher},
+            {"loop_closing", &loopClosing}};
   }
 };
 

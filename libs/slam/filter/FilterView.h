@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "slam/lines/LineDatabase.h"
+#include "slam/loops/LoopClosure.h"
 
 namespace hybrid_slam {
 
@@ -33,6 +34,7 @@ struct FilterStep {
   std::optional<double> matched;    ///< fraction of particles whose scan match was used; improved proposal
   std::optional<bool> slipped;      ///< odometry rejected, motion found by a search; improved proposal
   std::vector<WeightedPose> poses;  ///< the particles, as for the spreads
+  std::optional<LoopClosure> loop;  ///< closed in this update by the pose graph
 
   /// @name Only for our own filter, from its second update on
   /// @{

@@ -10,10 +10,12 @@ using mrpt::math::TPose2D;
 using mrpt::system::CTimeLoggerEntry;
 
 HybridFilter::HybridFilter(const FilterConfiguration& configuration)
-    : updateDistance_(configuration.updateDistance()),
+    : configuration_(configuration),
+      updateDistance_(configuration.updateDistance()),
       updateAngle_(configuration.updateAngle()),
       prepare_(configuration),
-      particles_(configuration, &profiler()) {
+      particles_(configuration, &profiler()),
+      loopCloser_(configuration.loopClosing, configuration.grid) {
   reset();
 }
 
@@ -39,13 +41,33 @@ void HybridFilter::update(const Scans& scans) {
   CTimeLoggerEntry mapping(profiler(), "5 update maps");
   particles_.updateMaps(scan);  // step 4, map estimation: grids and line databases, Sec. III-C, eq. (7)-(8)
   mapping.stop();
+  if (configuration_.loopClosing.enabled) closeLoops(scans, scan);
 
   odometry_ = TPose2D();
   hasMap_ = true;
   ++updates_;
 }
 
+// Not in the paper: corrects path and maps where all particles agree on a map that does not fit itself.
+void HybridFilter::closeLoops(const Scans& scans, const PreparedScan& scan) {
+  const CTimeLoggerEntry closing(profiler(), "6 close loops");
+  updateScans_.push_back(scans);
+  const Particle& best = particles_.best();
+  loopCloser_.add(best.path.lastMotion(), scan.scans, scan.lines,
+                  particles_.lastStep().slipped.value_or(false));
+  if (!loopCloser_.isDue()) return;
+  const auto closure = loopCloser_.close(bestPath(), best.lines->dominatingDirection());
+  if (!closure) return;
+  std::vector<PosedScans> all = known_;
+  for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], closure->path[i], true});
+  const ScanMap map = mapOf(all, configuration_);
+  particles_.continueFrom(*closure, map.grid, map.lines);
+}
+
 void HybridFilter::reset() {
+  loopCloser_ = LoopCloser(configuration_.loopClosing, configuration_.grid);
+  known_.clear();
+  updateScans_.clear();
   odometry_ = TPose2D();
   updates_ = 0;
   hasMap_ = false;
@@ -56,6 +78,7 @@ void HybridFilter::insertAt(const TPose2D& pose, const Scans& scans) {
   particles_.appendPose(pose - particles_.best().path.back());
   particles_.beginStep();
   particles_.updateMaps(prepare_(scans));
+  if (configuration_.loopClosing.enabled) known_.push_back({scans, pose, true});
   hasMap_ = true;
 }
 

@@ -5,6 +5,8 @@
 #include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/ParticleSet.h"
+#include "slam/filter/Refinement.h"
+#include "slam/loops/LoopCloser.h"
 
 namespace hybrid_slam {
 
@@ -35,13 +37,18 @@ class HybridFilter : public Filter {
 
  private:
   void update(const Scans& scans);
+  void closeLoops(const Scans& scans, const PreparedScan& scan);
 
+  FilterConfiguration configuration_;
   double updateDistance_, updateAngle_;  ///< m, rad
   ScanPreparation prepare_;
   ParticleSet particles_;
   mrpt::math::TPose2D odometry_;
   size_t updates_ = 0;
   bool hasMap_ = false;
+  LoopCloser loopCloser_;
+  std::vector<PosedScans> known_;  ///< in the map before the first update
+  std::vector<Scans> updateScans_;
 };
 
 }  // namespace hybrid_slam

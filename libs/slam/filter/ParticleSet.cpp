@@ -235,6 +235,23 @@ void ParticleSet::updateMaps(const PreparedScan& scan) {
     }
 }
 
+void ParticleSet::continueFrom(const LoopClosure& closure, const OccupancyGrid& grid,
+                               const LineDatabase& lines) {
+  Particle corrected = best();
+  const TPose2D start = corrected.path.poses().front();
+  corrected.path = Path();
+  corrected.path.push(start);
+  for (const TPose2D& pose : closure.path) corrected.path.push(pose);
+  corrected.grid = grid;
+  corrected.lines = CowPtr<LineDatabase>(lines);
+  corrected.logWeight = 0;
+  for (auto& particle : m_particles) {
+    *particle.d = corrected;
+    particle.log_w = 0;
+  }
+  step_.loop = closure;
+}
+
 const Particle& ParticleSet::best() const {
   return *std::max_element(m_particles.begin(), m_particles.end(), [](const auto& a, const auto& b) {
             return a.d->logWeight < b.d->logWeight;

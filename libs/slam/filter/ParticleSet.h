@@ -40,6 +40,9 @@ class ParticleSet : public MrptParticles {
   /// Step 4, map estimation: scan into the grids, lines into the databases, at each particle's pose.
   void updateMaps(const PreparedScan& scan);
 
+  /// After a loop is closed: all particles become copies of the best one with this path and map.
+  void continueFrom(const LoopClosure& closure, const OccupancyGrid& grid, const LineDatabase& lines);
+
   const Particle& best() const;  ///< argmax of the weight before resampling
   const FilterStep& lastStep() const { return step_; }
   std::vector<WeightedPose> poses() const;

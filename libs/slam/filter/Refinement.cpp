@@ -7,6 +7,7 @@
 #include "slam/filter/Threads.h"
 #include "slam/grid/BeamSelection.h"
 #include "slam/grid/ScanMatcher.h"
+#include "slam/loops/LoopCloser.h"
 
 namespace hybrid_slam {
 
@@ -34,6 +35,24 @@ ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& c
     map.lines.update(lines, configuration.database, configuration.association);
   }
   return map;
+}
+
+std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vector<Scans>& scans,
+                                    const std::optional<double>& direction,
+                                    const FilterConfiguration& configuration) {
+  const ScanPreparation prepare(configuration);
+  LoopCloser closer(configuration.loopClosing, configuration.grid);
+  std::vector<LoopClosure> closures;
+  for (size_t i = 0; i < scans.size(); ++i) {
+    const PreparedScan scan = prepare(scans[i]);
+    closer.add(i > 0 ? path[i] - path[i - 1] : TPose2D(), scan.scans, scan.lines, false);
+    if (!closer.isDue()) continue;
+    auto closure = closer.close(path, direction);
+    if (!closure) continue;
+    path = closure->path;
+    closures.push_back(std::move(*closure));
+  }
+  return closures;
 }
 
 void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes) {

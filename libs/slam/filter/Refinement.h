@@ -2,12 +2,14 @@
 /// @brief Refinement after the run: matches the best trajectory to the final map and rebuilds the map.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/LaserScan.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/LineDatabase.h"
+#include "slam/loops/LoopClosure.h"
 
 namespace hybrid_slam {
 
@@ -24,6 +26,14 @@ struct ScanMap {
   LineDatabase lines;
 };
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration);
+
+/// Closes the loops that a finished path leaves open, from its first update to its last.
+/// @param path       a pose for each update (map frame); corrected
+/// @param scans      of each update; those of the last ones may be missing
+/// @param direction  of the walls, modulo 90 deg, rad; empty: unknown
+std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans,
+                                    const std::optional<double>& direction,
+                                    const FilterConfiguration& configuration);
 
 /// Matches every scan, also those between two updates, against the map that all of them make, `passes` times.
 /// A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that fits less than
