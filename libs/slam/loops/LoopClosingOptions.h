@@ -11,7 +11,7 @@ struct LoopClosingOptions : Options {
   bool enabled = true;
   double minDistance = 20;  ///< m
   double stretch = 8;       ///< m
-  double maxOffset = 10;    ///< m
+  double maxOffset = 16;    ///< m
   double minFit = 0.8;
   double maxSecond = 0.8;
   int agreeing = 3;
