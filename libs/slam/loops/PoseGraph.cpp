@@ -3,6 +3,7 @@
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/graphslam/levmarq.h>
 #include <mrpt/math/wrap2pi.h>
+#include <mrpt/poses/CPose2D.h>
 
 #include <cmath>
 #include <set>
