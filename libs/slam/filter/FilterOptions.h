@@ -48,7 +48,7 @@ struct ImprovedProposalOptions : Options {
   double lineSigma = mrpt::DEG2RAD(0.1);
   double lineSigmaRho = 0.05;
   double slipDistance = 0.5;
-  double slipAngle = M_PI;
+  double slipAngle = mrpt::DEG2RAD(30.0);
   double slipProbability = 0.001;
   void describe(OptionTable& table) override;
 };

@@ -5,6 +5,7 @@
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/Particle.h"
 #include "slam/filter/PreparedScan.h"
+#include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/ScanMatcher.h"
 
 namespace hybrid_slam {
@@ -17,9 +18,10 @@ struct StepMotion {
 };
 
 /// Once per step, the scan is matched to the best particle's map from the odometry; the result starts the
-/// other particles' matches. If it fits much worse than earlier scans, a window of all headings is searched,
-/// and if the scan contradicts the map there as well, the whole map: the robot was carried. With lines, only
-/// the four headings that align the scan's walls with the map's.
+/// other particles' matches. If it fits much worse than earlier scans, a window around it is searched. If the
+/// scan contradicts the map at the best pose there, the window is searched at all headings, and then the
+/// whole map: the robot was carried. With lines, only at the four headings that align the scan's walls with
+/// the map's.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
@@ -37,8 +39,9 @@ class SlipRecovery {
     double logPosterior;
     bool hasSlipped;
   };
-  std::vector<Hypothesis> searchWindow(const Particle& best, const MotionDistribution& expected,
-                                       const Hypothesis& usual, const PreparedScan& scan) const;
+  std::vector<Hypothesis> searchWindow(const SearchWindow& window, const Particle& best,
+                                       const MotionDistribution& expected, const Hypothesis& usual,
+                                       const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
   double logWeight(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
 

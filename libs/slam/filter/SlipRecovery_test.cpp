@@ -138,7 +138,7 @@ TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
       motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c.motion, c.improved);
   EXPECT_EQ(slipped.mean, kStart + TPose2D(0.5, 0, 0));
   EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
-  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(M_PI, 2), 1e-6);
+  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * test::kDegree, 2), 1e-6);
 }
 
 }  // namespace
