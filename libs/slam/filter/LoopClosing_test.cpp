@@ -26,6 +26,7 @@ Scans observed(const LaserScan& seen) {
 FilterConfiguration trustingConfiguration() {
   FilterConfiguration c;
   c.useLines = false;
+  c.filter.proposal = ParticleFilterOptions::Proposal::standard;
   c.filter.particles = 4;
   c.filter.updateDistance = 0.2, c.filter.updateAngle = 10 * kDegree;
   for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn})
