@@ -83,8 +83,7 @@ TEST_F(Claim, LinesBeatNoLinesOnKillianCourt) {
   const auto relations = evaluation::loadRelations(log + ".relations");
   const files::Trajectory odometry = files::loadOdometry(log + ".odom.gz");
   const auto errorOf = [&](const std::string& options, int seed) {
-    return evaluation::evaluateRelations(run("paper.ini", rawlog, options, seed), relations, &odometry,
-                                         0.006)
+    return evaluation::evaluateRelations(run("paper.ini", rawlog, options, seed), relations, &odometry, 0.006)
         .translation.mean;
   };
   std::vector<double> lines, noLines;

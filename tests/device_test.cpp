@@ -199,8 +199,8 @@ TEST_F(DeviceTest, TheRecordingOfBothDevicesReplaysToTheSameMap) {
   test::PioneerStandIn pioneer(robot, 100);
   const files::TemporaryFolder folder;
   const std::string ini =
-      folder.write("run.ini", "[particle_filter]\nparticles = 10\nproposal = standard\n" + lmsSection(lms.port()) +
-                                  pioneerSection(pioneer.port()));
+      folder.write("run.ini", "[particle_filter]\nparticles = 10\nproposal = standard\n" +
+                                  lmsSection(lms.port()) + pioneerSection(pioneer.port()));
   live::LiveOptions options;
   options.maxWaiting = 1000;
   run::Configuration configuration(ini, {"run.output=" + folder.path("live")});

@@ -34,7 +34,7 @@ TEST_F(HybridSlam, WrongIni) {
   };
   expectError(replayWith("[particle_filter]\nparticels = 3\n"), "the nearest known key is `particles`");
   expectError(replayWith("[particle_filter]\nparticles = many\n"), "expected a whole number");
-  expectError(replayWith("[particle_filter]\nparticles = 0\n"), "1..100000");
+  expectError(replayWith("[particle_filter]\nparticles = -1\n"), "0..100000");
   expectError(replayWith("[particle_filter]\nparticles 3\n"), "wrong line");
   expectError(replayWith("[something]\nx = 3\n"), "missing section");
   expectError(replayWith("[particle_filters]\nx = 3\n[grid]\n"), "[particle_filter]");

@@ -55,9 +55,10 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   std::vector<std::string> keys;
   for (const auto& [key, value] : metrics.items()) keys.push_back(key);
-  EXPECT_THAT(keys, UnorderedElementsAre("method", "particles", "seed", "threads", "scans", "updates",
-                                         "duration_s", "wall_s", "cpu_s", "realtime_factor", "peak_rss_mb",
-                                         "resamplings", "slips", "lines", "distance_m", "versions"));
+  EXPECT_THAT(keys, UnorderedElementsAre("method", "particles", "particles_min", "particles_max", "seed",
+                                         "threads", "scans", "updates", "duration_s", "wall_s", "cpu_s",
+                                         "realtime_factor", "peak_rss_mb", "resamplings", "slips",
+                                         "loops_closed", "lines", "distance_m", "versions"));
   EXPECT_EQ(metrics["method"], "hybrid");
   EXPECT_EQ(metrics["particles"], 5);
   EXPECT_EQ(metrics["seed"], 7);
@@ -77,7 +78,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   EXPECT_EQ(steps.size(), metrics["updates"].get<size_t>() + 1);
   size_t resamplings = 0;
   for (size_t i = 1; i < steps.size(); ++i) {
-    ASSERT_EQ(steps[i].size(), 16u) << i;
+    ASSERT_EQ(steps[i].size(), 18u) << i;
     EXPECT_EQ(steps[i][1], "5");
     resamplings += steps[i][3] == "1" ? 1 : 0;
   }
@@ -223,8 +224,8 @@ TEST_F(HybridSlam, WrongCommandLine) {
   expectError(replay(log, "--particels 3"), "--particels");
   expectError(replay(log, "one more"), "one");
   expectError(replay(log, "-n"), "--particles");
-  expectError(replay(log, "-n 0"),
-              "wrong value `0`: command line, section [particle_filter], key `particles`");
+  expectError(replay(log, "-n -1"),
+              "wrong value `-1`: command line, section [particle_filter], key `particles`");
   expectError(replay(log, "-n abc"), "abc");
   expectError(replay(log, "-n 1.5"), "1.5");
   expectError(replay(log, "-n 99999999999"), "99999999999");

@@ -89,9 +89,9 @@ class LivePrograms : public testing::Test {
   }
 
   files::TemporaryFolder folder;
-  std::string ini = folder.write(
-      "live.ini",
-      "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\nresolution = 0.1\n[live]\n");
+  std::string ini = folder.write("live.ini",
+                                 "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = "
+                                 "0.2\n[grid]\nresolution = 0.1\n[live]\n");
   std::string output = folder.path("out"), port;
 };
 

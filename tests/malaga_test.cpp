@@ -69,7 +69,8 @@ TEST_F(Malaga, EndsAtTheRecordedPose) {
 /// A filter without further updates follows the odometry, which the figures above would detect.
 TEST_F(Malaga, OdometryAloneEndsElsewhere) {
   const auto end =
-      run("-p standard --set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360").back();
+      run("-p standard --set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360")
+          .back();
   EXPECT_GT(std::hypot(end.pose.x - 4.15, end.pose.y + 18.49), 5);
 }
 

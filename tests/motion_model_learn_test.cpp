@@ -241,11 +241,11 @@ TEST_F(MotionModelLearn, WrongInput) {
 
 TEST_F(MotionModelLearn, WrongCommandLine) {
   const std::string log = logOf(10);
-  expectError(run(""), "config is required");
-  expectError(run("'" + ini + "'"), "dataset is required");
+  expectError(run("-o x.ini"), "no log");
+  expectError(run("'" + ini + "' -o x.ini"), "no log");
   expectError(run("'" + ini + "' '" + log + "'"), "--output is required");
   expectError(learn(log, "--iterations 0"), "--iterations");
-  expectError(learn(log, "-n 0"), "key `particles`");
+  expectError(learn(log, "-n -1"), "key `particles`");
   expectError(learn(log, "-s -1"), "key `seed`");
   expectError(learn(log, "--learn"), "--learn");
 }

@@ -157,7 +157,7 @@ Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed)
   // MRPT's filter reads its own section, if there is one, with its own key for the number of particles.
   if (group.method == "stock" &&
       run::Configuration(setup.config, settings).source.sectionExists(run::kStockSection))
-    set(settings, std::string(run::kStockSection) + ".sampleSize", particles);
+    if (group.particles > 0) set(settings, std::string(run::kStockSection) + ".sampleSize", particles);
   return setup;
 }
 

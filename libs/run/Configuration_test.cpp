@@ -86,8 +86,8 @@ TEST_F(ConfigurationTest, UnknownKey) {
 
 TEST_F(ConfigurationTest, WrongTypeAndRange) {
   const std::string where =
-      ": " + ini + ", section [particle_filter], key `particles`; expected a whole number in 1..100000";
-  for (const char* value : {"many", "", "3.5", "0", "-1", "1e9", "nan", "inf", "3 4"})
+      ": " + ini + ", section [particle_filter], key `particles`; expected a whole number in 0..100000";
+  for (const char* value : {"many", "", "3.5", "-1", "1e9", "nan", "inf", "3 4"})
     EXPECT_EQ(errorOf(std::string("[particle_filter]\nparticles = ") + value + "\n"),
               "wrong value `" + std::string(value) + "`" + where);
   EXPECT_THAT(errorOf("[run]\nmethod = best\n"), HasSubstr("expected one of hybrid | general | stock"));
@@ -130,7 +130,7 @@ TEST_F(ConfigurationTest, WrongSettingsNameTheCommandLine) {
   EXPECT_EQ(
       errorOf("[run]\n", {"particle_filter.particles=x"}),
       "wrong value `x`: command line, section [particle_filter], key `particles`; expected a whole number in "
-      "1..100000");
+      "0..100000");
   EXPECT_THAT(errorOf("[run]\n", {"run.outptu=x"}), AllOf(HasSubstr("command line"), HasSubstr("`output`")));
   EXPECT_EQ(
       errorOf("[run]\n", {"particles.number=3"}),

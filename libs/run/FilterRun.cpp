@@ -95,6 +95,8 @@ bool FilterRun::process(const readings::Reading& reading) {
   if (uses_.back() != Use::update) return false;
   updateTimes_.push_back(reading.timestamp);
   const FilterStep& step = filter_->lastStep();
+  particlesMin_ = particlesMin_ == 0 ? step.particles : std::min(particlesMin_, step.particles);
+  particlesMax_ = std::max(particlesMax_, step.particles);
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
   if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
   if (step.loop) note(*step.loop);
@@ -172,6 +174,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   nlohmann::ordered_json metrics{
       {"method", names[static_cast<int>(configuration_.run.method)]},
       {"particles", filter_->particlePoses().size()},
+      {"particles_min", particlesMin_},
+      {"particles_max", particlesMax_},
       {"seed", configuration_.filter.filter.seed},
       {"threads", configuration_.filter.filter.threads},
       {"scans", scans_},

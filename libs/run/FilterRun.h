@@ -80,6 +80,7 @@ class FilterRun {
   std::vector<double> updateTimes_;  ///< s
   std::vector<std::string> loopNotes_;
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
+  size_t particlesMin_ = 0, particlesMax_ = 0;
   double firstSlip_ = 0;  ///< s
 };
 

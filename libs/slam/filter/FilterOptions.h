@@ -23,8 +23,8 @@ namespace hybrid_slam {
 struct ParticleFilterOptions : Options {
   enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
 
-  int particles = 15;  ///< 0: adaptive
-  int minParticles = 8, maxParticles = 60;
+  int particles = 0;  ///< 0: adaptive
+  int minParticles = 10, maxParticles = 50;
   Proposal proposal = Proposal::improved;
   mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
       mrpt::bayes::CParticleFilter::prSystematic;
@@ -35,6 +35,11 @@ struct ParticleFilterOptions : Options {
   int threads = 1;
 
   bool isAdaptive() const { return particles == 0; }
+  bool isAuxiliary() const {
+    return proposal == Proposal::auxiliaryStandard || proposal == Proposal::auxiliaryOptimal;
+  }
+  /// For filters whose number of particles is fixed.
+  int fixedParticles() const { return isAdaptive() ? maxParticles : particles; }
   void describe(OptionTable& table) override;
 };
 

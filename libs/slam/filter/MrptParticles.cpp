@@ -39,9 +39,11 @@ using Proposal = ParticleFilterOptions::Proposal;
 namespace {
 
 CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions& options) {
-  const bool isAuxiliary =
-      options.proposal == Proposal::auxiliaryStandard || options.proposal == Proposal::auxiliaryOptimal;
-  if (isAuxiliary && options.resampling == CParticleFilter::prResidual)
+  if (options.isAdaptive() && options.minParticles > options.maxParticles)
+    throw InputError("min_particles is larger than max_particles",
+                     "section [particle_filter], keys `min_particles`, `max_particles`",
+                     "expected at most " + std::to_string(options.maxParticles));
+  if (options.isAuxiliary() && options.resampling == CParticleFilter::prResidual)
     throw InputError("residual resampling is biased in MRPT's auxiliary filters",
                      "section [particle_filter], keys `proposal`, `resampling`",
                      "expected another scheme or the standard proposal");
@@ -49,7 +51,7 @@ CParticleFilter::TParticleFilterOptions mrptOptions(const ParticleFilterOptions&
   out.PF_algorithm = options.proposal == Proposal::auxiliaryOptimal ? CParticleFilter::pfAuxiliaryPFOptimal
                                                                     : CParticleFilter::pfAuxiliaryPFStandard;
   out.resamplingMethod = options.resampling;
-  out.sampleSize = static_cast<unsigned int>(options.particles);
+  out.sampleSize = static_cast<unsigned int>(options.fixedParticles());
   out.BETA = options.essThreshold;
   out.adaptiveSampleSize = false;
   // Below this likelihood, MRPT would give a particle the pose of another one, but not its map.

@@ -15,7 +15,7 @@ namespace hybrid_slam {
 struct ParticleNumberOptions {
   double binSize = 0.2;              ///< m
   double binAngle = 3 * M_PI / 180;  ///< rad
-  double error = 0.2;                ///< largest Kullback-Leibler divergence from the true posterior ...
+  double error = 0.25;               ///< largest Kullback-Leibler divergence from the true posterior ...
   double quantile = 1.64;            ///< ... with the probability of this quantile of the normal distribution
 };
 

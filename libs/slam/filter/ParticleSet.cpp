@@ -56,7 +56,9 @@ void ParticleSet::reset(const TPose2D& start) {
   Particle particle;
   particle.grid = OccupancyGrid(grid_.resolution);
   particle.path.push(start);
-  for (int i = 0; i < (filter_.isAdaptive() ? filter_.minParticles : filter_.particles); ++i) {
+  const int number =
+      filter_.isAdaptive() && !filter_.isAuxiliary() ? filter_.minParticles : filter_.fixedParticles();
+  for (int i = 0; i < number; ++i) {
     m_particles.emplace_back();
     m_particles.back().d.reset(new Particle(particle));
     m_particles.back().log_w = 0;
@@ -204,9 +206,9 @@ size_t ParticleSet::particlesNeeded() const {
 
 // Sec. III-A, step 3; by ESS, where the paper resamples at every step.
 void ParticleSet::resampleIfDue() {
-  const bool isAuxiliary = filter_.proposal != Proposal::standard && filter_.proposal != Proposal::improved;
-  if (isAuxiliary) return;
+  if (filter_.isAuxiliary()) return;
   const size_t needed = particlesNeeded(), present = m_particles.size();
+  // Without hysteresis, the number would change at every step.
   if (!isResamplingDue() && 4 * needed < 5 * present && 3 * needed > 2 * present) return;
   const StageTimer timer(profiler_, "4 resample");
   resample(needed);

@@ -1,5 +1,7 @@
 #include "slam/filter/SlipRecovery.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,7 @@ constexpr double kForgetting = 0.1;      // weight of the newest scan in the usu
 constexpr size_t kPlaces = 8;            // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.1;  // share of the beams: it may be
+constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
@@ -71,9 +74,14 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
     if (isContradicted())
       hypotheses = searchWindow({options_.slipDistance, M_PI}, best, expected, usual, scan);
     if (isContradicted()) {
+      contradicting_.push_back({odometry, scan.matchedBeams});
       const auto elsewhere = searchMap(best, scan);
       if (!elsewhere.empty()) hypotheses = elsewhere;
+    } else {
+      contradicting_.clear();
     }
+  } else {
+    contradicting_.clear();
   }
   std::vector<StepMotion> motions;
   for (const Hypothesis& hypothesis : hypotheses) {
@@ -82,8 +90,10 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
       motion.start = hypothesis.match.pose - before;
     motions.push_back(motion);
   }
+  if (hypotheses[0].isElsewhere) contradicting_.clear();
   const double fit = hypotheses[0].match.fit;
-  usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
+  if (contradicting_.empty())
+    usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
   return motions;
 }
 
@@ -128,15 +138,26 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const SearchWin
 std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& best,
                                                               const PreparedScan& scan) const {
   std::vector<Hypothesis> all;
+  if (contradicting_.size() < kCarriedScans) return all;
   for (const TPose2D& place :
        globalSearch(scan.matchedBeams, best.grid, alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
     const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
-    if (match.fit < kPoorFit * usualFit_ ||
-        contradictedShare(scan.matchedBeams, match.pose, best.grid) > kUncontradicted)
-      continue;
-    all.push_back({match, logWeight(match.pose, best, scan), true});
+    if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
   }
   return rivals(std::move(all));
+}
+
+bool SlipRecovery::fitsAll(TPose2D pose, const Particle& best) const {
+  for (auto scan = contradicting_.rbegin(); scan != contradicting_.rend(); ++scan) {
+    const ScanMatch match = matcher_.match(scan->beams, pose, best.grid, kAnywhere);
+    const TPose2D offset = match.pose - pose;
+    if (match.fit < kPoorFit * usualFit_ || offset.norm() > 0.3 ||
+        std::abs(offset.phi) > mrpt::DEG2RAD(10.0) ||
+        contradictedShare(scan->beams, match.pose, best.grid) > kUncontradicted)
+      return false;
+    pose = match.pose + (TPose2D() - scan->odometry);
+  }
+  return true;
 }
 
 MotionDistribution motionAfter(const Particle& before, const StepMotion& motion,

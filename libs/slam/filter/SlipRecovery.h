@@ -18,10 +18,10 @@ struct StepMotion {
 };
 
 /// Once per step, the scan is matched to the best particle's map from the odometry; the result starts the
-/// other particles' matches. If it fits much worse than earlier scans, a window around it is searched. If the
-/// scan contradicts the map at the best pose there, the window is searched at all headings, and then the
-/// whole map: the robot was carried. With lines, only at the four headings that align the scan's walls with
-/// the map's.
+/// other particles' matches. If it fits much worse than earlier scans, a window around it is searched, and if
+/// the scan contradicts the map at the best pose there, the window at all headings. After several such scans
+/// in succession, the robot was carried: the whole map is searched for a place that all of them fit, with
+/// lines at the four headings that align their walls with the map's.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
@@ -38,11 +38,14 @@ class SlipRecovery {
     ScanMatch match;
     double logPosterior;
     bool hasSlipped;
+    bool isElsewhere = false;  ///< found in the whole map
   };
   std::vector<Hypothesis> searchWindow(const SearchWindow& window, const Particle& best,
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
+  /// Whether all contradicting scans fit the map if the newest was taken at `pose`.
+  bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;
   double logWeight(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
 
   ImprovedProposalOptions options_;
@@ -50,7 +53,12 @@ class SlipRecovery {
   double exponent_;  ///< of w_grid
   ScanMatcher matcher_;
   GridWeight gridWeight_;
-  double usualFit_ = 0;  ///< running mean of the fit, recent scans weighted most
+  struct TakenScan {
+    mrpt::math::TPose2D odometry;  ///< since the one before
+    ScanBeams beams;
+  };
+  std::vector<TakenScan> contradicting_;  ///< successive scans that contradict the map
+  double usualFit_ = 0;                   ///< running mean of the fit, recent scans weighted most
 };
 
 /// The motion model's distribution of the pose after a step; after a slip, as wide as the search window

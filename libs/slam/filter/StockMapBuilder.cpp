@@ -88,7 +88,7 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const Filte
   ini.write(s, "PF_algorithm", 0);
   ini.write(s, "resamplingMethod", static_cast<int>(ours.filter.resampling));
   ini.write(s, "adaptiveSampleSize", false);
-  ini.write(s, "sampleSize", ours.filter.particles);
+  ini.write(s, "sampleSize", ours.filter.fixedParticles());
   ini.write(s, "pfOptimalProposal_mapSelection", 0);  // unused by the standard proposal, but required
   ini.write(s, "BETA", ours.filter.essThreshold);
   ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
