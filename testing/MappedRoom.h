@@ -18,8 +18,7 @@ inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStr
   const FilterConfiguration c;
   const BeamSelection selection(scan);
   return {scan, ScanBeams(scan), ScanBeams(scan, selection.take(c.gridWeight.beams)),
-          ScanBeams(scan, selection.take(c.matcher.beams)),
-          extractLines(scan[0], c.lineExtraction)};
+          ScanBeams(scan, selection.take(c.matcher.beams)), extractLines(scan[0], c.lineExtraction)};
 }
 
 /// A particle at `start` that has mapped the surrounding walls.

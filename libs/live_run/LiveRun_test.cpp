@@ -29,10 +29,11 @@ using testing::HasSubstr;
 class LiveRunTest : public testing::Test {
  protected:
   run::Configuration configuration(const std::string& output, const std::string& more = "") {
-    const std::string ini = folder.write("run.ini",
-                                         "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
-                                         "resolution = 0.1\n" +
-                                             more);
+    const std::string ini =
+        folder.write("run.ini",
+                     "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
+                     "resolution = 0.1\n" +
+                         more);
     run::Configuration c(ini, {"run.output=" + folder.path(output)});
     return c;
   }

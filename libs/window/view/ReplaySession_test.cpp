@@ -21,9 +21,10 @@ class ReplaySessionTest : public testing::Test {
  protected:
   static constexpr size_t kScans = 60;
   run::Configuration configuration(const std::string& log) {
-    const std::string ini = folder.write("run.ini",
-                                         "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
-                                         "resolution = 0.1\n");
+    const std::string ini =
+        folder.write("run.ini",
+                     "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
+                     "resolution = 0.1\n");
     return run::Configuration(ini, {"run.rawlog=" + log});
   }
   run::Configuration laps() {
