@@ -13,7 +13,9 @@ void RunOptions::describe(OptionTable& t) {
   t.add("particles_every", particlesEvery, 0, 1000000,
         "updates between snapshots of all particles in particles.csv; 0: no particles.csv");
   t.add("refine", refine, 0, 100,
-        "number of refinements after the run; each matches every scan to the final map and rebuilds the map");
+        "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
+        "not "
+        "for stock");
 }
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings,

@@ -21,7 +21,7 @@ struct RunOptions : Options {
   std::string rawlog;
   std::string output = "out";
   int particlesEvery = 0;
-  int refine = 0;
+  int refine = 1;
   void describe(OptionTable& table) override;
 };
 

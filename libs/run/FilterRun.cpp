@@ -69,9 +69,6 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       folder_(configuration.run.output),
       steps_(folder_.path("steps.csv")) {
   if (configuration.run.method == Method::stock) {
-    if (configuration.run.refine > 0)
-      throw InputError("MRPT's filter cannot be refined", "section [run], keys `method`, `refine`",
-                       "expected hybrid or general, or refine = 0");
     filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
                                                 static_cast<uint32_t>(configuration.filter.filter.seed));
   } else {
@@ -151,7 +148,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines()};
   result.trajectory = recorder_.trajectory(result.path);
-  if (configuration_.run.refine > 0) {
+  if (configuration_.run.refine > 0 && configuration_.run.method != Method::stock) {
     readings::RawlogSource scans(file, configuration_.input, log);
     refineResult(result, scans);
   }
