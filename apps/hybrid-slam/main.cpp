@@ -21,7 +21,7 @@ struct CommandLine {
   FilterArguments filter;
   std::vector<std::string> settings;
   int refine = 0;
-  bool isQuiet = false, wantsProfile = false, wantsManual = false;
+  bool isQuiet = false, isStrict = false, wantsProfile = false, wantsManual = false;
 };
 
 void describe(CLI::App& app, CommandLine& line) {
@@ -34,6 +34,7 @@ void describe(CLI::App& app, CommandLine& line) {
                  "after the run, match every scan to the final map and rebuild the map, N times")
       ->type_name("N");
   addSettings(app, line.settings);
+  app.add_flag("--strict", line.isStrict, "exit 1 if the verdict on the map is `lost`");
   app.add_flag("-q,--quiet", line.isQuiet, "no progress, no summary");
   app.add_flag("--profile", line.wantsProfile, "print time and call count of each stage");
   app.add_flag("--help-config", line.wantsManual, "print every section and key of the INI file");
@@ -43,7 +44,8 @@ void describe(CLI::App& app, CommandLine& line) {
       "them.\n"
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
       "steps.csv, metrics.json, config.ini (doc/results.md). Ctrl-C ends the run and writes the results.\n"
-      "Exit: 0 done, 1 the run failed or covers only part of the log, 2 wrong command line or input.");
+      "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost, 2 wrong command "
+      "line or input.");
 }
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {
@@ -68,9 +70,11 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   const auto outcome = run::replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
   for (const std::string& warning : outcome.warnings)
     std::cerr << "hybrid-slam: warning: " << warning << "\n";
-  if (!line.isQuiet) std::cout << outcome.summary << "\n";
+  if (!line.isQuiet) std::cout << outcome.summary << "\n" << outcome.verdict.line() << "\n";
   std::cout << outcome.profile;
-  return outcome.incomplete.empty() ? 0 : fail(1, outcome.incomplete);
+  if (!outcome.incomplete.empty()) return fail(1, outcome.incomplete);
+  const bool isLost = outcome.verdict.level == run::Verdict::Level::lost;
+  return line.isStrict && isLost ? fail(1, outcome.verdict.line()) : 0;
 }
 
 }  // namespace

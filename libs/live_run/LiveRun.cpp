@@ -127,7 +127,8 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
                                      {{"median", quantile(latencies_, 0.5)},
                                       {"p99", quantile(latencies_, 0.99)},
                                       {"max", quantile(latencies_, 1)}}}};
-  return run_.finish(recording_.path(), recorded, version, more) + ", " + recording_.path();
+  return run_.finish(recording_.path(), recorded, version, more) + ", " + recording_.path() + "\n" +
+         run_.verdict().line();
 }
 
 }  // namespace hybrid_slam::live

@@ -47,7 +47,7 @@ class LiveRun {
 
   /// Filters the waiting readings, then writes all results.
   /// @param lost  number of lost cycles, for metrics.json
-  /// @return a one-line summary
+  /// @return the summary and the verdict, a line each
   /// @throws std::runtime_error if there was no scan, or with the filter's failure; the recording is kept
   std::string finish(const std::string& version, size_t lost);
 

@@ -61,6 +61,17 @@ std::string describe(const LoopClosure& loop, const std::vector<double>& times) 
          " % of their walls fit, other places score " + fixedText(100 * loop.second, 0) + " % of theirs";
 }
 
+nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std::vector<double>& times) {
+  auto all = nlohmann::ordered_json::array();
+  const auto rounded = [](double metres) { return std::round(100 * metres) / 100; };
+  for (const DoubtfulPlace& place : places)
+    all.push_back({{"x", rounded(place.at.x)},
+                   {"y", rounded(place.at.y)},
+                   {"timestamp", times.at(place.update)},
+                   {"length_m", rounded(place.length)}});
+  return all;
+}
+
 }  // namespace
 
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
@@ -154,13 +165,19 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   }
   const auto& [trajectory, path, grid, lines] = result;
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
-  savePicture(folder_, grid, trajectory, lines);
   saveRosMap(folder_, grid);
   saveGridMap(folder_, grid);
   std::vector<bool> isUpdate;
   for (const Use use : uses_) isUpdate.push_back(use == Use::update);
   readings::RawlogSource again(file, configuration_.input, log);
-  saveSimpleMap(folder_, again, isUpdate, path);
+  VerdictCheck check;
+  saveSimpleMap(folder_, again, isUpdate, path,
+                [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+  Evidence evidence = check.evidence();
+  evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
+  evidence.slips = slips_;
+  verdict_ = verdictOf(evidence);
+  savePicture(folder_, grid, trajectory, lines, verdict_.places);
   saveLines(folder_, lines);
   steps_.finish();
   if (particles_) particles_->finish();
@@ -185,6 +202,9 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       {"resamplings", resamplings_},
       {"slips", slips_},
       {"loops_closed", loops_},
+      {"verdict", verdict_.name()},
+      {"reasons", verdict_.reasons},
+      {"doubtful_places", json(verdict_.places, updateTimes_)},
       {"lines", lines.size()},
       {"distance_m", recorder_.distance()},
       {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};

@@ -14,6 +14,7 @@
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
 #include "run/TrajectoryRecorder.h"
+#include "run/Verdict.h"
 #include "slam/filter/Filter.h"
 
 namespace hybrid_slam::run {
@@ -47,15 +48,17 @@ class FilterRun {
   const files::OutputFolder& folder() const { return folder_; }
 
   /// Writes the results.
-  /// @param file     the processed log, read again for map.simplemap.gz and the refinement
+  /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
-  ///                 map.simplemap.gz and the refinement end there
+  ///                 these end there
   /// @param version  of the program
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor
   /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log, const std::string& version,
                      const nlohmann::ordered_json& more);
+  /// Of the finished run.
+  const Verdict& verdict() const { return verdict_; }
 
  private:
   struct Result {
@@ -82,6 +85,7 @@ class FilterRun {
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
   double firstSlip_ = 0;  ///< s
+  Verdict verdict_;
 };
 
 }  // namespace hybrid_slam::run

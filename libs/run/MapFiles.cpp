@@ -40,7 +40,8 @@ Window knownWindow(const COccupancyGridMap2D& grid) {
 }  // namespace
 
 void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& grid,
-                 const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines) {
+                 const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines,
+                 const std::vector<DoubtfulPlace>& doubtful) {
   const Window window = knownWindow(grid);
   // Small maps are enlarged, so that path and lines do not hide the walls.
   const int scale = std::clamp(1600 / std::max(window.width(), window.height()), 1, 4);
@@ -74,6 +75,11 @@ void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& g
     image.line(column(robot.x), row(robot.y),
                column(robot.x) + static_cast<int>(std::lround(radius * std::cos(robot.phi))),
                row(robot.y) - static_cast<int>(std::lround(radius * std::sin(robot.phi))), lightBlue, 2);
+  }
+  for (const DoubtfulPlace& place : doubtful) {
+    const double metres = 1 + place.length / 2;
+    const int radius = static_cast<int>(std::lround(std::min(metres, 5.0) / grid.getResolution() * scale));
+    image.drawCircle(column(place.at.x), row(place.at.y), radius, TColor(255, 140, 0), 3);
   }
   // Encoded in memory: libpng would print a full disk to standard error itself.
   std::vector<unsigned char> png;

@@ -9,13 +9,16 @@
 
 #include "files/OutputFolder.h"
 #include "files/Trajectory.h"
+#include "run/Verdict.h"
 #include "slam/lines/LineDatabase.h"
 
 namespace hybrid_slam::run {
 
-/// `map.png`: the grid, the path (red), the lines (green) and the robot at the end (light blue).
+/// `map.png`: the grid, the path (red), the lines (green), the robot at the end (light blue) and
+/// circles around doubtful places (orange).
 void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
-                 const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines);
+                 const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines,
+                 const std::vector<DoubtfulPlace>& doubtful = {});
 
 /// `map.pgm` and `map.yaml` for ROS's map_server: 0 occupied, 254 free, 205 unknown.
 void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);

@@ -70,6 +70,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete =
         "log " + log.defect + ": " + log.defectPlace(file) + "; results cover the log up to this point";
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  outcome.verdict = run.verdict();
   for (const std::string& note : run.takeLoopNotes()) progress.say(note);
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
   run.profiler().clear(true);  // else MRPT prints it as well

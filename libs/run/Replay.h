@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "run/Configuration.h"
+#include "run/Verdict.h"
 
 namespace hybrid_slam::run {
 
@@ -15,6 +16,7 @@ struct ReplayOutcome {
   std::vector<std::string> warnings;  ///< one line each: skipped or anomalous entries
   std::string incomplete;  ///< why the results cover only the first part of the log; empty if complete
   std::string summary;     ///< one line: scans, updates, time, real-time factor
+  Verdict verdict;         ///< whether the map can be trusted
   std::string profile;     ///< table of stage times; empty unless requested
 };
 

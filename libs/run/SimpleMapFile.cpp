@@ -17,8 +17,8 @@ namespace {
 class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
  public:
   StreamedSimpleMap(readings::RawlogSource& source, const std::vector<bool>& isUpdate,
-                    const std::vector<mrpt::math::TPose2D>& path)
-      : source_(&source), isUpdate_(&isUpdate), path_(&path) {}
+                    const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit)
+      : source_(&source), isUpdate_(&isUpdate), path_(&path), visit_(&visit) {}
 
   /// The scans and their poses alone. MRPT 2.5.8 reads this version and no later one, 2.14.7 both.
   uint8_t serializeGetVersion() const override { return 1; }
@@ -30,7 +30,9 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
       if (!isUpdate || !reading) continue;
       mrpt::obs::CSensoryFrame frame;
       for (const auto& scan : reading->scans) frame.insert(scan);
-      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D((*path_)[written++])};
+      const mrpt::math::TPose2D& robot = (*path_)[written++];
+      (*visit_)(robot, reading->scans);
+      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D(robot)};
       out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
     }
   }
@@ -39,14 +41,16 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
   readings::RawlogSource* source_;
   const std::vector<bool>* isUpdate_;
   const std::vector<mrpt::math::TPose2D>* path_;
+  const UpdateVisitor* visit_;
 };
 
 }  // namespace
 
 void saveSimpleMap(const files::OutputFolder& folder, readings::RawlogSource& source,
-                   const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path) {
+                   const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path,
+                   const UpdateVisitor& visit) {
   files::RawlogWriter file(folder.path("map.simplemap.gz"));
-  file.write(StreamedSimpleMap(source, isUpdate, path));
+  file.write(StreamedSimpleMap(source, isUpdate, path, visit));
   file.finish();
 }
 

@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,17 @@
 
 namespace hybrid_slam::run {
 
+/// Called with the pose (map frame) and the scans of each update.
+using UpdateVisitor = std::function<void(const mrpt::math::TPose2D&, const Scans&)>;
+
 /// `map.simplemap.gz`: the scans of the updates, reread from the log, at the best particle's poses (map
 /// frame, without covariance).
 /// @param isUpdate  for each processed reading of the log, whether it caused an update
 /// @param path      one pose per update
-void saveSimpleMap(const files::OutputFolder& folder, readings::RawlogSource& source,
-                   const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path);
+/// @param visit     reads the scans as well: the log is long to parse
+void saveSimpleMap(
+    const files::OutputFolder& folder, readings::RawlogSource& source, const std::vector<bool>& isUpdate,
+    const std::vector<mrpt::math::TPose2D>& path,
+    const UpdateVisitor& visit = [](const mrpt::math::TPose2D&, const Scans&) {});
 
 }  // namespace hybrid_slam::run

@@ -1,0 +1,120 @@
+#include "run/Verdict.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Numbers.h"
+
+namespace hybrid_slam::run {
+
+using mrpt::math::TPose2D;
+using Level = Verdict::Level;
+
+namespace {
+
+constexpr double kStep = 0.5, kStepAngle = M_PI / 6;  // between compared scans
+constexpr double kGap = 2;                            // m of path within one doubtful place
+constexpr size_t kFewest = 4;                         // contradicted scans of a place, and of a lost map
+constexpr size_t kFewestInDoubt = 2;                  // contradicted scans of a doubtful map, or all
+constexpr size_t kMostPlaces = 10;
+
+// Calibrated on seeds from 101 on: doc/verdict.md.
+constexpr double kReturningDoubtful = 0.12, kReturningLost = 0.5;
+constexpr double kRecentDoubtful = 0.12, kRecentLost = 0.25;
+constexpr double kLongPlace = 15;  // m of path
+constexpr double kSpread = 0.5;    // m
+
+size_t contradictedOf(const std::vector<Revisit>& revisits) {
+  return static_cast<size_t>(std::count_if(revisits.begin(), revisits.end(),
+                                           [](const Revisit& revisit) { return revisit.isContradicted(); }));
+}
+
+/// Stretches of contradicted scans.
+std::vector<DoubtfulPlace> placesOf(const std::vector<Revisit>& revisits) {
+  std::vector<std::vector<const Revisit*>> stretches;
+  for (const Revisit& revisit : revisits) {
+    if (!revisit.isContradicted()) continue;
+    if (stretches.empty() || revisit.distance - stretches.back().back()->distance > kGap)
+      stretches.emplace_back();
+    stretches.back().push_back(&revisit);
+  }
+  std::vector<DoubtfulPlace> places;
+  for (const auto& stretch : stretches) {
+    if (stretch.size() < kFewest) continue;
+    const Revisit& middle = *stretch[stretch.size() / 2];
+    places.push_back({{middle.pose.x, middle.pose.y},
+                      middle.update,
+                      stretch.back()->distance - stretch.front()->distance});
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const DoubtfulPlace& a, const DoubtfulPlace& b) { return a.length > b.length; });
+  return places;
+}
+
+std::string share(size_t count, size_t all) {
+  return fixedText(100.0 * static_cast<double>(count) / static_cast<double>(all), 0) + " % of " +
+         std::to_string(all);
+}
+
+}  // namespace
+
+std::string Verdict::name() const {
+  const char* const names[] = {"consistent", "doubtful", "lost"};
+  return names[static_cast<int>(level)];
+}
+
+std::string Verdict::line() const {
+  std::string text = "verdict: " + name();
+  for (size_t i = 0; i < reasons.size(); ++i) text += (i == 0 ? ": " : "; ") + reasons[i];
+  if (level != Level::consistent && !places.empty())
+    text += "; longest at (" + fixedText(places[0].at.x, 1) + ", " + fixedText(places[0].at.y, 1) + ") m";
+  return text;
+}
+
+Verdict verdictOf(const Evidence& evidence) {
+  Verdict verdict;
+  const auto find = [&verdict](Level level, const std::string& reason) {
+    verdict.level = std::max(verdict.level, level);
+    verdict.reasons.push_back(reason);
+  };
+  const auto judge = [&find](const std::vector<Revisit>& revisits, double doubtful, double lost,
+                             const std::string& what) {
+    const size_t contradicted = contradictedOf(revisits);
+    if (contradicted < std::min(kFewestInDoubt, std::max<size_t>(revisits.size(), 1))) return;
+    const double part = static_cast<double>(contradicted) / static_cast<double>(revisits.size());
+    if (part > doubtful)
+      find(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
+           share(contradicted, revisits.size()) + " " + what);
+  };
+  judge(evidence.returning, kReturningDoubtful, kReturningLost,
+        "returning scans contradict what was mapped before");
+  judge(evidence.recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
+  verdict.places = placesOf(evidence.returning);
+  if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
+    find(Level::doubtful, "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
+  if (evidence.spread > kSpread)
+    find(Level::doubtful,
+         "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
+  if (verdict.level != Level::consistent && evidence.slips > 0)
+    find(Level::doubtful, "odometry rejected in " + std::to_string(evidence.slips) + " updates");
+  if (evidence.returning.empty()) find(Level::consistent, "no place was seen twice");
+  if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
+  return verdict;
+}
+
+void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
+  const size_t update = updates_++;
+  if (last_) distance_ += std::hypot(pose.x - last_->x, pose.y - last_->y);
+  last_ = pose;
+  if (lastCompared_ && std::hypot(pose.x - lastCompared_->x, pose.y - lastCompared_->y) < kStep &&
+      std::abs(mrpt::math::wrapToPi(pose.phi - lastCompared_->phi)) < kStepAngle)
+    return;
+  lastCompared_ = pose;
+  const ScanBeams beams = beamsToCompare(toLaserScans(scans, RevisitCheck::kRange));
+  returning_.add(pose, beams, distance_, update);
+  recent_.add(pose, beams, distance_, update);
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,58 @@
+/// @file Verdict.h
+/// @brief Whether the map of a run can be trusted, judged by the scans alone.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/LaserScan.h"
+#include "slam/loops/RevisitCheck.h"
+
+namespace hybrid_slam::run {
+
+/// A part of the path whose scans contradict what was mapped there before.
+struct DoubtfulPlace {
+  mrpt::math::TPoint2D at;  ///< m, map frame: its middle
+  size_t update = 0;        ///< index of the path: its middle
+  double length = 0;        ///< m of path
+};
+
+struct Verdict {
+  enum class Level { consistent, doubtful, lost };
+
+  Level level = Level::consistent;
+  std::vector<std::string> reasons;   ///< short sentences, the gravest first
+  std::vector<DoubtfulPlace> places;  ///< the longest first, at most ten
+
+  std::string name() const;
+  /// One line: `verdict: doubtful: REASON; REASON; longest at (X, Y) m`.
+  std::string line() const;
+};
+
+/// What a verdict is based on.
+struct Evidence {
+  std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
+  std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
+  double spread = 0;               ///< m, standard deviation of the particles at the end
+  size_t slips = 0;                ///< updates whose odometry was rejected
+};
+
+/// The rules and thresholds of doc/verdict.md.
+Verdict verdictOf(const Evidence& evidence);
+
+/// Collects the evidence of the scans along the final path.
+class VerdictCheck {
+ public:
+  /// @param pose  of the next update, map frame; @param scans  of it
+  void add(const mrpt::math::TPose2D& pose, const Scans& scans);
+  Evidence evidence() const { return {returning_.revisits(), recent_.revisits()}; }
+
+ private:
+  RevisitCheck returning_{20}, recent_{2};
+  std::optional<mrpt::math::TPose2D> last_, lastCompared_;
+  double distance_ = 0;
+  size_t updates_ = 0;
+};
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,70 @@
+#include "slam/loops/RevisitCheck.h"
+
+#include <algorithm>
+
+#include "slam/grid/RaySamples.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr size_t kBeams = 90;
+constexpr int kWall = 6, kSolidWall = 12, kFree = -3;  // log-odds, in units of a cell: 1, 2 hits; 3 misses
+constexpr double kNear = 3, kShort = 4;  // cells at both ends of a beam that may touch its own wall
+constexpr size_t kFewest = 8;            // beams compared
+constexpr double kFewestShare = 0.1, kContradicted = 0.3;
+
+enum class Finding { unknown, agrees, contradicts };
+
+Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& cells) {
+  const double range = ray.range / RevisitCheck::kResolution, dx = frame.dirX(ray), dy = frame.dirY(ray);
+  const auto& origin = frame.origin(ray);
+  for (double along = kNear; along < range - kShort; along += 1)
+    if (cells.at(floorOf(origin.x + along * dx), floorOf(origin.y + along * dy)) >= kSolidWall)
+      return Finding::contradicts;
+  const int x = floorOf(origin.x + range * dx), y = floorOf(origin.y + range * dy);
+  int8_t highest = -128;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells.at(x + i, y + j));
+  if (highest >= kWall) return Finding::agrees;
+  return cells.at(x, y) <= kFree ? Finding::contradicts : Finding::unknown;
+}
+
+}  // namespace
+
+bool Revisit::isContradicted() const {
+  return static_cast<double>(contradicted) > kContradicted * static_cast<double>(compared);
+}
+
+void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
+  GridOptions options;
+  options.resolution = kResolution;
+  for (; !waiting_.empty() && waiting_.front().distance < distance - delay_; waiting_.pop_front())
+    grid_.insert(waiting_.front().beams, waiting_.front().pose, options);
+
+  const GridPose frame(pose, beams, kResolution);
+  TileReader cells(grid_.tiles());
+  Revisit revisit{pose, update, distance};
+  for (const ScanBeams::Ray& ray : beams.rays) {
+    const Finding finding = compare(ray, frame, cells);
+    revisit.compared += finding != Finding::unknown;
+    revisit.contradicted += finding == Finding::contradicts;
+  }
+  if (revisit.compared >= kFewest &&
+      static_cast<double>(revisit.compared) >= kFewestShare * static_cast<double>(beams.rays.size()))
+    revisits_.push_back(revisit);
+  waiting_.push_back({pose, beams, distance});
+}
+
+ScanBeams beamsToCompare(const LaserScans& scans) {
+  ScanBeams beams(scans);
+  const size_t every = (beams.rays.size() + kBeams - 1) / kBeams;
+  std::vector<ScanBeams::Ray> some;
+  for (size_t i = 0; i < beams.rays.size(); i += every) some.push_back(beams.rays[i]);
+  beams.rays = std::move(some);
+  return beams;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,55 @@
+/// @file RevisitCheck.h
+/// @brief Whether scans contradict what was mapped earlier along the same path.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "slam/grid/OccupancyGrid.h"
+
+namespace hybrid_slam {
+
+/// A scan that sees places mapped before.
+struct Revisit {
+  mrpt::math::TPose2D pose;     ///< of the robot, map frame
+  size_t update = 0;            ///< index of the path
+  double distance = 0;          ///< m, along the path
+  size_t compared = 0;          ///< beams that end or pass where the earlier map knows something
+  size_t contradicted = 0;      ///< of these, beams that end in its free space or pass through its walls
+  bool isContradicted() const;  ///< more than 30 % of the compared beams
+};
+
+/// Compares each scan of a path with the map of the scans taken at least `delay` of path before. People and
+/// doors contradict with some beams; a doubled wall or a room on top of another one contradicts with most.
+///
+/// Beams up to 8 m on cells of 0.1 m: a wall may be off by 0.1 m to 0.2 m.
+class RevisitCheck {
+ public:
+  /// @param delay  m of path
+  explicit RevisitCheck(double delay) : delay_(delay), grid_(kResolution) {}
+
+  /// The next scan of the path.
+  /// @param distance  m, along the path
+  void add(const mrpt::math::TPose2D& pose, const ScanBeams& beams, double distance, size_t update);
+  /// The scans with at least 10 % of their beams compared.
+  const std::vector<Revisit>& revisits() const { return revisits_; }
+
+  static constexpr double kResolution = 0.1;  ///< m
+  static constexpr double kRange = 8;         ///< m
+
+ private:
+  struct Waiting {
+    mrpt::math::TPose2D pose;
+    ScanBeams beams;
+    double distance;
+  };
+  double delay_;
+  OccupancyGrid grid_;
+  std::deque<Waiting> waiting_;  ///< not yet in the map
+  std::vector<Revisit> revisits_;
+};
+
+/// At most 90 of the beams.
+ScanBeams beamsToCompare(const LaserScans& scans);
+
+}  // namespace hybrid_slam
