@@ -31,6 +31,20 @@ const char* const kMalaga =
 const char* const kMalagaStockIni =
     "/usr/share/mrpt/config_files/rbpf-slam/gridmapping_RBPF_ICPbased_malaga.ini";
 
+/// Laps in a room, 29 m of path.
+test::Log longLaps() { return test::laps(240); }
+
+/// The same with the odometry of laps the other way round.
+test::Log mirroredOdometry() {
+  test::Log log = longLaps();
+  for (size_t i = 0; i < 240; ++i) {
+    test::TPose2D pose = test::poseOnLap(i, 80);
+    pose.y = -pose.y, pose.phi = -pose.phi;
+    log[2 * i] = test::odometry(1000 + 0.2 * static_cast<double>(i), pose);
+  }
+  return log;
+}
+
 // ---- results
 
 TEST_F(HybridSlam, WritesAllResultsAndASummary) {
@@ -42,7 +56,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
                            "improved_proposal.update_distance = 0.1: [^\n]*\n"
                            "improved_proposal.update_angle_deg = 5: [^\n]*\n"
                            "80 scans, [0-9]+ updates, 10 m in [0-9.]+ s \\([0-9]+ x real time\\): " +
-                           output + "/map.png\n"));
+                           output + "/map.png\nverdict: consistent: no place was seen twice\n"));
 
   const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 80u);
@@ -55,10 +69,11 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   std::vector<std::string> keys;
   for (const auto& [key, value] : metrics.items()) keys.push_back(key);
-  EXPECT_THAT(keys, UnorderedElementsAre("method", "particles", "particles_min", "particles_max", "seed",
-                                         "threads", "scans", "updates", "duration_s", "wall_s", "cpu_s",
-                                         "realtime_factor", "peak_rss_mb", "resamplings", "slips",
-                                         "loops_closed", "lines", "distance_m", "versions"));
+  EXPECT_THAT(
+      keys, UnorderedElementsAre("method", "particles", "particles_min", "particles_max", "seed", "threads",
+                                 "scans", "updates", "duration_s", "wall_s", "cpu_s", "realtime_factor",
+                                 "peak_rss_mb", "resamplings", "slips", "loops_closed", "verdict", "reasons",
+                                 "doubtful_places", "lines", "distance_m", "versions"));
   EXPECT_EQ(metrics["method"], "hybrid");
   EXPECT_EQ(metrics["particles"], 5);
   EXPECT_EQ(metrics["seed"], 7);
@@ -93,6 +108,33 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile(output + "/map.simplemap.gz"));
   EXPECT_EQ(map.size(), metrics["updates"].get<size_t>());
+}
+
+TEST_F(HybridSlam, TheVerdictOnAGoodMap) {
+  expectDone(replay(longLaps(), "--strict"));
+  EXPECT_THAT(out, testing::EndsWith("verdict: consistent\n"));
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_EQ(metrics["verdict"], "consistent");
+  EXPECT_TRUE(metrics["reasons"].empty());
+  EXPECT_TRUE(metrics["doubtful_places"].empty());
+}
+
+TEST_F(HybridSlam, TheVerdictOnALostMap) {
+  expectDone(replay(mirroredOdometry()));
+  EXPECT_THAT(out, HasSubstr("\nverdict: lost: "));
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_EQ(metrics["verdict"], "lost");
+  EXPECT_THAT(std::string(metrics["reasons"][0]), HasSubstr("contradict what was mapped before"));
+  const auto& place = metrics["doubtful_places"][0];
+  EXPECT_LT(std::hypot(double(place["x"]), double(place["y"])), 10);
+  EXPECT_GE(place["timestamp"], 1000);
+  EXPECT_GT(place["length_m"], 1);
+}
+
+TEST_F(HybridSlam, StrictMakesALostMapAnError) {
+  EXPECT_EQ(replay(mirroredOdometry(), "--strict"), 1);
+  EXPECT_THAT(err, HasSubstr("hybrid-slam: error: verdict: lost: "));
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
 }
 
 TEST_F(HybridSlam, ConfigIniGivesTheSameRunAgain) {

@@ -1,0 +1,109 @@
+#include "run/Verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace hybrid_slam::run {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Level = Verdict::Level;
+
+/// Scans every 0.5 m along the x axis; those in [first, last) are contradicted.
+std::vector<Revisit> scans(size_t count, size_t first = 0, size_t last = 0) {
+  std::vector<Revisit> all;
+  for (size_t i = 0; i < count; ++i) {
+    Revisit revisit;
+    revisit.distance = 0.5 * static_cast<double>(i), revisit.pose.x = revisit.distance, revisit.update = i;
+    revisit.compared = 50, revisit.contradicted = i >= first && i < last ? 40 : 2;
+    all.push_back(revisit);
+  }
+  return all;
+}
+
+Verdict of(const std::vector<Revisit>& returning, const std::vector<Revisit>& recent = scans(200)) {
+  Evidence evidence;
+  evidence.returning = returning, evidence.recent = recent;
+  return verdictOf(evidence);
+}
+
+TEST(Verdict, NoContradictionIsConsistent) {
+  const Verdict verdict = of(scans(100));
+  EXPECT_EQ(verdict.level, Level::consistent);
+  EXPECT_THAT(verdict.reasons, IsEmpty());
+  EXPECT_THAT(verdict.places, IsEmpty());
+  EXPECT_EQ(verdict.line(), "verdict: consistent");
+}
+
+TEST(Verdict, SaysThatNoPlaceWasSeenTwice) {
+  EXPECT_EQ(of({}).line(), "verdict: consistent: no place was seen twice");
+  EXPECT_EQ(of({}, {}).level, Level::consistent);
+}
+
+TEST(Verdict, MostReturningScansContradictedIsLost) {
+  const Verdict verdict = of(scans(100, 40, 100));
+  EXPECT_EQ(verdict.name(), "lost");
+  EXPECT_THAT(verdict.reasons[0],
+              testing::StrEq("60 % of 100 returning scans contradict what was mapped before"));
+  EXPECT_THAT(verdict.line(), HasSubstr("longest at (35.0, 0.0) m"));
+}
+
+TEST(Verdict, SomeReturningScansContradictedIsDoubtful) {
+  EXPECT_EQ(of(scans(100, 40, 52)).level, Level::consistent);
+  EXPECT_EQ(of(scans(100, 40, 53)).level, Level::doubtful);
+  EXPECT_EQ(of(scans(100, 40, 90)).level, Level::doubtful);
+  EXPECT_EQ(of(scans(100, 40, 91)).level, Level::lost);
+}
+
+TEST(Verdict, FewScansAreDoubtfulAtMost) {
+  EXPECT_EQ(of(scans(3, 0, 3)).level, Level::doubtful);
+  EXPECT_EQ(of(scans(1, 0, 1)).level, Level::doubtful) << "all there are";
+  EXPECT_EQ(of(scans(4, 0, 1)).level, Level::consistent) << "one may be a person";
+  EXPECT_EQ(of(scans(4, 0, 4)).level, Level::lost);
+}
+
+TEST(Verdict, ScansThatDoNotFitTheirSurroundings) {
+  EXPECT_EQ(of({}, scans(100, 10, 22)).level, Level::consistent);
+  EXPECT_EQ(of({}, scans(100, 10, 30)).level, Level::doubtful);
+  EXPECT_EQ(of({}, scans(100, 10, 40)).level, Level::lost);
+}
+
+TEST(Verdict, OneLongPlaceIsDoubtfulInALargeMap) {
+  const Verdict verdict = of(scans(2000, 100, 140));
+  EXPECT_EQ(verdict.level, Level::doubtful);
+  ASSERT_EQ(verdict.places.size(), 1u);
+  EXPECT_NEAR(verdict.places[0].at.x, 60, 1e-9);
+  EXPECT_NEAR(verdict.places[0].length, 19.5, 1e-9);
+  EXPECT_EQ(verdict.places[0].update, 120u);
+  EXPECT_EQ(of(scans(2000, 100, 120)).level, Level::consistent);
+}
+
+TEST(Verdict, PlacesAreSeparateAndTheLongestComesFirst) {
+  std::vector<Revisit> revisits = scans(100, 10, 15);
+  for (size_t i = 60; i < 80; ++i) revisits[i].contradicted = 40;
+  revisits[30].contradicted = 40;  // alone: a person
+  const Verdict verdict = of(revisits);
+  ASSERT_EQ(verdict.places.size(), 2u);
+  EXPECT_NEAR(verdict.places[0].at.x, 35, 1e-9);
+  EXPECT_NEAR(verdict.places[1].at.x, 6, 1e-9);
+}
+
+TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.spread = 1.5, evidence.slips = 2;
+  const Verdict verdict = verdictOf(evidence);
+  EXPECT_EQ(verdict.level, Level::doubtful);
+  EXPECT_THAT(verdict.reasons, ElementsAre("hypotheses still disagree at the end: spread 1.5 m",
+                                           "odometry rejected in 2 updates"));
+}
+
+TEST(Verdict, SlipsAloneAreNoReason) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.slips = 2;
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run
