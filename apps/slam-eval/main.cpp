@@ -17,6 +17,7 @@
 #include "files/Trajectory.h"
 #include "readings/EndPointReader.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
+#include "study/evaluation/NormalizedError.h"
 #include "study/evaluation/RelationErrors.h"
 #include "study/evaluation/RelativePoseError.h"
 #include "study/evaluation/RevisitError.h"
@@ -29,7 +30,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
 
 struct CommandLine {
-  std::string trajectory, relations, odometry, reference, rawlog;
+  std::string trajectory, relations, odometry, reference, rawlog, covariances;
   std::string delta = "1m";
   double relationTolerance = 0.006;  // s
   double referenceTolerance = 0.02;  // s
@@ -103,6 +104,13 @@ Json rpeJson(const CommandLine& line) {
   return json;
 }
 
+Json neesJson(const CommandLine& line) {
+  const evaluation::NormalizedErrors errors = evaluation::normalizedErrors(
+      files::loadTum(line.trajectory), evaluation::loadCovariances(line.covariances),
+      files::loadTum(line.reference), line.referenceTolerance);
+  return {{"pairs", errors.pairs}, {"nees_mean", errors.mean}, {"inside_95", errors.inside95}};
+}
+
 Json revisitsJson(const CommandLine& line) {
   const files::Trajectory trajectory = files::loadTum(line.trajectory);
   const evaluation::RevisitErrors errors = evaluation::revisitErrors(
@@ -129,7 +137,9 @@ int run(int argc, char** argv) {
   auto* rpe = app.add_subcommand("rpe", "relative pose error over a fixed time or distance");
   auto* revisits =
       app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
-  for (CLI::App* command : {relations, ate, rpe, revisits})
+  auto* nees =
+      app.add_subcommand("nees", "normalised estimation error squared: covariances against the truth");
+  for (CLI::App* command : {relations, ate, rpe, revisits, nees})
     command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
   relations->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
   relations->add_option("--odometry", line.odometry,
@@ -138,7 +148,8 @@ int run(int argc, char** argv) {
       ->add_option("--tolerance", line.relationTolerance,
                    "largest time difference between a relation and a pose, s; with odometry at most 0.006")
       ->capture_default_str();
-  for (CLI::App* command : {ate, rpe}) {
+  nees->add_option("--covariances", line.covariances, "covariance.csv of the same run")->required();
+  for (CLI::App* command : {ate, rpe, nees}) {
     command->add_option("--reference", line.reference, "reference trajectory, TUM file")->required();
     command
         ->add_option("--tolerance", line.referenceTolerance,
@@ -171,6 +182,7 @@ int run(int argc, char** argv) {
   const Json json = *relations  ? relationsJson(line)
                     : *ate      ? ateJson(line)
                     : *revisits ? revisitsJson(line)
+                    : *nees     ? neesJson(line)
                                 : rpeJson(line);
   std::cout << json.dump(2) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");

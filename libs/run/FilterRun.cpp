@@ -105,6 +105,7 @@ bool FilterRun::process(const readings::Reading& reading) {
   const FilterStep& step = filter_->lastStep();
   particlesMin_ = particlesMin_ == 0 ? step.particles : std::min(particlesMin_, step.particles);
   particlesMax_ = std::max(particlesMax_, step.particles);
+  particleCovariances_.push_back(covarianceOf(step.poses));
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
   if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
   if (step.loop) note(*step.loop);
@@ -177,6 +178,11 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   verdict_ = verdictOf(evidence);
+  const bool hasLines = configuration_.run.method == Method::hybrid;
+  const auto covariances = pathCovariances(path, particleCovariances_, evidence.returning, hasLines);
+  folder_.write("covariance.csv", [&, &path = path](std::ostream& out) {
+    writeCovariances(out, result.trajectory, recorder_.updates(), path, covariances);
+  });
   savePicture(folder_, grid, trajectory, lines, verdict_.places);
   saveLines(folder_, lines);
   steps_.finish();

@@ -13,6 +13,7 @@
 #include "files/OutputFolder.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
+#include "run/PathCovariance.h"
 #include "run/TrajectoryRecorder.h"
 #include "run/Verdict.h"
 #include "slam/filter/Filter.h"
@@ -79,8 +80,9 @@ class FilterRun {
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;
   enum class Use { skipped, carried, update };
-  std::vector<Use> uses_;            ///< per reading of the log
-  std::vector<double> updateTimes_;  ///< s
+  std::vector<Use> uses_;                            ///< per reading of the log
+  std::vector<double> updateTimes_;                  ///< s
+  std::vector<PoseCovariance> particleCovariances_;  ///< of each update
   std::vector<std::string> loopNotes_;
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;

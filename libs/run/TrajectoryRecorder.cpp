@@ -45,4 +45,10 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
   return out;
 }
 
+std::vector<size_t> TrajectoryRecorder::updates() const {
+  std::vector<size_t> all;
+  for (const Scan& scan : scans_) all.push_back(scan.updates);
+  return all;
+}
+
 }  // namespace hybrid_slam::run

@@ -23,6 +23,9 @@ class TrajectoryRecorder {
   /// @param path  one pose per update (map frame)
   files::Trajectory trajectory(const std::vector<mrpt::math::TPose2D>& path) const;
 
+  /// For each scan, the number of updates up to it.
+  std::vector<size_t> updates() const;
+
   double distance() const { return distance_; }  ///< m, along the odometry
 
  private:

@@ -1,0 +1,109 @@
+#include "run/PathCovariance.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Numbers.h"
+#include "slam/loops/PathUncertainty.h"
+
+namespace hybrid_slam::run {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double square(double x) { return x * x; }
+constexpr double kDegree = M_PI / 180;
+
+// Calibrated on simulated logs, seeds from 101 on: doc/verdict.md.
+constexpr double kDrift = 0.04, kDriftAngle = 0.05 * kDegree;         // per sqrt(m), with lines
+constexpr double kOpenDrift = 0.1, kOpenDriftAngle = 0.15 * kDegree;  // without lines
+constexpr double kMatch = 0.01, kMatchAngle = 0.1 * kDegree;          // of a scan match
+constexpr double kBetween = 0.02, kBetweenAngle = 1 * kDegree;        // per sqrt(m), odometry alone
+constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;             // m
+
+Eigen::Matrix3d diagonal(double position, double heading) {
+  return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
+}
+
+/// Places of the path that lie on the same part of the map.
+std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::vector<double>& distances,
+                                 const std::vector<Revisit>& returning) {
+  std::vector<KnownPair> pairs;
+  for (const Revisit& revisit : returning) {
+    if (revisit.isContradicted() || revisit.update >= path.size()) continue;
+    const size_t later = revisit.update;
+    if (!pairs.empty() && distances[later] < distances[pairs.back().later] + kShortCuts) continue;
+    double nearest = kNear;
+    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle)};
+    for (size_t i = 0; distances[i] < distances[later] - kReturn; ++i)
+      if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
+          distance < nearest)
+        nearest = distance, pair.earlier = i;
+    if (nearest < kNear) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles) {
+  double highest = -INFINITY, sum = 0;
+  for (const WeightedPose& particle : particles) highest = std::max(highest, particle.logWeight);
+  // Headings about that of one particle: they do not wrap.
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const auto& [pose, logWeight] : particles) {
+    const TPose2D& first = particles.front().pose;
+    const Eigen::Vector3d off(pose.x - first.x, pose.y - first.y, mrpt::math::wrapToPi(pose.phi - first.phi));
+    const double weight = std::exp(logWeight - highest);
+    sum += weight, mean += weight * off, squares += weight * off * off.transpose();
+  }
+  if (sum == 0) return Eigen::Matrix3d::Zero();
+  mean /= sum;
+  return squares / sum - mean * mean.transpose();
+}
+
+std::vector<PoseCovariance> pathCovariances(const std::vector<TPose2D>& path,
+                                            const std::vector<PoseCovariance>& particles,
+                                            const std::vector<Revisit>& returning, bool hasLines) {
+  const double drift = hasLines ? kDrift : kOpenDrift, angle = hasLines ? kDriftAngle : kOpenDriftAngle;
+  std::vector<StepVariance> steps(path.size());
+  std::vector<double> distances(path.size());
+  for (size_t i = 1; i < path.size(); ++i) {
+    const double length = std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+    distances[i] = distances[i - 1] + length;
+    steps[i] = {square(drift) * length, square(angle) * length};
+  }
+  const PathUncertainty uncertainty(path, steps);
+  const std::vector<KnownPair> known = shortCuts(path, distances, returning);
+  std::vector<PoseCovariance> all;
+  for (size_t i = 0; i < path.size(); ++i)
+    all.push_back(uncertainty.between(0, i, known) + diagonal(kMatch, kMatchAngle) +
+                  (i < particles.size() ? particles[i] : PoseCovariance::Zero()));
+  return all;
+}
+
+void writeCovariances(std::ostream& out, const files::Trajectory& trajectory,
+                      const std::vector<size_t>& updates, const std::vector<TPose2D>& path,
+                      const std::vector<PoseCovariance>& covariances) {
+  out << "timestamp,xx,xy,yy,xphi,yphi,phiphi\n";
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    PoseCovariance covariance = diagonal(kMatch, kMatchAngle);
+    if (!path.empty()) {
+      const size_t update = std::clamp<size_t>(updates[i], 1, path.size()) - 1;
+      const TPose2D since = trajectory[i].pose - path[update];
+      const double root = std::sqrt(since.norm());
+      covariance =
+          covariances[update] + diagonal(kBetween * root, std::hypot(kBetweenAngle * root, 0.05 * since.phi));
+    }
+    out << fixedText(trajectory[i].timestamp, 6);
+    for (const auto& [row, column] : {std::pair(0, 0), {0, 1}, {1, 1}, {0, 2}, {1, 2}, {2, 2}})
+      out << ',' << numberText(covariance(row, column), std::chars_format::general, 6);
+    out << '\n';
+  }
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,81 @@
+#include "study/evaluation/NormalizedError.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+#include "study/evaluation/Association.h"
+#include "study/evaluation/StampIndex.h"
+
+namespace hybrid_slam::evaluation {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kChiSquare95 = 7.815;  // three degrees of freedom
+
+Eigen::Matrix3d covarianceIn(const std::string& line, const std::string& place) {
+  std::istringstream cells(line);
+  std::array<double, 7> values{};
+  size_t count = 0;
+  for (std::string cell; std::getline(cells, cell, ','); ++count) {
+    const auto value = parseFinite(cell);
+    if (!value || count == values.size())
+      throw InputError("broken line", place, "expected timestamp,xx,xy,yy,xphi,yphi,phiphi");
+    values[count] = *value;
+  }
+  if (count != values.size())
+    throw InputError("broken line", place, "expected timestamp,xx,xy,yy,xphi,yphi,phiphi");
+  const auto& [t, xx, xy, yy, xphi, yphi, phiphi] = values;
+  Eigen::Matrix3d covariance;
+  covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
+  return covariance;
+}
+
+}  // namespace
+
+std::vector<Eigen::Matrix3d> loadCovariances(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) throw InputError("cannot read", file, "expected a covariance file");
+  std::vector<Eigen::Matrix3d> all;
+  for (size_t number = 2; std::getline(in, line); ++number)
+    all.push_back(covarianceIn(line, "line " + std::to_string(number) + " of " + file));
+  return all;
+}
+
+NormalizedErrors normalizedErrors(const files::Trajectory& estimate,
+                                  const std::vector<Eigen::Matrix3d>& covariances,
+                                  const files::Trajectory& reference, double tolerance) {
+  if (covariances.size() != estimate.size())
+    throw InputError("wrong number of covariances", std::to_string(covariances.size()) + " rows",
+                     "expected " + std::to_string(estimate.size()) + ", one for each pose");
+  NormalizedErrors result;
+  const PosePair first = associate(estimate, reference, tolerance).front();
+  const StampIndex index(reference);
+  for (size_t i = 0; i < estimate.size(); ++i) {
+    const auto row = index.nearest(estimate[i].timestamp, tolerance);
+    if (!row) continue;
+    const TPose2D pose = estimate[i].pose - first.estimate, truth = reference[*row].pose - first.reference;
+    const Eigen::Vector3d error(pose.x - truth.x, pose.y - truth.y,
+                                mrpt::math::wrapToPi(pose.phi - truth.phi));
+    const Eigen::LLT<Eigen::Matrix3d> factor(covariances[i]);
+    if (factor.info() != Eigen::Success)
+      throw InputError("covariance without inverse", "row " + std::to_string(i + 1),
+                       "expected a positive definite matrix");
+    const double squared = error.dot(factor.solve(error));
+    ++result.pairs;
+    result.mean += squared;
+    result.inside95 += squared < kChiSquare95 ? 1 : 0;
+  }
+  result.mean /= static_cast<double>(result.pairs);
+  result.inside95 /= static_cast<double>(result.pairs);
+  return result;
+}
+
+}  // namespace hybrid_slam::evaluation

@@ -1,0 +1,55 @@
+#include "study/evaluation/NormalizedError.h"
+
+#include <gtest/gtest.h>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam::evaluation {
+namespace {
+
+files::Trajectory line(size_t count, double offset) {
+  files::Trajectory all;
+  for (size_t i = 0; i < count; ++i)
+    all.push_back({0.1 * static_cast<double>(i), {static_cast<double>(i), i > 0 ? offset : 0, 0}});
+  return all;
+}
+
+TEST(NormalizedError, IsTheSquaredErrorInUnitsOfTheVariance) {
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.01).asDiagonal();
+  const NormalizedErrors errors =
+      normalizedErrors(line(4, 0.6), std::vector<Eigen::Matrix3d>(4, covariance), line(4, 0), 0.01);
+  EXPECT_EQ(errors.pairs, 4u);
+  EXPECT_NEAR(errors.mean, 0.75 * 0.36 / 0.04, 1e-9);
+  EXPECT_NEAR(errors.inside95, 0.25, 1e-9) << "9 is outside";
+}
+
+TEST(NormalizedError, FramesBeginAtTheFirstPose) {
+  files::Trajectory moved = line(4, 0);
+  for (auto& stamped : moved) stamped.pose = mrpt::math::TPose2D(5, -2, 1) + stamped.pose;
+  const Eigen::Matrix3d covariance = 0.01 * Eigen::Matrix3d::Identity();
+  EXPECT_NEAR(normalizedErrors(line(4, 0), std::vector<Eigen::Matrix3d>(4, covariance), moved, 0.01).mean, 0,
+              1e-9);
+}
+
+TEST(NormalizedError, WrongCovariances) {
+  EXPECT_THROW(normalizedErrors(line(4, 0), {}, line(4, 0), 0.01), InputError);
+  EXPECT_THROW(normalizedErrors(line(1, 0), {Eigen::Matrix3d::Zero()}, line(1, 0), 0.01), InputError);
+}
+
+TEST(NormalizedError, ReadsAFile) {
+  const files::TemporaryFolder folder;
+  const std::string head = "timestamp,xx,xy,yy,xphi,yphi,phiphi\n";
+  const auto all = loadCovariances(folder.write("c.csv", head + "1,2,0.5,3,0.25,0.125,4\n"));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0](0, 0), 2);
+  EXPECT_EQ(all[0](1, 0), 0.5);
+  EXPECT_EQ(all[0](2, 1), 0.125);
+  EXPECT_EQ(all[0](2, 2), 4);
+  EXPECT_THROW(loadCovariances(folder.write("short.csv", head + "1,2,3\n")), InputError);
+  EXPECT_THROW(loadCovariances(folder.write("word.csv", head + "1,2,0.5,3,x,0.125,4\n")), InputError);
+  EXPECT_THROW(loadCovariances(folder.path("none.csv")), InputError);
+}
+
+}  // namespace
+}  // namespace hybrid_slam::evaluation
