@@ -89,11 +89,11 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   EXPECT_EQ(
       result("steps.csv").substr(0, result("steps.csv").find('\n')),
       "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift");
+      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift,degeneracy");
   EXPECT_EQ(steps.size(), metrics["updates"].get<size_t>() + 1);
   size_t resamplings = 0;
   for (size_t i = 1; i < steps.size(); ++i) {
-    ASSERT_EQ(steps[i].size(), 18u) << i;
+    ASSERT_EQ(steps[i].size(), 19u) << i;
     EXPECT_EQ(steps[i][1], "5");
     resamplings += steps[i][3] == "1" ? 1 : 0;
   }
@@ -176,14 +176,14 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string proposal : {"standard", "improved"}) {
     SCOPED_TRACE(proposal);
-    // Of steps.csv all but step_ms, the fifth column from the end: the time that each step took.
+    // Of steps.csv all but step_ms, the sixth column from the end: the time that each step took.
     const auto resultsOf = [&](const std::string& option) {
       expectDone(replay(log, "-q --set particle_filter.ess_threshold=1 -p " + proposal + option));
       std::map<std::string, std::string> files;
       for (const std::string& name : kResults)
         if (name != "metrics.json" && name != "steps.csv") files[name] = result(name);
       files["steps.csv"] =
-          std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*((,[^,\n]*){4}\n)"), "$1");
+          std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*((,[^,\n]*){5}\n)"), "$1");
       return files;
     };
     const auto plain = resultsOf("");

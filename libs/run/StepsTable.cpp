@@ -7,7 +7,7 @@ namespace hybrid_slam::run {
 void writeStepsHeader(std::ostream& out) {
   out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
          "lines_seen,lines_matched,step_ms,matched,slipped,"
-         "loops_closed,loop_shift\n";
+         "loops_closed,loop_shift,degeneracy\n";
 }
 
 void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
@@ -30,7 +30,9 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double 
   else
     out << ',';
   if (s.slipped) out << (*s.slipped ? 1 : 0);
-  out << ',' << (s.loop ? 1 : 0) << ',' << fixedText(s.loop ? s.loop->shift : 0, 6) << '\n';
+  out << ',' << (s.loop ? 1 : 0) << ',' << fixedText(s.loop ? s.loop->shift : 0, 6) << ',';
+  if (s.degeneracy) out << fixedText(*s.degeneracy, 4);
+  out << '\n';
 }
 
 void writeParticlesHeader(std::ostream& out) { out << "timestamp,x,y,phi,log_weight\n"; }

@@ -42,6 +42,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       profiler_(profiler),
       gridWeight_(c.gridWeight, c.grid.resolution),
       improvedProposal_(c),
+      matcher_(c.matcher),
       newSlipRecovery_(c),
       slipRecovery_(newSlipRecovery_),
       arena_(arenaThreads(c.filter.threads)) {}
@@ -102,6 +103,13 @@ void ParticleSet::startPathAt(const TPose2D& start) {
 // Sec. III-A, steps 1 and 2.
 void ParticleSet::sampleAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {
   const StageTimer timer(profiler_, "3 sample, weigh");
+  proposeAndWeigh(odometry, scan);
+  const Particle& bestParticle = best();
+  step_.degeneracy =
+      degeneracy(matcher_.information(scan.matchedBeams, bestParticle.path.back(), bestParticle.grid));
+}
+
+void ParticleSet::proposeAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {
   switch (filter_.proposal) {
     case Proposal::standard:
       return sampleFromMotionModel(odometry, scan);

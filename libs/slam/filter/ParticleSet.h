@@ -60,6 +60,7 @@ class ParticleSet : public MrptParticles {
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose, const PreparedScan& scan) const;
   void setWeight(Particle& particle, const Weight& weight) const;
   void summarise(const mrpt::math::TPose2D& odometry);
+  void proposeAndWeigh(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   size_t particlesNeeded() const;
   double logSumOfWeights() const;
   RandomStream stream(size_t particle) const;  ///< the random numbers of a particle in this step
@@ -78,6 +79,7 @@ class ParticleSet : public MrptParticles {
   mrpt::system::CTimeLogger* profiler_;
   GridWeight gridWeight_;
   ImprovedProposal improvedProposal_;
+  ScanMatcher matcher_;
   const SlipRecovery newSlipRecovery_;
   SlipRecovery slipRecovery_;
   tbb::task_arena arena_;

@@ -99,4 +99,18 @@ ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, c
   return match;
 }
 
+Eigen::Matrix3d ScanMatcher::information(const ScanBeams& scan, const TPose2D& pose,
+                                         const OccupancyGrid& grid) const {
+  ScanLikelihood on = likelihood(scan, grid);
+  return curvature(on, pose);
+}
+
+double degeneracy(const Eigen::Matrix3d& information) {
+  Eigen::Matrix2d position = information.topLeftCorner<2, 2>();
+  const Eigen::Vector2d withHeading = information.topRightCorner<2, 1>();
+  if (information(2, 2) > 0) position -= withHeading * withHeading.transpose() / information(2, 2);
+  const Eigen::Vector2d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues();
+  return values[1] > 0 ? std::max(values[0], 0.0) / values[1] : 0;
+}
+
 }  // namespace hybrid_slam

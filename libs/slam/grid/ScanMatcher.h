@@ -27,6 +27,10 @@ using Prior = std::function<LogDensity(const mrpt::math::TPose2D&)>;
 LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& mean,
                               const Eigen::Matrix3d& information);
 
+/// Smallest over largest eigenvalue of the information on the position, heading unknown: in [0, 1], about 0
+/// along a featureless corridor, and 0 where nothing is seen.
+double degeneracy(const Eigen::Matrix3d& information);
+
 /// Result of a match.
 struct ScanMatch {
   mrpt::math::TPose2D pose;
@@ -56,6 +60,10 @@ class ScanMatcher {
 
   /// Likewise, for a likelihood that is used further.
   ScanMatch match(ScanLikelihood& likelihood, const mrpt::math::TPose2D& start, const Prior& prior) const;
+
+  /// Of the scan alone at a pose.
+  Eigen::Matrix3d information(const ScanBeams& scan, const mrpt::math::TPose2D& pose,
+                              const OccupancyGrid& grid) const;
 
  private:
   ScanMatcherOptions options_;

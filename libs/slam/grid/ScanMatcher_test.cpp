@@ -168,6 +168,20 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
   }
 }
 
+TEST(ScanMatcher, DegeneracyTellsACorridorFromARoom) {
+  RandomStream random(1, 0, 0);
+  for (int i = 0; i < 10; ++i) {
+    const TPose2D inCorridor(random.uniform(), 0.3 * random.uniform(), 6 * random.uniform());
+    const ScanBeams along = test::beamsAt(kCorridor, inCorridor, random);
+    EXPECT_LT(degeneracy(matcher().information(along, inCorridor, corridor())), 0.02) << i;
+    const TPose2D inRoom = somePose(random);
+    const ScanBeams all = test::beamsAt(kRoom, inRoom, random);
+    EXPECT_GT(degeneracy(matcher().information(all, inRoom, room())), 0.05) << i;
+  }
+  EXPECT_EQ(degeneracy(Eigen::Matrix3d::Zero()), 0);
+  EXPECT_NEAR(degeneracy(Eigen::Vector3d(1, 4, 2).asDiagonal()), 0.25, 1e-12);
+}
+
 TEST(ScanMatcher, AFeaturelessCorridorGivesNoInformationAlongIt) {
   RandomStream random(9, 0, 0);
   for (int i = 0; i < 50; ++i) {
