@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "HybridSlamProgram.h"
 #include "files/Trajectory.h"
@@ -65,7 +66,8 @@ TEST_F(HybridSlam, WrongLog) {
   expectError(replay(folder.write("text", "no log\n")), "not a robot log");
   expectError(replay(HYBRID_SLAM), "not a rawlog");
   expectError(replay(test::Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");
-  expectError(replay(test::Log{test::scan(1), test::scan(2)}), "require_odometry = false");
+  expectError(replay(test::Log{test::scan(1), test::scan(2)}, "--set input.require_odometry=true"),
+              "require_odometry = false");
   expectError(replay(test::Log{test::odometry(1, {}), test::scan(1, {}, 0)}), "zero length");
   expectError(replay(test::laps(4), "--set input.sensor_label=REAR"), "the log has `LASER`");
   test::Log tilted = test::laps(4);
@@ -82,9 +84,30 @@ TEST_F(HybridSlam, UnreadableLog) {
   expectError(replay(log), "cannot open: " + log);
 }
 
-TEST_F(HybridSlam, ScansOnlyOnRequest) {
-  expectDone(
-      replay(test::Log{test::scan(1), test::scan(2), test::scan(3)}, "--set input.require_odometry=false"));
+/// The room's corners tell where the robot is; it moves by 0.13 m and 4.5 deg a scan.
+TEST_F(HybridSlam, ScansAreMatchedWhereThereIsNoOdometry) {
+  const auto expectMapped = [&](const std::optional<test::TPose2D>& odometry) {
+    Log log;
+    for (size_t i = 0; i < 60; ++i) {
+      const double time = 1000 + 0.2 * static_cast<double>(i);
+      if (odometry) log.push_back(test::odometry(time, *odometry));
+      log.push_back(test::scan(time, test::poseOnLap(i, 80)));
+    }
+    expectDone(replay(log, "-p improved"));
+    EXPECT_THAT(out, HasSubstr("no odometry: motion is predicted from the previous steps"));
+    const auto trajectory = files::loadTum(output + "/trajectory.tum");
+    ASSERT_EQ(trajectory.size(), 60u);
+    for (size_t i = 0; i < 60; ++i) {
+      const auto truth = test::poseOnLap(i, 80) - test::poseOnLap(0, 80);
+      EXPECT_LT((trajectory[i].pose - truth).norm(), 0.1) << i;
+    }
+  };
+  expectMapped(std::nullopt);
+  expectMapped(test::TPose2D(3, 4, 0.5));
+}
+
+TEST_F(HybridSlam, ARobotThatStandsStillStays) {
+  expectDone(replay(test::Log{test::scan(1), test::scan(2), test::scan(3)}));
   for (const auto& row : files::loadTum(output + "/trajectory.tum")) EXPECT_LT(row.pose.norm(), 0.2);
 }
 

@@ -93,6 +93,8 @@ int learn(const CommandLine& line, run::Configuration configuration) {
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
   const readings::RawlogSummary log = summarise(line.files.log, configuration.input);
+  if (!log.hasMotion)
+    throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
   for (const std::string& text :
        applyLogSettings(run::readLogSettings(line.files.log, configuration.input, log), configuration))
     if (!line.isQuiet) std::cout << text << "\n";

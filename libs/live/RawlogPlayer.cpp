@@ -58,9 +58,7 @@ class Pace {
 
 RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate)
     : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
-  readings::InputOptions any;
-  any.requireOdometry = false;
-  summarise(file, any);
+  readings::summarise(file, {});
 }
 
 void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {

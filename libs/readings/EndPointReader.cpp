@@ -12,7 +12,6 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::strin
                                      double maxRange) {
   InputOptions options;
   options.sensorLabel = sensorLabel;
-  options.requireOdometry = false;
   const RawlogSummary summary = summarise(rawlog, options);
   if (!summary.defect.empty())
     throw InputError("log " + summary.defect, summary.defectPlace(rawlog), "expected a whole log");

@@ -51,7 +51,8 @@ void InputOptions::describe(OptionTable& t) {
   t.add("sensor_label", sensorLabel,
         "label of the laser to use, or a list `FRONT, REAR`; empty: all that are mounted horizontally");
   t.add("require_odometry", requireOdometry,
-        "false: accept a log without odometry and assume zero motion between scans");
+        "false: odometry is ignored; motion is predicted from the previous step and corrected by scan "
+        "matching");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
         "largest gap between odometry readings for interpolation at a scan's time");
 }
@@ -72,6 +73,13 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     else
       note(summary.wrongOdometry, reader.entry());
   };
+  std::optional<TPose2D> first;
+  const auto noteReading = [&](const TPose2D& pose) {
+    noteOdometry(pose, summary.hasOdometryReadings);
+    if (!isFinite(pose)) return;
+    if (!first) first = pose;
+    summary.hasMotion |= pose != *first;
+  };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
     const ScanGrouper::Use use = grouper.useOf(scan);
     ++uses[scan.sensorLabel][use];
@@ -91,14 +99,17 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   };
   while (const auto object = reader.next()) {
     if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
-    if (const auto increment = incrementOf(object)) noteOdometry(*increment, summary.hasActions);
+    if (const auto increment = incrementOf(object)) {
+      noteOdometry(*increment, summary.hasActions);
+      summary.hasMotion |= isFinite(*increment) && *increment != TPose2D();
+    }
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
         if (grouper.useOf(*scan) == ScanGrouper::Use::taken) grouper.expect(scan->sensorLabel);
     });
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
-        noteOdometry(odometry->odometry.asTPose(), summary.hasOdometryReadings);
+        noteReading(odometry->odometry.asTPose());
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) noteScan(*scan);
     });
   }
@@ -121,10 +132,6 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                      "expected a horizontal plane within 5 deg, upright or upside down");
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
-  if (!summary.hasActions && !summary.hasOdometryReadings && options.requireOdometry)
-    throw InputError("no odometry", file,
-                     "expected actions or CObservationOdometry; [input] require_odometry = false accepts a "
-                     "log without odometry");
   return summary;
 }
 

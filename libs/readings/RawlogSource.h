@@ -34,18 +34,19 @@ struct RawlogSummary {
   Oddity wrongOdometry;                                        ///< NaN or infinite
   Oddity brokenLines;                                          ///< of a text log
   bool hasActions = false, hasOdometryReadings = false;
-  double duration = 0;  ///< s, from the earliest scan to the latest
-  size_t entries = 0;   ///< lines of a text log
-  std::string unit;     ///< of `entries` and `Oddity::first`: "entry" or "line"
-  std::string defect;   ///< how the log is truncated; empty if complete
+  bool hasMotion = false;  ///< the odometry changes
+  double duration = 0;     ///< s, from the earliest scan to the latest
+  size_t entries = 0;      ///< lines of a text log
+  std::string unit;        ///< of `entries` and `Oddity::first`: "entry" or "line"
+  std::string defect;      ///< how the log is truncated; empty if complete
   /// Where the defect is.
   std::string defectPlace(const std::string& file) const {
     return unit + " " + std::to_string(entries + 1) + " of " + file;
   }
 };
 
-/// @throws InputError if there is no laser, a named one is missing, no scan has beams, no laser is mounted
-///         horizontally, or there is no odometry although the options require it
+/// @throws InputError if there is no laser, a named one is missing, no scan has beams, or no laser is mounted
+///         horizontally
 /// @throws std::runtime_error if `isStopped`, which is called at each entry, returns true
 RawlogSummary summarise(
     const std::string& file, const InputOptions& options,

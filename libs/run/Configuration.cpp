@@ -65,7 +65,8 @@ std::string configurationManual() {
          "| `line_weight.sigma_deg` | 0.5 deg where ranges are logged in steps of 1 cm, else 0.4 deg |\n"
          "| `improved_proposal.update_distance`, `update_angle_deg` | 0.02 m, 1 deg (every scan of a moving "
          "robot) "
-         "where the median distance between scans is over 0.3 m, else 0.1 m, 5 deg |\n\n"
+         "where the median distance between scans is over 0.3 m, else 0.1 m, 5 deg |\n"
+         "| `input.require_odometry` | false where odometry is missing or never changes, else true |\n\n"
          "The laser's place on the robot, its angles and its number of beams come with each scan.\n";
   Configuration defaults;
   files::writeManual(defaults.sections(), out);

@@ -85,6 +85,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
   } else {
     filter_ = std::make_unique<HybridFilter>(configuration.filter);
   }
+  if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
   writeStepsHeader(steps_.stream());
   if (configuration.run.particlesEvery > 0)
     writeParticlesHeader(particles_.emplace(folder_.path("particles.csv")).stream());
@@ -95,10 +96,12 @@ FilterRun::~FilterRun() = default;
 bool FilterRun::process(const readings::Reading& reading) {
   const auto stepStart = Clock::now();
   const size_t before = filter_->updates();
-  filter_->process(reading.motion, reading.scans);
+  const mrpt::math::TPose2D motion =
+      scanOdometry_ ? scanOdometry_->motionTo(reading.scans, reading.timestamp) : reading.motion;
+  filter_->process(motion, reading.scans);
 
   ++scans_;
-  recorder_.add(reading.timestamp, reading.motion, filter_->updates());
+  recorder_.add(reading.timestamp, motion, filter_->updates());
   uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
   if (uses_.back() != Use::update) return false;
   updateTimes_.push_back(reading.timestamp);

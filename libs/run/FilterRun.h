@@ -17,6 +17,7 @@
 #include "run/TrajectoryRecorder.h"
 #include "run/Verdict.h"
 #include "slam/filter/Filter.h"
+#include "slam/filter/ScanOdometry.h"
 
 namespace hybrid_slam::run {
 
@@ -76,6 +77,7 @@ class FilterRun {
   Clock::time_point start_;
   files::OutputFolder folder_;
   std::unique_ptr<Filter> filter_;
+  std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;

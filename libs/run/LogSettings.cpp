@@ -127,8 +127,12 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
     }
   }
   LogSettings found;
+  found.hasOdometry = log.hasActions || log.hasOdometryReadings;
   for (const auto& [label, text] : lasers) found.lasers.push_back(text);
   found.settings = updates(steps);
+  if (!log.hasMotion)
+    found.settings.push_back(
+        {"input", "require_odometry", "false", "no odometry: motion is predicted from the previous steps"});
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
   return found;
 }
@@ -138,6 +142,9 @@ std::vector<std::string> applyLogSettings(const LogSettings& log, Configuration&
   for (const auto& [section, key, value, reason] : log.settings)
     if (configuration.setDefault(section, key, value))
       lines.push_back(section + "." + key + " = " + value + ": " + reason);
+  if (!log.hasOdometry && configuration.input.requireOdometry)
+    throw InputError("no odometry", "section [input], key `require_odometry`",
+                     "expected a log with odometry, or require_odometry = false");
   return lines;
 }
 

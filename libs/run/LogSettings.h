@@ -17,6 +17,7 @@ struct LogSetting {
 
 /// What the first 2,000 readings of a log show.
 struct LogSettings {
+  bool hasOdometry = false;
   std::vector<std::string> lasers;  ///< one line each: beams, spacing, place on the robot
   std::vector<LogSetting> settings;
 };
@@ -27,6 +28,7 @@ struct LogSettings {
 /// - `line_weight.sigma_deg`: 0.5 where ranges are logged in steps of 1 cm, else 0.4.
 /// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot where scans are
 ///   sparse, for lack of overlap; else 0.1 m and 5 deg.
+/// - `input.require_odometry`: false where odometry is missing or never changes.
 ///
 /// @param log  summary of the file
 LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,
@@ -34,6 +36,7 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
 
 /// Applies the settings that neither the INI file nor the command line sets.
 /// @return one line for each laser and each applied setting
+/// @throws InputError if odometry is required explicitly and the log has none
 std::vector<std::string> applyLogSettings(const LogSettings& log, Configuration& configuration);
 
 }  // namespace hybrid_slam::run

@@ -91,6 +91,22 @@ TEST_F(LogSettingsTest, SparseScansAreAllUsed) {
   EXPECT_EQ(valueOf("improved_proposal.update_angle_deg", asItIs, 10), "1");
 }
 
+TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
+  const auto usesOdometry = [this](const std::function<test::TPose2D(size_t)>& odometry) {
+    test::Log log;
+    for (size_t i = 0; i < 4; ++i) {
+      log.push_back(test::odometry(1. + static_cast<double>(i), odometry(i)));
+      log.push_back(test::scan(1. + static_cast<double>(i)));
+    }
+    const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
+    Configuration c("", {});
+    applyLogSettings(readLogSettings(file, {}, readings::summarise(file, {})), c);
+    return c.input.requireOdometry;
+  };
+  EXPECT_FALSE(usesOdometry([](size_t) { return test::TPose2D(1, 2, 3); }));
+  EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(i == 3 ? 0.01 : 0, 0, 0); }));
+}
+
 TEST_F(LogSettingsTest, DescribesTheLaser) {
   EXPECT_THAT(read(asItIs, 180).lasers,
               ElementsAre(HasSubstr("laser LASER: 180 beams every 1.006 deg, at x 0.00 m")));

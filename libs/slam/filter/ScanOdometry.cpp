@@ -1,0 +1,86 @@
+#include "slam/filter/ScanOdometry.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/grid/CorrelativeSearch.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kStdXY = 0.1, kStdPhi = mrpt::DEG2RAD(10.0);  // of the prediction
+constexpr SearchWindow kWindow{0.4, mrpt::DEG2RAD(30.0)};
+constexpr size_t kPlaces = 4;    // starting points of the local optimisation
+constexpr double kMinFit = 0.1;  // good matches fit 0.2 to 0.7
+constexpr size_t kKeyframes = 20;
+constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
+
+FilterConfiguration withoutLines(FilterConfiguration configuration) {
+  configuration.useLines = false;
+  return configuration;
+}
+
+/// A few scans must show walls and free space as clearly as the many of the filter's map.
+GridOptions decisive(GridOptions options) {
+  options.pHit = 0.9;
+  options.pMiss = 0.4;
+  return options;
+}
+
+}  // namespace
+
+ScanOdometry::ScanOdometry(const FilterConfiguration& c)
+    : grid_(decisive(c.grid)), prepare_(withoutLines(c)), matcher_(c.matcher), map_(c.grid.resolution) {}
+
+TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
+  const PreparedScan scan = prepare_(observed);
+  const TPose2D before = pose_;
+  const double duration = timestamp - lastTime_;
+  pose_ = before + predicted(duration);
+  const ScanMatch found = match(scan.matchedBeams, pose_);
+  const bool fits = found.fit >= kMinFit;
+  if (fits)
+    pose_ = found.pose;
+  else
+    keyframes_.clear();
+  const TPose2D moved = keyframes_.empty() ? TPose2D() : pose_ - keyframes_.back().pose;
+  if (keyframes_.empty() || moved.norm() > kKeyDistance || std::abs(moved.phi) > kKeyAngle)
+    addKeyframe(scan.beams);
+  const TPose2D motion = pose_ - before;
+  lastMotion_ = fits ? motion : TPose2D();
+  lastDuration_ = duration;
+  lastTime_ = timestamp;
+  return motion;
+}
+
+TPose2D ScanOdometry::predicted(double duration) const {
+  // A robot may stop during a gap in the log: never more than the last motion.
+  const double scale = duration > 0 && lastDuration_ > 0 ? std::min(duration / lastDuration_, 1.0) : 1;
+  return {scale * lastMotion_.x, scale * lastMotion_.y, scale * lastMotion_.phi};
+}
+
+ScanMatch ScanOdometry::match(const ScanBeams& beams, const TPose2D& expected) const {
+  const Eigen::Vector3d deviations(kStdXY, kStdXY, kStdPhi);
+  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+  const Prior prior = [&](const TPose2D& pose) { return gaussianLogDensity(pose, expected, information); };
+  ScanMatch best = matcher_.match(beams, expected, map_, prior);
+  for (const TPose2D& place : correlativeSearch(beams, expected, map_, kWindow, kPlaces)) {
+    const ScanMatch match = matcher_.match(beams, place, map_, prior);
+    if (match.logPosterior > best.logPosterior) best = match;
+  }
+  return best;
+}
+
+void ScanOdometry::addKeyframe(const ScanBeams& beams) {
+  keyframes_.push_back({beams, pose_});
+  if (keyframes_.size() > kKeyframes) keyframes_.pop_front();
+  map_ = OccupancyGrid(grid_.resolution);
+  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, grid_);
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,45 @@
+/// @file ScanOdometry.h
+/// @brief The robot's motion from its scans, where there is no odometry.
+#pragma once
+
+#include <deque>
+
+#include "slam/filter/PreparedScan.h"
+#include "slam/grid/OccupancyGrid.h"
+#include "slam/grid/ScanMatcher.h"
+
+namespace hybrid_slam {
+
+/// Matches each scan to a local map of the scans before, around the pose that the motion of the last step
+/// predicts. Where the scan says nothing, as along a corridor, the prediction remains.
+///
+/// The map holds the last few keyframes, so that a robot that stands still does not drift. A scan that does
+/// not fit starts a new map; the filter's slip recovery then has to find this step.
+class ScanOdometry {
+ public:
+  explicit ScanOdometry(const FilterConfiguration& configuration);
+
+  /// The motion since the previous scans, in the robot frame then (m, rad). Zero for the first scans.
+  /// @param timestamp  s; a shorter step than the last is predicted to be shorter in proportion
+  mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp);
+
+ private:
+  mrpt::math::TPose2D predicted(double duration) const;
+  struct Keyframe {
+    ScanBeams beams;
+    mrpt::math::TPose2D pose;
+  };
+  ScanMatch match(const ScanBeams& beams, const mrpt::math::TPose2D& expected) const;
+  void addKeyframe(const ScanBeams& beams);
+
+  GridOptions grid_;
+  ScanPreparation prepare_;
+  ScanMatcher matcher_;
+  std::deque<Keyframe> keyframes_;
+  OccupancyGrid map_;         ///< of the keyframes
+  mrpt::math::TPose2D pose_;  ///< frame of the first scan
+  mrpt::math::TPose2D lastMotion_;
+  double lastDuration_ = 0, lastTime_ = 0;  ///< s
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,63 @@
+#include "slam/filter/ScanOdometry.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// The pose after each of these true poses, relative to the first.
+std::vector<TPose2D> tracked(const std::vector<TPose2D>& truth) {
+  ScanOdometry odometry{FilterConfiguration()};
+  std::vector<TPose2D> poses;
+  for (const TPose2D& pose : truth)
+    poses.push_back((poses.empty() ? TPose2D() : poses.back()) +
+                    odometry.motionTo({test::scan(1, pose)}, static_cast<double>(poses.size())));
+  return poses;
+}
+
+void expectTracked(const std::vector<TPose2D>& truth) {
+  const std::vector<TPose2D> poses = tracked(truth);
+  for (size_t i = 0; i < truth.size(); ++i) {
+    const TPose2D error = poses[i] - (truth[i] - truth[0]);
+    EXPECT_LT(error.norm(), 0.1) << i;
+    EXPECT_LT(std::abs(error.phi), 0.03) << i;
+  }
+}
+
+TEST(ScanOdometry, ALap) {
+  std::vector<TPose2D> lap;
+  for (size_t i = 0; i < 80; ++i) lap.push_back(test::poseOnLap(i, 80));
+  expectTracked(lap);
+}
+
+TEST(ScanOdometry, ARobotThatStopsAndStarts) {
+  std::vector<TPose2D> poses;
+  for (size_t i = 0; i < 20; ++i)
+    for (size_t k = 0; k < (i % 5 == 0 ? 5 : 1); ++k) poses.push_back(test::poseOnLap(2 * i, 80));
+  expectTracked(poses);
+}
+
+TEST(ScanOdometry, AStandingRobotDoesNotDrift) {
+  const auto poses = tracked(std::vector<TPose2D>(50, test::poseOnLap(7, 80)));
+  EXPECT_LT(poses.back().norm(), 0.02);
+}
+
+TEST(ScanOdometry, GoesOnAfterScansWithoutReturns) {
+  ScanOdometry odometry{FilterConfiguration()};
+  const auto blind = test::scan(1);
+  for (size_t i = 0; i < blind->getScanSize(); ++i) blind->setScanRangeValidity(i, false);
+  for (size_t i = 0; i < 10; ++i)
+    odometry.motionTo({test::scan(1, test::poseOnLap(i, 80))}, static_cast<double>(i));
+  EXPECT_LT(odometry.motionTo({blind}, 10).norm(), 0.2) << "the prediction";
+  EXPECT_EQ(odometry.motionTo({blind}, 11), TPose2D()) << "only once";
+  odometry.motionTo({test::scan(1, test::poseOnLap(20, 80))}, 12);
+  const TPose2D truth = test::poseOnLap(21, 80) - test::poseOnLap(20, 80);
+  EXPECT_LT((odometry.motionTo({test::scan(1, test::poseOnLap(21, 80))}, 13) - truth).norm(), 0.05);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
