@@ -46,6 +46,22 @@ TEST(ScanOdometry, AStandingRobotDoesNotDrift) {
   EXPECT_LT(poses.back().norm(), 0.02);
 }
 
+/// Without beams the prediction remains.
+TEST(ScanOdometry, AShorterStepIsPredictedInProportionALongerOneIsNot) {
+  const auto predicted = [](double duration) {
+    ScanOdometry odometry{FilterConfiguration()};
+    TPose2D last;
+    for (int i = 0; i < 10; ++i)
+      last = odometry.motionTo({test::scan(1, test::poseOnLap(static_cast<size_t>(i), 80))}, i);
+    const auto blind = test::scan(1);
+    for (size_t k = 0; k < blind->getScanSize(); ++k) blind->setScanRangeValidity(k, false);
+    return odometry.motionTo({blind}, 9 + duration).norm() / last.norm();
+  };
+  EXPECT_NEAR(predicted(0.5), 0.5, 1e-6);
+  EXPECT_NEAR(predicted(5), 1, 1e-6);
+  EXPECT_NEAR(predicted(-1), 1, 1e-6) << "timestamps step back";
+}
+
 TEST(ScanOdometry, GoesOnAfterScansWithoutReturns) {
   ScanOdometry odometry{FilterConfiguration()};
   const auto blind = test::scan(1);
