@@ -18,6 +18,7 @@
 #include "slam/filter/Refinement.h"
 #include "slam/filter/StockMapBuilder.h"
 #include "slam/grid/GridConversion.h"
+#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -141,11 +142,16 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
-    for (const LoopClosure& loop :
-         closeLoops(result.path, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter))
-      note(loop);
-    result.trajectory = recorder_.trajectory(result.path);
-    for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
+    std::vector<mrpt::math::TPose2D> closed = result.path;
+    const auto loops =
+        closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
+    // A false loop puts walls into free space.
+    if (!loops.empty() && contradictedShare(closed, ofUpdates) < contradictedShare(result.path, ofUpdates)) {
+      for (const LoopClosure& loop : loops) note(loop);
+      result.path = std::move(closed);
+      result.trajectory = recorder_.trajectory(result.path);
+      for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
+    }
   }
   refine(scans, configuration_.filter, configuration_.run.refine);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {

@@ -24,7 +24,7 @@ struct ParticleFilterOptions : Options {
   enum class Proposal { standard, improved, auxiliaryStandard, auxiliaryOptimal };
 
   int particles = 0;  ///< 0: adaptive
-  int minParticles = 8, maxParticles = 40;
+  int minParticles = 10, maxParticles = 40;
   Proposal proposal = Proposal::improved;
   mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
       mrpt::bayes::CParticleFilter::prSystematic;

@@ -58,6 +58,21 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   waiting_.push_back({pose, beams, distance});
 }
 
+double contradictedShare(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
+  RevisitCheck check(20);
+  double distance = 0;
+  for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
+    if (i > 0) distance += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+    check.add(path[i], beamsToCompare(toLaserScans(scans[i], RevisitCheck::kRange)), distance, i);
+  }
+  double compared = 0, contradicted = 0;
+  for (const Revisit& revisit : check.revisits()) {
+    compared += static_cast<double>(revisit.compared);
+    contradicted += static_cast<double>(revisit.contradicted);
+  }
+  return compared > 0 ? contradicted / compared : 0;
+}
+
 ScanBeams beamsToCompare(const LaserScans& scans) {
   ScanBeams beams(scans);
   const size_t every = (beams.rays.size() + kBeams - 1) / kBeams;
