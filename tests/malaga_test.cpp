@@ -55,7 +55,8 @@ class Malaga : public testing::Test {
 /// 0.56-0.69.
 TEST_F(Malaga, EndsAtTheRecordedPose) {
   for (const int seed : {1, 2, 3}) {
-    const files::Trajectory trajectory = run("-p standard -n 50 --set run.refine=0 -s " + std::to_string(seed));
+    const files::Trajectory trajectory =
+        run("-p standard -n 50 --set run.refine=0 -s " + std::to_string(seed));
     ASSERT_EQ(trajectory.size(), 225u);
     const auto& end = trajectory.back().pose;
     EXPECT_NEAR(end.x, 4.15, 0.25) << "seed " << seed;
