@@ -33,7 +33,7 @@ void track(PointRange run, const SegmentationOptions& options, std::vector<Point
   }
 }
 
-std::vector<LineSegment> extract(const LaserScan& scan, const LineExtractionOptions& options) {
+std::vector<LineSegment> extractByTracking(const LaserScan& scan, const LineExtractionOptions& options) {
   const SegmentedScan segmented(scan, options.segmentation);
   std::vector<PointRange> pieces;
   for (const PointRange& run : segmented.runs()) track(run, options.segmentation, pieces);
@@ -43,6 +43,6 @@ std::vector<LineSegment> extract(const LaserScan& scan, const LineExtractionOpti
 }  // namespace
 
 const LineExtractor kIncrementalExtractor{"incremental", "a line grows while the next point lies on it",
-                                          extract};
+                                          extractByTracking};
 
 }  // namespace hybrid_slam

@@ -5,7 +5,7 @@
 namespace hybrid_slam {
 namespace {
 
-std::vector<LineSegment> extract(const LaserScan& scan, const LineExtractionOptions& options) {
+std::vector<LineSegment> extractBySplitting(const LaserScan& scan, const LineExtractionOptions& options) {
   const SegmentedScan segmented(scan, options.segmentation);
   std::vector<PointRange> pieces = segmented.runs();
   if (options.segmentation.split) {
@@ -18,6 +18,7 @@ std::vector<LineSegment> extract(const LaserScan& scan, const LineExtractionOpti
 
 }  // namespace
 
-const LineExtractor kSplitExtractor{"split", "the paper's, and segments split at corners", extract};
+const LineExtractor kSplitExtractor{"split", "the paper's, and segments split at corners",
+                                    extractBySplitting};
 
 }  // namespace hybrid_slam
