@@ -44,7 +44,7 @@ struct RawlogReader::Stream {
 };
 
 RawlogReader::RawlogReader(const std::string& file) : file_(file) {
-  const std::string expected = "expected a readable rawlog file";
+  const std::string expected = "expected a readable log";
   if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
   if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
   stream_.reset(new Stream{{{gzopen(file.c_str(), "rb"), gzclose_r}}});

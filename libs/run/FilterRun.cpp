@@ -146,7 +146,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     const auto loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
-    if (!loops.empty() && contradictedShare(closed, ofUpdates) < contradictedShare(result.path, ofUpdates)) {
+    if (!loops.empty() && contradictionOf(closed, ofUpdates) < contradictionOf(result.path, ofUpdates)) {
       for (const LoopClosure& loop : loops) note(loop);
       result.path = std::move(closed);
       result.trajectory = recorder_.trajectory(result.path);

@@ -17,7 +17,7 @@ namespace {
 constexpr double square(double x) { return x * x; }
 constexpr double kDegree = M_PI / 180;
 
-// Calibrated on simulated logs, seeds from 101 on: doc/verdict.md.
+// From simulated logs without loop closing; too large for the present filter: doc/verdict.md.
 constexpr double kDrift = 0.04, kDriftAngle = 0.05 * kDegree;         // per sqrt(m), with lines
 constexpr double kOpenDrift = 0.1, kOpenDriftAngle = 0.15 * kDegree;  // without lines
 constexpr double kMatch = 0.01, kMatchAngle = 0.1 * kDegree;          // of a scan match

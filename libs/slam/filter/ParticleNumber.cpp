@@ -9,14 +9,14 @@
 
 namespace hybrid_slam {
 
-double kldParticles(double bins, const ParticleNumberOptions& options) {
+double kldParticles(double bins) {
   const double k = bins - 1;
   if (k <= 0) return 1;
   const double a = 2 / (9 * k);
-  return k / (2 * options.error) * std::pow(std::max(0.0, 1 - a + std::sqrt(a) * options.quantile), 3);
+  return k / (2 * kDivergence) * std::pow(std::max(0.0, 1 - a + std::sqrt(a) * kQuantile), 3);
 }
 
-double occupiedBins(const std::vector<WeightedPose>& particles, const ParticleNumberOptions& options) {
+double occupiedBins(const std::vector<WeightedPose>& particles) {
   // Around the best particle, so that one narrow cloud is one bin wherever it stands.
   const WeightedPose best = *std::max_element(
       particles.begin(), particles.end(),
@@ -25,9 +25,8 @@ double occupiedBins(const std::vector<WeightedPose>& particles, const ParticleNu
   double sum = 0;
   for (const auto& [pose, logWeight] : particles) {
     const double weight = std::exp(logWeight - best.logWeight);
-    weights[{std::lround((pose.x - best.pose.x) / options.binSize),
-             std::lround((pose.y - best.pose.y) / options.binSize),
-             std::lround(mrpt::math::wrapToPi(pose.phi - best.pose.phi) / options.binAngle)}] += weight;
+    weights[{std::lround((pose.x - best.pose.x) / kBinSize), std::lround((pose.y - best.pose.y) / kBinSize),
+             std::lround(mrpt::math::wrapToPi(pose.phi - best.pose.phi) / kBinAngle)}] += weight;
     sum += weight;
   }
   double entropy = 0;

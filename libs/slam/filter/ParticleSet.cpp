@@ -207,7 +207,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
 
 size_t ParticleSet::particlesNeeded() const {
   if (!filter_.isAdaptive()) return m_particles.size();
-  const double needed = kldParticles(occupiedBins(poses(), {}), {});
+  const double needed = kldParticles(occupiedBins(step_.poses));
   return static_cast<size_t>(
       std::clamp(std::ceil(needed), 1.0 * filter_.minParticles, 1.0 * filter_.maxParticles));
 }

@@ -164,7 +164,7 @@ TEST(Resampling, MrptLeavesTheWeightsAsTheyWere) {
   for (const auto& particle : particles.m_particles) EXPECT_EQ(particle.log_w, -*particle.d);
 }
 
-/// Every particle gets floor or ceil of its share, whatever the number before and after.
+/// The number of copies of a particle is its expected number rounded down or up, for any number of draws.
 TEST(SystematicResampling, ToAnyNumber) {
   RandomStream random(3, 0, 0);
   for (const auto& weights : weightSets())

@@ -29,12 +29,7 @@ const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 /// The headings at which the walls in the scan are parallel or perpendicular to those of the map; empty if
 /// either has no dominating direction.
 std::vector<double> alignedHeadings(const std::vector<LineSegment>& seen, const LineDatabase& database) {
-  std::vector<DatabaseLine> lines;
-  for (const LineSegment& line : seen) {
-    lines.emplace_back();
-    static_cast<LineSegment&>(lines.back()) = line;
-  }
-  const auto scan = directionModuloRightAngle(lines), map = database.dominatingDirection();
+  const auto scan = directionModuloRightAngle(seen), map = database.dominatingDirection();
   if (!scan || !map) return {};
   return {*map - *scan, *map - *scan + M_PI / 2, *map - *scan + M_PI, *map - *scan - M_PI / 2};
 }
@@ -75,6 +70,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
       hypotheses = searchWindow({options_.slipDistance, M_PI}, best, expected, usual, scan);
     if (isContradicted()) {
       contradicting_.push_back({odometry, scan.matchedBeams});
+      if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
       const auto elsewhere = searchMap(best, scan);
       if (!elsewhere.empty()) hypotheses = elsewhere;
     } else {

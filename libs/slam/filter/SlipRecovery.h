@@ -2,6 +2,9 @@
 /// @brief Detects that the odometry is wrong, and finds where the robot may be.
 #pragma once
 
+#include <deque>
+#include <vector>
+
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/Particle.h"
 #include "slam/filter/PreparedScan.h"
@@ -44,7 +47,7 @@ class SlipRecovery {
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
-  /// Whether all contradicting scans fit the map if the newest was taken at `pose`.
+  /// Whether the contradicting scans fit the map if the newest was taken at `pose`.
   bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;
   double logWeight(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
 
@@ -57,8 +60,8 @@ class SlipRecovery {
     mrpt::math::TPose2D odometry;  ///< since the one before
     ScanBeams beams;
   };
-  std::vector<TakenScan> contradicting_;  ///< successive scans that contradict the map
-  double usualFit_ = 0;                   ///< running mean of the fit, recent scans weighted most
+  std::deque<TakenScan> contradicting_;  ///< the newest successive scans that contradict the map
+  double usualFit_ = 0;                  ///< running mean of the fit, recent scans weighted most
 };
 
 /// The motion model's distribution of the pose after a step; after a slip, as wide as the search window

@@ -18,6 +18,11 @@ constexpr double kStepAngle = 2 * M_PI / 180, kWindow = 6 * M_PI / 180;
 constexpr size_t kMostBeams = 60;
 constexpr double kApart = 0.5, kApartAngle = 10 * M_PI / 180;  // of two poses
 
+/// The value of a cell with this occupancy.
+double logOdds(double occupancy) {
+  return std::log(occupancy / (1 - occupancy)) / OccupancyGrid::kLogOddsScale;
+}
+
 /// The map in cells of kStep: where free, and where there is a wall in the cell (2) or a neighbour (1).
 class CoarseMap {
  public:
@@ -31,8 +36,7 @@ class CoarseMap {
     wall_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
     free_ = wall_;
     TileReader reader(grid.tiles());
-    const auto limit = [](double p) { return std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale; };
-    const double wall = limit(kWall), free = limit(kFree);
+    const double wall = logOdds(kWall), free = logOdds(kFree);
     for (int y = box.min.y; y <= box.max.y; ++y)
       for (int x = box.min.x; x <= box.max.x; ++x) {
         const double value = reader.at(x, y);
@@ -85,7 +89,9 @@ std::vector<double> lattice(const std::vector<double>& headings) {
 double contradictedShare(const ScanBeams& scan, const TPose2D& robot, const OccupancyGrid& grid) {
   const GridPose frame(robot, scan, grid.resolution());
   const int near = static_cast<int>(std::lround(0.15 / grid.resolution()));
-  const double stop = 0.3 / grid.resolution();  // cells before the end that prove nothing
+  const double stop = 0.3 / grid.resolution();  // cells at both ends that prove nothing
+  const double solid = logOdds(0.8), wall = logOdds(kWall), free = logOdds(0.3);
+  TileReader reader(grid.tiles());
   size_t contradicted = 0;
   for (const ScanBeams::Ray& ray : scan.rays) {
     const double range = ray.range / grid.resolution(), dx = frame.dirX(ray), dy = frame.dirY(ray);
@@ -93,14 +99,15 @@ double contradictedShare(const ScanBeams& scan, const TPose2D& robot, const Occu
       return CellIndex{static_cast<int>(std::floor(frame.origin(ray).x + distance * dx)),
                        static_cast<int>(std::floor(frame.origin(ray).y + distance * dy))};
     };
+    const auto valueAt = [&](const CellIndex& cell) { return reader.at(cell.x, cell.y); };
     bool isThrough = false;
     for (double distance = stop; distance < range - stop && !isThrough; distance += 1)
-      isThrough = grid.occupancy(cellAt(distance)) > 0.8;
-    bool endsInTheFree = grid.occupancy(cellAt(range)) < 0.3;
+      isThrough = valueAt(cellAt(distance)) > solid;
     const CellIndex end = cellAt(range);
+    bool endsInTheFree = !isThrough && valueAt(end) < free;
     for (int j = -near; j <= near && endsInTheFree; ++j)
       for (int i = -near; i <= near && endsInTheFree; ++i)
-        endsInTheFree = grid.occupancy({end.x + i, end.y + j}) < kWall;
+        endsInTheFree = valueAt({end.x + i, end.y + j}) < wall;
     contradicted += isThrough || endsInTheFree;
   }
   return scan.rays.empty() ? 0 : static_cast<double>(contradicted) / static_cast<double>(scan.rays.size());

@@ -31,6 +31,16 @@ std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>&
   return std::atan2(sine, cosine) / 4;
 }
 
+std::optional<double> directionModuloRightAngle(const std::vector<LineSegment>& seen) {
+  std::vector<DatabaseLine> lines(seen.size());
+  std::transform(seen.begin(), seen.end(), lines.begin(), [](const LineSegment& segment) {
+    DatabaseLine line;
+    static_cast<LineSegment&>(line) = segment;
+    return line;
+  });
+  return directionModuloRightAngle(lines);
+}
+
 double wrapToRightAngle(double angle) { return std::remainder(angle, M_PI / 2); }
 
 void setDirections(std::vector<DatabaseLine>& lines, double window) {

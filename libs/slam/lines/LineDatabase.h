@@ -50,6 +50,8 @@ double evidence(const DatabaseLine& line);
 /// atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Empty if there is no line or
 /// no dominating direction.
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines);
+/// The same for observed lines, which count once each.
+std::optional<double> directionModuloRightAngle(const std::vector<LineSegment>& seen);
 
 /// The angle modulo 90 deg, rad in [-pi/4, pi/4].
 double wrapToRightAngle(double angle);

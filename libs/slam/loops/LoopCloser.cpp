@@ -32,15 +32,10 @@ double angleOf(const TPose2D& a, const TPose2D& b) { return std::abs(mrpt::math:
 
 /// The direction of the walls in the lines of a scan, modulo 90 deg.
 std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
-  std::vector<DatabaseLine> all;
   double length = 0;
-  for (const LineSegment& line : lines) {
-    all.emplace_back();
-    static_cast<LineSegment&>(all.back()) = line;
-    length += line.length;
-  }
+  for (const LineSegment& line : lines) length += line.length;
   if (length < 3) return std::nullopt;
-  return directionModuloRightAngle(all);
+  return directionModuloRightAngle(lines);
 }
 
 /// Inverse of the covariance of a match, at least 5 cm and 0.5 deg. The matcher's information is tempered:

@@ -58,7 +58,7 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   waiting_.push_back({pose, beams, distance});
 }
 
-double contradictedShare(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
+double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
   RevisitCheck check(20);
   double distance = 0;
   for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {

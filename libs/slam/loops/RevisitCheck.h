@@ -52,7 +52,7 @@ class RevisitCheck {
 /// Share of the compared beams that contradict what was mapped 20 m of path before; 0 without any.
 /// @param path   a pose for each update, map frame
 /// @param scans  of each update; those of the last ones may be missing
-double contradictedShare(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);
+double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);
 
 /// At most 90 of the beams.
 ScanBeams beamsToCompare(const LaserScans& scans);
