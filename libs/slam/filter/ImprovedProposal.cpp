@@ -67,7 +67,8 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   }
 
   // Normal approximation at the maximum and its square root for sampling: covariance = root root^T.
-  const Eigen::LLT<Eigen::Matrix3d> factor(match.information);
+  const Eigen::LLT<Eigen::Matrix3d> factor(scanInformation(likelihood, match.pose) +
+                                           prior(match.pose).information);
   const Eigen::Matrix3d root = factor.matrixU().solve(Eigen::Matrix3d::Identity());
   const double logVolume = root.diagonal().array().abs().log().sum();
 

@@ -105,8 +105,8 @@ void ParticleSet::sampleAndWeigh(const TPose2D& odometry, const PreparedScan& sc
   const StageTimer timer(profiler_, "3 sample, weigh");
   proposeAndWeigh(odometry, scan);
   const Particle& bestParticle = best();
-  step_.degeneracy =
-      degeneracy(matcher_.information(scan.matchedBeams, bestParticle.path.back(), bestParticle.grid));
+  ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, bestParticle.grid);
+  step_.degeneracy = degeneracy(scanInformation(likelihood, bestParticle.path.back()));
 }
 
 void ParticleSet::proposeAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {

@@ -14,15 +14,16 @@ ScanPreparation::ScanPreparation(const FilterConfiguration& c)
 PreparedScan ScanPreparation::operator()(const Scans& observed) const {
   const LaserScans scans = toLaserScans(observed, maxRange_);
   const BeamSelection selection(scans);
-  PreparedScan prepared{scans,
-                        ScanBeams(scans),
-                        ScanBeams(scans, selection.take(weighedBeams_)),
-                        ScanBeams(scans, selection.take(matchedBeams_)),
-                        {}};
-  if (useLines_)
-    for (const LaserScan& scan : scans)
-      for (const LineSegment& line : extractLines(scan, lineExtraction_)) prepared.lines.push_back(line);
-  return prepared;
+  return {scans, ScanBeams(scans), ScanBeams(scans, selection.take(weighedBeams_)),
+          ScanBeams(scans, selection.take(matchedBeams_)), lines(scans)};
+}
+
+std::vector<LineSegment> ScanPreparation::lines(const LaserScans& scans) const {
+  std::vector<LineSegment> all;
+  if (!useLines_) return all;
+  for (const LaserScan& scan : scans)
+    for (const LineSegment& line : extractLines(scan, lineExtraction_)) all.push_back(line);
+  return all;
 }
 
 }  // namespace hybrid_slam

@@ -25,6 +25,8 @@ class ScanPreparation {
  public:
   explicit ScanPreparation(const FilterConfiguration& configuration);
   PreparedScan operator()(const Scans& observed) const;
+  /// Only the lines, robot frame; empty if lines are off.
+  std::vector<LineSegment> lines(const LaserScans& scans) const;
 
  private:
   double maxRange_;

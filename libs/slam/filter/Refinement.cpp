@@ -30,8 +30,8 @@ ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& c
   ScanMap map{gridOf(scans, configuration.grid), {}};
   for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
-    std::vector<LineSegment> lines;
-    for (const LineSegment& line : prepare(posed.scans).lines) lines.push_back(transformed(line, posed.pose));
+    std::vector<LineSegment> lines = prepare.lines(toLaserScans(posed.scans, configuration.grid.maxRange));
+    for (LineSegment& line : lines) line = transformed(line, posed.pose);
     map.lines.update(lines, configuration.database, configuration.association);
   }
   return map;
@@ -44,8 +44,8 @@ std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vecto
   LoopCloser closer(configuration.loopClosing, configuration.grid);
   std::vector<LoopClosure> closures;
   for (size_t i = 0; i < scans.size(); ++i) {
-    const PreparedScan scan = prepare(scans[i]);
-    closer.add(i > 0 ? path[i] - path[i - 1] : TPose2D(), scan.scans, scan.lines, false);
+    const LaserScans seen = toLaserScans(scans[i], configuration.grid.maxRange);
+    closer.add(i > 0 ? path[i] - path[i - 1] : TPose2D(), seen, prepare.lines(seen), false);
     if (!closer.isDue()) continue;
     auto closure = closer.close(path, direction);
     if (!closure) continue;

@@ -40,12 +40,7 @@ ScanLikelihood ScanMatcher::likelihood(const ScanBeams& scan, const OccupancyGri
   return ScanLikelihood(scan, grid, options_.sigma);
 }
 
-namespace {
-
-/// Minus the second derivative of the log-likelihood, negative part removed, from gradients 1.5 cells (3/4
-/// deg) to either side. The Gauss-Newton matrix would count the roughness of a sparsely hit wall as
-/// information along it, and is zero on the ridge of a wall.
-Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
+Eigen::Matrix3d scanInformation(ScanLikelihood& likelihood, const TPose2D& pose) {
   const double cells = 1.5 * likelihood.resolution();
   const Eigen::Vector3d reach(cells, cells, mrpt::DEG2RAD(0.75));
   Eigen::Matrix3d bend;
@@ -58,8 +53,6 @@ Eigen::Matrix3d curvature(ScanLikelihood& likelihood, const TPose2D& pose) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);
   return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
 }
-
-}  // namespace
 
 ScanMatch ScanMatcher::match(const ScanBeams& scan, const TPose2D& start, const OccupancyGrid& grid,
                              const Prior& prior) const {
@@ -94,15 +87,8 @@ ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, c
   ScanMatch match;
   match.pose = pose;
   match.logPosterior = here.value;
-  match.information = curvature(likelihood, match.pose) + prior(match.pose).information;
   match.fit = likelihood.fit(match.pose);
   return match;
-}
-
-Eigen::Matrix3d ScanMatcher::information(const ScanBeams& scan, const TPose2D& pose,
-                                         const OccupancyGrid& grid) const {
-  ScanLikelihood on = likelihood(scan, grid);
-  return curvature(on, pose);
 }
 
 double degeneracy(const Eigen::Matrix3d& information) {

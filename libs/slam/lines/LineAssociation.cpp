@@ -18,7 +18,7 @@ void AssociationOptions::describe(OptionTable& table) {
 
 LineDifference difference(const LineSegment& segment, const LineSegment& reference) {
   LineDifference result;
-  result.theta = std::remainder(segment.theta - reference.theta, M_PI);
+  result.theta = halfTurnDifference(segment.theta, reference.theta);
   result.rho = signedDistance(middle(segment), reference.rho, reference.theta);
 
   const double alongX = -std::sin(reference.theta), alongY = std::cos(reference.theta);
@@ -31,6 +31,8 @@ LineDifference difference(const LineSegment& segment, const LineSegment& referen
 
 std::optional<double> matchDistance(const LineSegment& segment, const LineSegment& reference,
                                     const AssociationOptions& options) {
+  // Most lines of a database have another direction: the cheap test first.
+  if (std::abs(halfTurnDifference(segment.theta, reference.theta)) > options.maxTheta) return std::nullopt;
   const LineDifference d = difference(segment, reference);
   if (std::abs(d.rho) > options.maxRho || std::abs(d.theta) > options.maxTheta ||
       d.overlap < options.minOverlap)

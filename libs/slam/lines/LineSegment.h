@@ -4,6 +4,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include <cmath>
+
 namespace mrpt::math {
 struct TPose2D;
 }
@@ -32,6 +34,17 @@ LineSegment transformed(const LineSegment& segment, const mrpt::math::TPose2D& f
 
 /// Normalises to rho >= 0 and theta in (-pi, pi]: (rho, theta) and (-rho, theta + pi) are the same line.
 void normalise(double& rho, double& theta);
+
+/// a - b modulo 180 deg, rad in [-pi/2, pi/2]: std::remainder(a - b, pi), faster for angles within half a
+/// turn.
+inline double halfTurnDifference(double a, double b) {
+  double d = a - b;
+  if (d > M_PI / 2)
+    d -= M_PI;
+  else if (d < -M_PI / 2)
+    d += M_PI;
+  return std::abs(d) <= M_PI / 2 ? d : std::remainder(d, M_PI);
+}
 
 /// Signed distance (m) of a point from the line, positive on the side of the normal.
 double signedDistance(const mrpt::math::TPoint2D& point, double rho, double theta);

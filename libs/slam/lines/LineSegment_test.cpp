@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/RandomStream.h"
 #include "testing/TestScans.h"
 
 namespace hybrid_slam {
@@ -33,6 +34,14 @@ TEST(LineSegment, HesseNormalFormOfKnownLines) {
       EXPECT_NEAR(s.length, c.length, 1e-12);
       expectConsistent(s, 1e-12);
     }
+}
+
+TEST(LineSegment, HalfTurnDifferenceIsTheRemainder) {
+  RandomStream random(1, 0, 0);
+  for (int i = 0; i < 10000; ++i) {
+    const double a = 10 * random.uniform() - 5, b = 10 * random.uniform() - 5;
+    EXPECT_EQ(halfTurnDifference(a, b), std::remainder(a - b, M_PI)) << a << " - " << b;
+  }
 }
 
 TEST(LineSegment, ThroughTheOriginEitherNormalDescribesTheLine) {

@@ -133,7 +133,7 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
     // The filter has closed it: hold what it found, by its own relative pose.
-    hold(visit, {older.reference, here, expected, edgeInformation(near.information)});
+    hold(visit, {older.reference, here, expected, edgeInformation(informationOf(near.pose, stretch, older))});
     candidates_.clear();
     return Outcome::held;
   }
@@ -150,9 +150,10 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
                             mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
-  remember(visit, {{older.reference, here, best->pose, edgeInformation(best->information)},
-                   best->agreement,
-                   best->second});
+  remember(visit,
+           {{older.reference, here, best->pose, edgeInformation(informationOf(best->pose, stretch, older))},
+            best->agreement,
+            best->second});
   return Outcome::found;
 }
 

@@ -51,13 +51,15 @@ ScanBeams thinned(const ScanBeams& beams) {
   return some;
 }
 
-LoopMatch matched(const TPose2D& start, const ScanBeams& some, const LocalMap& newer, const LocalMap& older) {
+const ScanMatcher& matcher() {
   static const ScanMatcher matcher{ScanMatcherOptions()};
-  const ScanMatch match = matcher.match(some, start, older.grid, [](const TPose2D&) { return LogDensity(); });
+  return matcher;
+}
+
+LoopMatch matched(const TPose2D& start, const ScanBeams& some, const LocalMap& newer, const LocalMap& older) {
   LoopMatch result;
-  result.pose = match.pose;
-  result.information = match.information;
-  result.agreement = agreementOf(newer, older, match.pose);
+  result.pose = matcher().match(some, start, older.grid, [](const TPose2D&) { return LogDensity(); }).pose;
+  result.agreement = agreementOf(newer, older, result.pose);
   return result;
 }
 
@@ -77,6 +79,12 @@ Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const TPose2
   return {static_cast<double>(agreeing) / static_cast<double>(compared),
           static_cast<double>(newOnOld.agreeing + newOnOld.contradicting) /
               static_cast<double>(newer.ends.rays.size())};
+}
+
+Eigen::Matrix3d informationOf(const TPose2D& pose, const LocalMap& newer, const LocalMap& older) {
+  const ScanBeams some = thinned(newer.ends);
+  ScanLikelihood likelihood = matcher().likelihood(some, older.grid);
+  return scanInformation(likelihood, pose);
 }
 
 LoopMatch matchFrom(const TPose2D& start, const LocalMap& newer, const LocalMap& older) {

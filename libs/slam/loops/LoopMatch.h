@@ -19,13 +19,15 @@ struct Agreement {
 };
 
 struct LoopMatch {
-  mrpt::math::TPose2D pose;                               ///< of the newer map's frame in the older's
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `pose`
+  mrpt::math::TPose2D pose;  ///< of the newer map's frame in the older's
   Agreement agreement;
   double second = 0;  ///< highest score elsewhere in the window, as a fraction of this one's
 };
 
 Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const mrpt::math::TPose2D& pose);
+
+/// Information of the beams of the newer map on its pose in the older map.
+Eigen::Matrix3d informationOf(const mrpt::math::TPose2D& pose, const LocalMap& newer, const LocalMap& older);
 
 /// Matches locally, from `start`.
 LoopMatch matchFrom(const mrpt::math::TPose2D& start, const LocalMap& newer, const LocalMap& older);
