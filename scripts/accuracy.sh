@@ -1,55 +1,93 @@
 #!/usr/bin/env bash
-# Tables of doc/accuracy.md: the improved proposal on the public logs and the simulated loop, with and without lines,
-# and MRPT's own RBPF.
+# The default command on every log, and with one part off at a time: runs for the tables of doc/accuracy.md and
+# README.md, which scripts/accuracy-table.py prints.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
-# SEEDS=10 runs per group. Resumes after an interruption.
+# SEEDS=10 runs from FIRST_SEED=1 on of each log and variant, JOBS at a time (all cores). A seed of everything takes about
+# 7 minutes of one core. LOGS and VARIANTS select some. Resumes after an interruption.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/accuracy}
-seeds=${SEEDS:-10}
-logs=${HYBRID_SLAM_DATASETS:?the folder of the public logs, see doc/datasets.md}
+data=${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}
 install_packages "${packages[@]}"
-build release
-bin=build/release/bin
-csie=datasets/csie
-mkdir -p "$out"
-for log in intel-lab csail dpslam-loop5; do
-  [[ -f $out/$log.rawlog ]] || "$bin/log2rawlog" "$logs/$log.clf.gz" "$out/$log.rawlog"
-done
-[[ -f $out/csie-slip.rawlog ]] ||
-  "$bin/simul-floorplan" -q config-ini/simul-csie-loop.ini --set "odometry.slips=120 30 0" -o "$out/csie-slip.rawlog"
+build release hybrid-slam slam-eval simul-floorplan
+bin=$PWD/build/release/bin
+read -ra logs <<<"${LOGS:-intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans
+  csie csie-30 csie-80 csie-170 csie-mixed}"
+read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting no-learning no-refining}"
 
-# revisits FOLDER: revisit errors of runs on DP-SLAM's loop, which has no reference.
-revisits() {
-  local run
-  for run in "$1"/runs/*/; do
-    echo "$(basename "$run"): $("$bin/slam-eval" revisits --distance 8 --trajectory "$run/trajectory.tum" \
-      --rawlog "$out/dpslam-loop5.rawlog" | tr -d '\n')"
-  done | tee "$1/revisits.txt"
+# Slips of the simulated loop: time (s), turn (deg), shift (m).
+slips() {
+  case $1 in
+    csie) ;;
+    csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
+    *) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
+  esac
 }
 
-compare=("$bin/slam-compare" --seeds "$seeds")
-improved=("${compare[@]}" --set particle_filter.proposal=improved --methods hybrid,general)
-intel=(config-ini/lms-logs.ini "$out/intel-lab.rawlog" --relations "$logs/intel-lab.relations"
-  --odometry "$logs/intel-lab.odom.gz")
-csail=(config-ini/lms-logs.ini "$out/csail.rawlog" --relations "$logs/csail-revisit.relations"
-  --reference "$logs/csail.tum")
-loop=(config-ini/csie-lms100.ini $csie/csie-loop.rawlog --reference $csie/csie-loop.tum --floorplan $csie/csie.plan)
+mkdir -p "$out/logs"
+out=$(realpath "$out")
+for log in "${logs[@]}"; do
+  case $log in
+    *-scans)  # without the odometry
+      zcat "$data/${log%-scans}.clf.gz" |
+        awk '$1 == "FLASER" { for (i = $2 + 3; i <= $2 + 8; ++i) $i = 0; print }' | gzip -n >"$out/logs/$log.clf.gz" ;;
+    csie*)
+      [[ -f $out/logs/$log.rawlog ]] ||
+        "$bin/simul-floorplan" -q config-ini/simul-csie-loop.ini --set "odometry.slips=$(slips "$log")" \
+          -o "$out/logs/$log.rawlog" ;;
+    *) ln -sf "$data/$log.clf.gz" "$out/logs" ;;
+  esac
+done
 
-"${improved[@]}" "${intel[@]}" -n 1,5,15 -o "$out/intel"
-"${improved[@]}" "${intel[@]}" -n 5 --set run.refine=1 -o "$out/intel-refined"
-"${improved[@]}" "${csail[@]}" -n 15 -o "$out/csail"
-"${improved[@]}" "${loop[@]}" -n 15 -o "$out/csie"
-"${improved[@]}" config-ini/csie-lms100.ini "$out/csie-slip.rawlog" -n 15 --reference "$out/csie-slip.tum" \
-  --floorplan $csie/csie.plan -o "$out/csie-slip"
-"${improved[@]}" config-ini/lms-logs.ini "$out/dpslam-loop5.rawlog" -n 5,15 -o "$out/dpslam"
-revisits "$out/dpslam"
+options() {
+  case $1 in
+    default) ;;
+    no-lines) echo "-m general" ;;
+    no-closing) echo "--set loop_closing.enabled=false" ;;
+    no-adapting) echo "-n 15" ;;
+    no-learning) printf -- "--set motion_model.%s_mean_std=0 " distance drift turn ;;
+    no-refining) echo "--set run.refine=0" ;;
+    *) echo "error: unknown variant $1" >&2 && exit 2 ;;
+  esac
+}
 
-# MRPT's own RBPF with its shipped ICP set-up; slow, hence few seeds.
-stock=("$bin/slam-compare" --seeds $((seeds < 3 ? seeds : 3)) --methods stock -n 10
-  --variant "stock/shipped:@/usr/share/mrpt/config_files/rbpf-slam/gridmapping_RBPF_ICPbased_intel.ini")
-"${stock[@]}" "${intel[@]}" -o "$out/intel-stock"
-"${stock[@]}" "${csail[@]}" -o "$out/csail-stock"
-"${stock[@]}" "${loop[@]}" -o "$out/csie-stock"
-"${stock[@]}" config-ini/lms-logs.ini "$out/dpslam-loop5.rawlog" -o "$out/dpslam-stock"
-revisits "$out/dpslam-stock"
-echo "Reports: $(ls "$out"/*/report.html | tr '\n' ' ')"
+# evaluate LOG RUN: the errors of a run, JSON.
+evaluate() {
+  local log=${1%-scans} odometry=()
+  [[ ! -f $data/$log.odom.gz ]] || odometry=(--odometry "$data/$log.odom.gz")
+  case $log in
+    csie*) "$bin/slam-eval" ate --trajectory "$2/trajectory.tum" --reference "$out/logs/$log.tum" ;;
+    dpslam*) "$bin/slam-eval" revisits --distance 8 --trajectory "$2/trajectory.tum" --rawlog "$out/logs/$log.rawlog" ;;
+    *)
+      "$bin/slam-eval" relations --trajectory "$2/trajectory.tum" --relations "$data/${3:-$log}.relations" \
+        "${odometry[@]}"
+      ;;
+  esac
+}
+
+# run LOG VARIANT SEED: a run, its errors beside it.
+run() {
+  local folder=$out/runs/$1/$2/$3 file
+  [[ ! -f $folder/errors.json ]] || return 0
+  file=$(ls "$out/logs/$1".{clf.gz,rawlog} 2>/dev/null | head -n 1)
+  rm -rf "$folder"
+  # shellcheck disable=SC2046
+  "$bin/hybrid-slam" "$file" -q -s "$3" $(options "$2") -o "$folder" >/dev/null 2>"$folder.log" || return 0
+  rm -f "$folder"/*.gz "$folder"/map.{pgm,yaml}
+  [[ $1 != intel-lab ]] || evaluate "$1" "$folder" intel-lab-full >"$folder/errors-full.json"
+  evaluate "$1" "$folder" >"$folder/errors.json"
+}
+
+# DP-SLAM's loop is evaluated by its scans.
+[[ " ${logs[*]} " != *" dpslam-loop5 "* || -f $out/logs/dpslam-loop5.rawlog ]] || {
+  build release log2rawlog
+  "$bin/log2rawlog" "$data/dpslam-loop5.clf.gz" "$out/logs/dpslam-loop5.rawlog" >/dev/null 2>&1
+}
+export -f run options evaluate
+export out data bin
+for variant in "${variants[@]}"; do
+  for log in "${logs[@]}"; do
+    mkdir -p "$out/runs/$log/$variant"
+    for ((seed = ${FIRST_SEED:-1}; seed < ${FIRST_SEED:-1} + ${SEEDS:-10}; ++seed)); do echo "$log $variant $seed"; done
+  done
+done | xargs -P "${JOBS:-$(nproc)}" -L 1 bash -c 'run "$@"' run
+exec scripts/accuracy-table.py "$out"

@@ -13,11 +13,6 @@ using mrpt::math::TPoint2D;
 
 }  // namespace
 
-double evidence(const DatabaseLine& line) {
-  constexpr int kEnough = 20;
-  return line.length * std::min(line.count, kEnough);
-}
-
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
   double sine = 0, cosine = 0, total = 0;
   for (const DatabaseLine& line : lines) {

@@ -4,6 +4,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -44,7 +45,7 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen);
 
 /// A line's weight as evidence of its direction, m: length x min(count, 20). The cap keeps an old wall from
 /// outweighing all others.
-double evidence(const DatabaseLine& line);
+inline double evidence(const DatabaseLine& line) { return line.length * std::min(line.count, 20); }
 
 /// The direction, modulo 90 deg, to which the lines are parallel or perpendicular, rad in (-pi/4, pi/4]:
 /// atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Empty if there is no line or

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Tables of doc/accuracy.md from the runs of scripts/accuracy.sh: accuracy-table.py OUT [--readme]
+
+A run is lost if its mean translation error (m) is above 0.3, on Killian Court above 0.5, on DP-SLAM's loop if its revisit
+error is above 0.07, or if it failed.
+"""
+import json
+import pathlib
+import statistics
+import sys
+
+LOGS = {
+    "intel-lab": "Intel",
+    "csail": "MIT CSAIL",
+    "fr079": "Freiburg 079",
+    "mit-killian": "MIT Killian Court",
+    "dpslam-loop5": "DP-SLAM's loop",
+    "intel-lab-scans": "Intel without odometry",
+    "csail-scans": "MIT CSAIL without odometry",
+    "csie": "CSIE (simulated)",
+    "csie-30": "CSIE, slips of 30 deg",
+    "csie-80": "CSIE, slips of 80 deg",
+    "csie-170": "CSIE, slips of 170 deg",
+    "csie-mixed": "CSIE, slips of 30 to 170 deg",
+}
+VARIANTS = {
+    "default": "default",
+    "no-lines": "no lines",
+    "no-closing": "no loop closing",
+    "no-adapting": "15 particles",
+    "no-learning": "odometry not learned",
+    "no-refining": "no refinement",
+}
+LOST = {"mit-killian": 0.5, "dpslam-loop5": 0.07}
+# Mean translation errors (m): scan matching, GMapping and graph mapping from Kuemmerle et al. 2009, Cartographer from
+# Hess et al. 2016.
+PUBLISHED = {
+    "scan matching (Kuemmerle et al. 2009)": ["0.220", "", "0.106", "0.258", "1.651"],
+    "GMapping (the same)": ["0.070", "", "0.049", "0.061", "0.122"],
+    "graph mapping (the same)": ["0.031", "", "0.004", "0.056", "0.050"],
+    "Cartographer (Hess et al. 2016)": ["0.023", "", "0.032", "0.045", "0.040"],
+}
+PEER_LOGS = [("intel-lab", "errors-full", "Intel (2,984)"), ("intel-lab", "errors", "Intel (1,745)"),
+             ("csail", "errors", "MIT CSAIL"), ("fr079", "errors", "Freiburg 079"),
+             ("mit-killian", "errors", "MIT Killian Court")]
+
+
+def error_of(result):
+    return next(result[key] for key in ("trans_mean_m", "ate_rmse_m", "rmse_m", "trans_rmse_m", "median_m") if key in result)
+
+
+def runs(folder, name="errors"):
+    """Of each seed: the errors and the metrics; None for a run that failed."""
+    found = []
+    for log in sorted(folder.glob("*.log")):
+        run = log.with_suffix("")
+        files = [run / f"{name}.json", run / "metrics.json"]
+        found.append([json.loads(file.read_text()) for file in files] if all(f.exists() for f in files) else None)
+    return found
+
+
+def cell(log, folder, name="errors", digits=4):
+    all_runs = runs(folder, name)
+    if not all_runs:
+        return ""
+    errors = [error_of(run[0]) if run else float("inf") for run in all_runs]
+    lost = sum(error > LOST.get(log, 0.3) for error in errors)
+    text = f"{statistics.median(errors):.{digits}f} ({max(errors):.{digits}f})"
+    return text + (f", {lost} of {len(errors)} lost" if lost else "")
+
+
+def default_table(out):
+    print("| log | error, median (worst), m | rotation, deg | lost | verdict | particles | time (s) | memory (MB) |")
+    print("|---|---|---|---|---|---|---|---|")
+    for log, title in LOGS.items():
+        folder = out / "runs" / log / "default"
+        done = [run for run in runs(folder) if run]
+        if not done:
+            continue
+        text, _, lost = cell(log, folder).partition(", ")
+        turns = [run[0]["rot_mean_deg"] for run in done if "rot_mean_deg" in run[0]]
+        rotation = f"{statistics.median(turns):.2f} ({max(turns):.2f})" if turns else ""
+        verdicts = [run[1]["verdict"] for run in done]
+        counts = ", ".join(f"{verdicts.count(v)} {v}" for v in ("consistent", "doubtful", "lost") if v in verdicts)
+        particles = f"{min(run[1]['particles_min'] for run in done)}-{max(run[1]['particles_max'] for run in done)}"
+        seconds = statistics.median(run[1]["cpu_s"] for run in done)
+        memory = statistics.median(run[1]["peak_rss_mb"] for run in done)
+        print(f"| {title} | {text} | {rotation} | {lost or '0'} | {counts} | {particles} | {seconds:.1f} | {memory:.0f} |")
+
+
+def ablation_table(out):
+    print("| log | " + " | ".join(VARIANTS.values()) + " |")
+    print("|---" * (len(VARIANTS) + 1) + "|")
+    for log, title in LOGS.items():
+        cells = [cell(log, out / "runs" / log / variant) for variant in VARIANTS]
+        if any(cells):
+            print(f"| {title} | " + " | ".join(cells) + " |")
+
+
+def peer_table(out):
+    print("| | " + " | ".join(title for _, _, title in PEER_LOGS) + " |")
+    print("|---" * (len(PEER_LOGS) + 1) + "|")
+    ours = [cell(log, out / "runs" / log / "default", name, 3) for log, name, _ in PEER_LOGS]
+    for system, cells in {"hybrid-slam": ours, **PUBLISHED}.items():
+        print(f"| {system} | " + " | ".join(cells) + " |")
+
+
+def main():
+    out = pathlib.Path(sys.argv[1])
+    for table in (peer_table, default_table, ablation_table):
+        table(out)
+        print()
+
+
+if __name__ == "__main__":
+    main()
