@@ -10,8 +10,8 @@ data=${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}
 install_packages "${packages[@]}"
 build release hybrid-slam slam-eval simul-floorplan
 bin=$PWD/build/release/bin
-read -ra logs <<<"${LOGS:-intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans
-  csie csie-30 csie-80 csie-170 csie-mixed}"
+public="intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans"
+read -ra logs <<<"${LOGS:-$public csie csie-30 csie-80 csie-170 csie-mixed}"
 read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting no-learning no-refining}"
 
 # Slips of the simulated loop: time (s), turn (deg), shift (m).

@@ -17,12 +17,12 @@ namespace {
 constexpr double square(double x) { return x * x; }
 constexpr double kDegree = M_PI / 180;
 
-// From simulated logs without loop closing; too large for the present filter: doc/verdict.md.
-constexpr double kDrift = 0.04, kDriftAngle = 0.05 * kDegree;         // per sqrt(m), with lines
-constexpr double kOpenDrift = 0.1, kOpenDriftAngle = 0.15 * kDegree;  // without lines
-constexpr double kMatch = 0.01, kMatchAngle = 0.1 * kDegree;          // of a scan match
-constexpr double kBetween = 0.02, kBetweenAngle = 1 * kDegree;        // per sqrt(m), odometry alone
-constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;             // m
+// From simulated logs: doc/verdict.md.
+constexpr double kDrift = 0.01, kDriftAngle = 0.019 * kDegree;           // per sqrt(m), with lines
+constexpr double kOpenDrift = 0.028, kOpenDriftAngle = 0.058 * kDegree;  // without lines
+constexpr double kMatch = 0.01, kMatchAngle = 0.1 * kDegree;             // of a scan match
+constexpr double kBetween = 0.02, kBetweenAngle = 1 * kDegree;           // per sqrt(m), odometry alone
+constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;                // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
