@@ -1,0 +1,370 @@
+#!/usr/bin/env python3
+"""Damaged and hostile input against the programs; the counts of doc/reliability.md.
+
+  scripts/hostile-campaign.py BIN OUT [--scale 1] [--jobs 2] [--seed 1]
+
+BIN: a folder of programs (build/release/bin, build/sanitize/bin). At scale 1: 1,000 damaged rawlogs, 1,000 damaged text
+logs and the rawlogs that log2rawlog makes of them, 300 INI files, 50 servers that send nonsense to hybrid-slam-live.
+A run is bad if it ends by a signal, prints a sanitizer's report, takes over 10 s or 1 GB, ends with another exit status
+than 0, 1 or 2, fails without one line `PROGRAM: error: `, or succeeds with results that are not finite numbers. The
+input of a bad run is kept in OUT/bad. Exit status 1 if there is one. HYBRID_SLAM_DATASETS adds pieces of public logs.
+"""
+import argparse
+import collections
+import concurrent.futures
+import gzip
+import json
+import math
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+MAX_SECONDS, MAX_MEGABYTES = 10, 1024
+NUMBERS = ["0", "-1", "1e30", "-1e30", "nan", "inf", "4294967295", "99999999999999999999", "1e-320", "", "x", "3270",
+           "1e5", "180.0", "-0", "0x10", "1,5"]
+
+
+class Bases:
+    """Small undamaged inputs."""
+
+    def __init__(self, binary, out):
+        self.texts = [self.carmen(), self.gfs(), self.dpslam()]
+        self.rawlogs = []
+        for text in self.texts:
+            log, rawlog = out / "good.log", out / "good.rawlog"
+            log.write_bytes(text)
+            subprocess.run([binary / "log2rawlog", log, rawlog], check=True, stdout=subprocess.DEVNULL)
+            self.rawlogs.append(gzip.decompress(rawlog.read_bytes()))
+        corpus = ROOT / "tests/fuzz/corpus"
+        for folder, target in (("text_log", self.texts), ("rawlog", self.rawlogs)):
+            for file in sorted(corpus.glob(f"{folder}/*")):
+                target.append(file.read_bytes())
+        datasets = os.environ.get("HYBRID_SLAM_DATASETS")
+        if datasets:
+            for file in sorted(pathlib.Path(datasets).glob("*.clf.gz")):
+                with gzip.open(file) as log:
+                    self.texts.append(b"".join(log.readline() for _ in range(60)))
+        self.inis = [file.read_bytes() for file in sorted((ROOT / "config-ini").glob("*.ini"))
+                     if file.name in ("paper.ini", "lms-logs.ini", "csie-lms100.ini", "malaga.ini")]
+        self.good_rawlog = out / "good.rawlog"
+        self.good_rawlog.write_bytes(gzip.compress(self.rawlogs[0]))
+
+    @staticmethod
+    def ranges(i):
+        return [round(2 / max(abs(math.sin(math.radians(a))), 0.2) + 0.01 * (i % 3), 2) for a in range(1, 182)]
+
+    def carmen(self):
+        lines = []
+        for i in range(30):
+            x, stamp = 0.1 * i, 100 + 0.2 * i
+            pose = f"{x:.3f} 0 0"
+            lines.append(f"ODOM {pose} 0.5 0 0 {stamp:.3f} robot {stamp:.3f}")
+            scan = " ".join(map(str, self.ranges(i)))
+            lines.append(f"FLASER 181 {scan} {pose} {pose} {stamp:.3f} robot {stamp:.3f}")
+        return "\n".join(lines).encode()
+
+    def gfs(self):
+        lines = []
+        for i in range(20):
+            stamp = 100 + 0.2 * i
+            scan = " ".join(map(str, self.ranges(i)))
+            lines.append(f"LASER_READING 181 {scan} {0.1 * i:.3f} 0 0 {stamp:.3f}")
+        return "\n".join(lines).encode()
+
+    def dpslam(self):
+        lines = []
+        for i in range(20):
+            lines.append(f"Odometry {0.1 * i:.6f} 0.0 0.0")
+            lines.append("Laser 181 " + " ".join(map(str, self.ranges(i))))
+        return "\n".join(lines).encode()
+
+
+def damaged_bytes(data, rng):
+    data = bytearray(data)
+    for _ in range(rng.choice([1, 1, 2, 5, 20])):
+        if not data:
+            break
+        at, kind = rng.randrange(len(data)), rng.randrange(8)
+        if kind == 0:
+            data[at] ^= 1 << rng.randrange(8)
+        elif kind == 1:
+            data[at] = rng.choice([0, 1, 127, 128, 255, rng.randrange(256)])
+        elif kind == 2:
+            del data[at:]
+        elif kind == 3:
+            del data[at:at + rng.randrange(1, 200)]
+        elif kind == 4:
+            piece = data[at:at + rng.randrange(1, 2000)]
+            data[at:at] = piece
+        elif kind == 5:
+            word = rng.choice([b"\xff\xff\xff\xff", b"\x00\x00\x00\x80", b"\xff\xff\xff\x7f", b"\x00\x00\x00\x08"])
+            data[at:at + 4] = word
+        elif kind == 6:
+            data[at:at + 8] = struct.pack("<d", rng.choice([1e308, -1e308, math.nan, math.inf, 1e5, 3270, 1e-320]))
+        else:
+            data[at:at + 4] = struct.pack("<f", rng.choice([3e38, -3e38, math.nan, math.inf, 1e5, 0.0]))
+    return bytes(data)
+
+
+def damaged_text(data, rng):
+    for _ in range(rng.choice([1, 1, 2, 5, 20])):
+        kind = rng.randrange(6)
+        if kind == 0:
+            return damaged_bytes(data, rng)
+        lines = data.split(b"\n")
+        at = rng.randrange(len(lines))
+        if kind <= 3:
+            words = lines[at].split(b" ")
+            words[rng.randrange(len(words))] = rng.choice(NUMBERS).encode()
+            lines[at] = b" ".join(words)
+        elif kind == 4:
+            lines[at:at + 1] = [lines[at]] * rng.choice([0, 2, 50])
+        else:
+            lines[at] = lines[at] * rng.choice([2, 100]) + rng.choice([b"", b"\x00", b"\xff\xfe", b"A" * 100000])
+        data = b"\n".join(lines)
+    return data
+
+
+def finite_results(folder):
+    """What is wrong with the results of a run that succeeded; empty if nothing."""
+    try:
+        json.loads((folder / "metrics.json").read_text())
+        rows = [line.split() for line in (folder / "trajectory.tum").read_text().splitlines() if not line.startswith("#")]
+        if not rows:
+            return "an empty trajectory"
+        if any(len(row) != 8 or not all(math.isfinite(float(v)) for v in row) for row in rows):
+            return "a trajectory that is not finite"
+        if any(max(abs(float(v)) for v in row[1:4]) > 1e6 for row in rows):
+            return "a trajectory out of this world"
+    except (OSError, ValueError) as error:
+        return f"unreadable results: {error}"
+    return ""
+
+
+class Campaign:
+    def __init__(self, binary, out):
+        self.binary, self.out = binary, out
+        self.counts = collections.defaultdict(collections.Counter)
+        self.slowest, self.largest = collections.Counter(), collections.Counter()
+        self.bad, self.lock = [], threading.Lock()
+
+    def run(self, group, name, command, folder=None, keep=(), interrupt=None):
+        """Runs a program and judges it. Returns its exit status."""
+        report = self.out / f"{name}.err"
+        start = time.monotonic()
+        with open(report, "wb") as err:
+            child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=err,
+                                     env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
+            if interrupt:
+                threading.Timer(interrupt, lambda: child.poll() is None and child.send_signal(signal.SIGINT)).start()
+            timer = threading.Timer(MAX_SECONDS * 6, child.kill)
+            timer.start()
+            _, status, usage = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+            timer.cancel()
+        seconds, megabytes = time.monotonic() - start - (interrupt or 0), usage.ru_maxrss / 1024
+        text = report.read_text(errors="replace")
+        code, what = child.returncode, ""
+        if code < 0:
+            what = f"signal {-code}"
+        elif "ERROR: AddressSanitizer" in text or "runtime error:" in text:
+            what = "sanitizer"
+        elif code not in (0, 1, 2):
+            what = f"exit {code}"
+        elif seconds > MAX_SECONDS:
+            what = f"{seconds:.0f} s"
+        elif megabytes > MAX_MEGABYTES:
+            what = f"{megabytes:.0f} MB"
+        elif code != 0 and len(re.findall(r"^[a-z0-9-]+: error: ", text, re.M)) != 1:
+            what = "no error line"
+        elif code == 0 and folder is not None:
+            what = finite_results(folder)
+        with self.lock:
+            self.counts[group]["runs"] += 1
+            self.counts[group][f"exit {code}"] += 1
+            self.slowest[group] = max(self.slowest[group], seconds)
+            self.largest[group] = max(self.largest[group], megabytes)
+            if what:
+                self.counts[group]["bad"] += 1
+                self.bad.append((group, name, what))
+                bad = self.out / "bad" / name
+                bad.mkdir(parents=True, exist_ok=True)
+                for file in (*keep, report):
+                    if file.exists():
+                        shutil.copy(file, bad)
+                (bad / "command").write_text(" ".join(map(str, command)) + f"\n{what}\n")
+        report.unlink()
+        return code
+
+    def slam(self, group, name, arguments, keep):
+        folder = self.out / f"{name}-out"
+        self.run(group, name, [self.binary / "hybrid-slam", *arguments, "-q", "-s", "1", "-n", "5", "-o", folder],
+                 folder, keep)
+        shutil.rmtree(folder, ignore_errors=True)
+
+    def rawlog(self, number, base, rng):
+        name, data = f"rawlog-{number}", damaged_bytes(base, rng)
+        file = self.out / f"{name}.rawlog"
+        file.write_bytes(gzip.compress(data, 1) if rng.random() < 0.3 else data)
+        self.slam("rawlogs", name, [file], [file])
+        file.unlink()
+
+    def text(self, number, base, rng):
+        name = f"text-{number}"
+        file, rawlog = self.out / f"{name}.log", self.out / f"{name}.rawlog"
+        file.write_bytes(damaged_text(base, rng))
+        self.slam("text logs", name, [file], [file])
+        if self.run("log2rawlog", f"{name}-convert", [self.binary / "log2rawlog", file, rawlog], keep=[file]) == 0:
+            self.slam("their rawlogs", f"{name}-made", [rawlog], [file, rawlog])
+        file.unlink()
+        rawlog.unlink(missing_ok=True)
+
+    def ini(self, number, base, rng, rawlog):
+        name = f"ini-{number}"
+        file = self.out / f"{name}.ini"
+        text = re.sub(rb"rawlog *=.*", b"", damaged_text(base, rng))
+        file.write_bytes(text)
+        self.slam("INI files", name, [file, rawlog], [file])
+        file.unlink()
+
+    def server(self, number, stream, rng):
+        """hybrid-slam-live on a server that sends a damaged stream, in one of several ways."""
+        name, kind = f"server-{number}", rng.randrange(6)
+        data = {0: lambda: damaged_bytes(stream, rng), 1: lambda: damaged_messages(stream, rng),
+                2: lambda: rng.randbytes(5000), 3: lambda: stream[:rng.randrange(len(stream))],
+                4: lambda: stream, 5: lambda: damaged_messages(stream, rng)}[kind]()
+        file = self.out / f"{name}.bytes"
+        file.write_bytes(data)
+        listener = socket.create_server(("127.0.0.1", 0))
+        stop = threading.Event()
+
+        def serve():
+            listener.settimeout(0.2)
+            while not stop.is_set():
+                try:
+                    connection, _ = listener.accept()
+                except OSError:
+                    continue
+                try:
+                    if kind in (4, 5):  # dribbles
+                        for i in range(0, len(data), 97):
+                            connection.sendall(data[i:i + 97])
+                            if stop.wait(0.002):
+                                break
+                    else:
+                        connection.sendall(data)
+                        stop.wait(rng.choice([0, 0.3, 5]))
+                    connection.close()
+                except OSError:
+                    pass
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        config = self.out / f"{name}.ini"
+        config.write_text("[live]\n")
+        folder = self.out / f"{name}-out"
+        self.run("servers", name, [self.binary / "hybrid-slam-live", config, "--server",
+                                   f"127.0.0.1:{listener.getsockname()[1]}", "-n", "5", "-o", folder], None, [file], 3)
+        stop.set()
+        thread.join()
+        listener.close()
+        shutil.rmtree(folder, ignore_errors=True)
+        file.unlink()
+        config.unlink()
+
+    def print_table(self):
+        print("| input | runs | exit 0 | exit 1 | exit 2 | bad | longest (s) | most memory (MB) |")
+        print("|---|---|---|---|---|---|---|---|")
+        for group, count in self.counts.items():
+            codes = " | ".join(str(count[f"exit {code}"]) for code in (0, 1, 2))
+            print(f"| {group} | {count['runs']} | {codes} | {count['bad']} | {self.slowest[group]:.1f} | "
+                  f"{self.largest[group]:.0f} |")
+        for group, name, what in self.bad:
+            print(f"bad: {group}: {name}: {what}")
+
+
+def damaged_messages(stream, rng):
+    """Messages with damaged payloads and right checksums."""
+    out, at = b"", 0
+    while at + 32 <= len(stream):
+        header, length = bytearray(stream[at:at + 32]), struct.unpack_from("<I", stream, at + 24)[0]
+        payload = stream[at + 32:at + 32 + length]
+        at += 32 + length
+        if rng.random() < 0.3:
+            payload = damaged_bytes(payload, rng)
+        struct.pack_into("<I", header, 24, len(payload))
+        struct.pack_into("<I", header, 28, zlib.crc32(bytes(header[4:28]) + payload))
+        out += bytes(header) + payload
+    return out
+
+
+def recorded_stream(binary, out, rawlog):
+    """What observation-server sends of a rawlog in two seconds."""
+    config = out / "server.ini"
+    config.write_text(f"[server]\nport = 0\nrawlog = {rawlog}\n")
+    server = subprocess.Popen([binary / "observation-server", config], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True)
+    port = int(re.search(r"(\d+)\s*$", server.stdout.readline()).group(1))
+    data = b""
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+        connection.settimeout(3)
+        end = time.monotonic() + 3
+        while time.monotonic() < end:
+            try:
+                piece = connection.recv(65536)
+            except OSError:
+                break
+            if not piece:
+                break
+            data += piece
+    server.send_signal(signal.SIGTERM)
+    server.wait()
+    return data
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bin", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--scale", type=float, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    out = arguments.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    bases, campaign = Bases(arguments.bin.resolve(), out), Campaign(arguments.bin.resolve(), out)
+
+    def rng(number):
+        return random.Random(f"{arguments.seed} {number}")
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        jobs = []
+        for kind, number in (("rawlog", 1000), ("text", 1000), ("ini", 300), ("server", 50)):
+            stream = recorded_stream(campaign.binary, out, bases.good_rawlog) if kind == "server" else b""
+            for i in range(math.ceil(number * arguments.scale)):
+                random_stream = rng(f"{kind} {i}")
+                base = random_stream.choice({"rawlog": bases.rawlogs, "text": bases.texts, "ini": bases.inis,
+                                             "server": [stream]}[kind])
+                if kind == "ini":
+                    jobs.append(pool.submit(campaign.ini, i, base, random_stream, bases.good_rawlog))
+                else:
+                    jobs.append(pool.submit(getattr(campaign, kind), i, base, random_stream))
+        for job in jobs:
+            job.result()
+    campaign.print_table()
+    return 1 if campaign.bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
