@@ -90,7 +90,7 @@ TEST(CellsOverWalls, ThePictureOfALargeMapIsSmall) {
   const simulation::FloorPlan plan(
       {simulation::Wall::straight({0, 0}, {300, 0}), simulation::Wall::straight({0, 0}, {0, 200})});
   std::vector<TPoint2D> cells;
-  for (int i = 0; i < 200000; ++i) cells.push_back({std::fmod(0.37 * i, 300), std::fmod(0.11 * i, 200)});
+  for (int i = 0; i < 20000; ++i) cells.push_back({std::fmod(3.7 * i, 300), std::fmod(1.1 * i, 200)});
   EXPECT_LT(drawn(plotCellsOverWalls(cells, 0.05, plan, "hybrid-20")).size(), 150000u);
 }
 
