@@ -2,13 +2,18 @@
 /// @brief Shared by all programs: the command line, one-line errors and exit codes.
 #pragma once
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/Errors.h"
 
@@ -21,6 +26,25 @@ inline int fail(int code, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << HYBRID_SLAM_PROGRAM ": error: " << message << "\n";
   return code;
+}
+
+/// Prints warnings on standard error, a line each.
+inline void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    std::cerr << HYBRID_SLAM_PROGRAM ": warning: " << warning << "\n";
+}
+
+/// Opens closed standard descriptors on /dev/null: otherwise a result file would get their number, and
+/// messages.
+inline void openStandardDescriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0) (void)!::open("/dev/null", O_RDWR);  // the lowest number free
+}
+
+/// Whether everything printed has reached standard output.
+inline bool isPrinted() {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
 }
 
 /// Reads the command line.
@@ -37,12 +61,16 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Runs a program's work. Exit code 2: wrong input; 1: any other exception.
+/// Runs a program's work. Exit code 2: wrong input; 1: any other exception, or standard output is full.
 /// @param words  message for any other exception
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
+  openStandardDescriptors();
   try {
-    return work();
+    const int code = work();
+    if (code == 0 && !isPrinted())
+      return fail(1, "cannot write: standard output; expected free disk space or an open pipe");
+    return code;
   } catch (const InputError& error) {
     return fail(2, error.what());
   } catch (const std::exception& error) {

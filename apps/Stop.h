@@ -10,14 +10,15 @@ namespace hybrid_slam {
 /// True once the user has asked to stop. Global because a signal handler can reach nothing else.
 inline std::atomic<bool> stop{false};
 
-/// SIGINT or SIGTERM sets `stop`; that signal then has its default action again.
+/// SIGINT, SIGTERM or SIGHUP (a terminal that closes) sets `stop`; that signal then has its default action
+/// again.
 inline void stopOnSignals() {
   const auto onSignal = [](int signal) {
     stop = true;
     std::signal(signal, SIG_DFL);
   };
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, onSignal) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);  // nohup
 }
 
 }  // namespace hybrid_slam
