@@ -3,13 +3,25 @@
 #include <mrpt/core/exceptions.h>
 
 #include <algorithm>
+#include <regex>
 
 namespace hybrid_slam {
+namespace {
+
+/// Removes the call stacks of MRPT's exceptions whose text another message quotes.
+std::string withoutCallStacks(const std::string& text) {
+  static const std::regex head("==== MRPT exception ====\nMessage: *");
+  static const std::regex stack("\nLocation: [^\n]*(?=\n)|\nCall stack backtrace:(\n\\[[0-9]+ *\\][^\n]*)*");
+  return std::regex_replace(std::regex_replace(text, head, ""), stack, "");
+}
+
+}  // namespace
 
 std::string messageOf(const std::exception& exception) {
   const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
   std::string text = mrpt ? mrpt->originalWhat : exception.what();
   if (mrpt) text.erase(0, text.find("] ") + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
+  if (text.find("==== MRPT") != std::string::npos) text = withoutCallStacks(text);
   text.erase(text.find_last_not_of(" \n") + 1);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;

@@ -16,6 +16,19 @@ TEST(MessageOf, TheMessageOfAnMrptException) {
   }
 }
 
+TEST(MessageOf, AQuotedExceptionIsWithoutItsCallStack) {
+  try {
+    try {
+      THROW_EXCEPTION("inner\nmessage");
+    } catch (const std::exception& e) {
+      THROW_EXCEPTION_FMT("outer: %s after it", e.what());
+    }
+  } catch (const std::exception& e) {
+    EXPECT_EQ(messageOf(e), "outer: inner message  after it");
+    EXPECT_EQ(messageOf(std::runtime_error(e.what())), "outer: inner message  after it");
+  }
+}
+
 TEST(MessageOf, OtherMessagesAreUnchanged) {
   EXPECT_EQ(messageOf(std::runtime_error("one\ntwo\n")), "one two");
   EXPECT_EQ(messageOf(std::bad_alloc()), "std::bad_alloc");

@@ -67,7 +67,7 @@ struct Options : mrpt::config::CLoadableOptions {
 
 /// The closest name by edit distance, for "did you mean"; empty if there are no names.
 std::string nearestName(const std::string& name, const std::vector<std::string>& names);
-/// Levenshtein distance.
+/// Damerau-Levenshtein distance without edits of swapped letters: a swap of neighbours counts as one edit.
 size_t editDistance(const std::string& a, const std::string& b);
 
 template <class Enum>

@@ -111,6 +111,8 @@ TEST(Options, AreTheSameInEveryLocale) {
 TEST(EditDistance, CountsInsertionsDeletionsSubstitutions) {
   EXPECT_EQ(editDistance("", "abc"), 3u);
   EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+  EXPECT_EQ(editDistance("gird", "grid"), 1u);
+  EXPECT_EQ(editDistance("rnu", "run"), 1u);
   EXPECT_EQ(editDistance("same", "same"), 0u);
 }
 

@@ -19,16 +19,35 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+constexpr size_t kLongestLine = 10000,
+                 kLargestFile = 10000000;  // bytes: MRPT's parser is slow on longer ones
+
+void checkLengths(const std::string& text, const std::string& file) {
+  if (text.size() > kLargestFile)
+    throw InputError("too large for an INI file", file,
+                     "expected at most " + std::to_string(kLargestFile) + " bytes");
+  size_t number = 1;
+  for (size_t begin = 0; begin < text.size(); ++number) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine)
+      throw InputError("line too long", file + ", line " + std::to_string(number),
+                       "expected at most " + std::to_string(kLongestLine) + " characters");
+    begin = end + 1;
+  }
+}
+
 std::string readText(const std::string& file) {
   const std::string expected = "expected a readable INI file";
   if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
   if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
   std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) throw InputError("cannot read", file, expected);
-  if (text.str().find('\0') != std::string::npos) throw InputError("not a text file", file, expected);
-  return text.str();
+  std::string text(kLargestFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || !in.is_open()) throw InputError("cannot read", file, expected);
+  text.resize(static_cast<size_t>(in.gcount()));
+  if (text.find('\0') != std::string::npos) throw InputError("not a text file", file, expected);
+  checkLengths(text, file);
+  return text;
 }
 
 /// The text after MRPT's parser has expanded @define and ${...}.
@@ -56,6 +75,13 @@ void checkLines(const std::string& text, const std::string& file, const std::vec
   }
 }
 
+/// Whether another of our programs, a sensor driver or MRPT's rbpf-slam uses a section.
+bool isOfOthers(const mrpt::config::CConfigFileBase& source, const std::string& section) {
+  for (const char* name : {"live", "server", "PIONEER", "global"})
+    if (section == name) return true;
+  return source.keyExists(section, "driver") || section.rfind("MappingApplication", 0) == 0;
+}
+
 /// An InputError about a section, with its origin.
 [[noreturn]] void rethrowIn(const std::string& where, const InputError& error) {
   const std::string text = error.what();
@@ -75,10 +101,10 @@ void load(const Sections& sections, const mrpt::config::CConfigFileBase& source,
 
 }  // namespace
 
-void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
-             const std::vector<std::string>& settings, const Sections& sections, const std::string& otherwise,
-             const std::string& expected) {
-  std::vector<std::string> present, ours;
+std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
+                                 const std::vector<std::string>& settings, const Sections& sections,
+                                 const std::string& otherwise, const std::string& expected) {
+  std::vector<std::string> present, ours, warnings;
   for (const auto& [name, options] : sections) ours.push_back(name);
   const std::string text = file.empty() ? "" : parsed(readText(file), file);
   checkLines(text, file, ours);
@@ -91,9 +117,12 @@ void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
     throw InputError("missing section", file, expected);
   for (const std::string& section : present) {
     const std::string nearest = nearestName(section, ours);
-    if (!isOurs(section) && 3 * editDistance(section, nearest) <= nearest.size())
-      throw InputError("unknown section [" + section + "]", file,
-                       "the nearest known section is [" + nearest + "]");
+    if (isOurs(section)) continue;
+    const std::string known = "the nearest known section is [" + nearest + "]";
+    if (3 * editDistance(section, nearest) <= nearest.size())
+      throw InputError("unknown section [" + section + "]", file, known);
+    if (!isOfOthers(source, section))
+      warnings.push_back("unknown section [" + section + "]: " + file + "; ignored, " + known);
   }
   load(sections, source, file);
   for (const std::string& setting : settings) {
@@ -107,12 +136,17 @@ void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
     source.write(section, setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
     load(sections, source, "command line");
   }
+  return warnings;
 }
 
 bool isIni(const std::string& path) {
   if (mrpt::system::lowerCase(std::filesystem::path(path).extension().string()) == ".ini") return true;
   if (!isText(path)) return false;
-  std::ifstream in(path);
+  std::string beginning(1 << 16, '\0');  // a log may be one long line
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<size_t>(file.gcount()));
+  std::istringstream in(beginning);
   for (std::string line; std::getline(in, line);) {
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;

@@ -21,11 +21,13 @@ using Sections = std::vector<std::pair<std::string, Options*>>;
 /// @param settings   `SECTION.KEY=VALUE` each; override the file
 /// @param otherwise  a section that suffices if the file has none of ours; empty: none
 /// @param expected   error text for a file without any of these
+/// @return a line for each section that neither we nor, as far as known, MRPT's programs use
 /// @throws InputError for a missing file, a file without any of our sections, a misspelt section, a malformed
-///         line, a setting of a section neither ours nor in the file, and as Options::loadFromConfigFile
-void loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
-             const std::vector<std::string>& settings, const Sections& sections, const std::string& otherwise,
-             const std::string& expected);
+///         or overlong line, a setting of a section neither ours nor in the file, and as
+///         Options::loadFromConfigFile
+std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
+                                 const std::vector<std::string>& settings, const Sections& sections,
+                                 const std::string& otherwise, const std::string& expected);
 
 /// Whether a file is an INI file rather than a log: its name ends in .ini, or its first line that is not
 /// blank or a comment is a section's.

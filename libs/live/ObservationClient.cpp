@@ -30,7 +30,7 @@ void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
     } catch (const InputError&) {
       throw;  // from the sink
     } catch (const std::runtime_error& e) {
-      fault = e.what();
+      fault = messageOf(e);
     }
     if (fault.empty()) continue;
     log_.report(subject, fault + "; trying again");

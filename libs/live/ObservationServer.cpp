@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/Errors.h"
+
 namespace hybrid_slam::live {
 namespace {
 
@@ -119,7 +121,7 @@ void ObservationServer::serve() {
         write(*client);
         ++client;
       } catch (const std::runtime_error& e) {
-        log_.report(client->name, std::string("gone (") + e.what() + ")");
+        log_.report(client->name, "gone (" + messageOf(e) + ")");
         const std::lock_guard<std::mutex> lock(mutex_);
         client = clients_.erase(client);
       }

@@ -22,6 +22,7 @@ struct RunOptions : Options {
   std::string output = "out";
   int particlesEvery = 0;
   int refine = 1;
+  bool overwrite = false;  ///< of the command line alone: a configuration must not delete results
   void describe(OptionTable& table) override;
 };
 
@@ -32,6 +33,9 @@ struct Configuration {
   FilterConfiguration filter;
   /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
+
+  /// A line for each section of the file that nothing known uses.
+  std::vector<std::string> warnings;
 
   /// @param file      the INI file; empty: none
   /// @param settings  `SECTION.KEY=VALUE` each; override the file

@@ -73,9 +73,29 @@ TEST_F(ConfigurationTest, MisspeltSection) {
   EXPECT_EQ(errorOf("[run]\n[particlefilter]\nparticles = 3\n"),
             "unknown section [particlefilter]: " + ini + "; the nearest known section is [particle_filter]");
   EXPECT_THAT(errorOf("[Run]\n[grid]\n"), HasSubstr("[run]"));
+  EXPECT_THAT(errorOf("[run]\n[gird]\n"), HasSubstr("[grid]"));
+  EXPECT_THAT(errorOf("[grid]\n[rnu]\n"), HasSubstr("[run]"));
   EXPECT_EQ(errorOf("[run]\n[gui]\nx=1\n[grab]\n[laser]\n[MappingApplication_pointsMap_00_insertOpts]\n"),
             "no error")
       << "sections of other programs are ignored";
+}
+
+TEST_F(ConfigurationTest, SectionsThatNobodyUsesGiveAWarning) {
+  const auto warningsOf = [&](const std::string& text) {
+    folder.write("run.ini", text);
+    return Configuration(ini, {}).warnings;
+  };
+  EXPECT_THAT(warningsOf("[run]\n[motion_by_hand]\n"),
+              testing::ElementsAre("unknown section [motion_by_hand]: " + ini +
+                                   "; ignored, the nearest known section is [motion_model]"));
+  EXPECT_THAT(warningsOf("[run]\n[live]\n[LASER]\ndriver = CLMS100Eth\n[MappingApplication_x]\n"),
+              testing::IsEmpty());
+}
+
+TEST_F(ConfigurationTest, OverlongLines) {
+  EXPECT_EQ(errorOf("[run]\noutput = " + std::string(10000, 'x') + "\n"),
+            "line too long: " + ini + ", line 2; expected at most 10000 characters");
+  EXPECT_THAT(errorOf(std::string(10000001, '\n')), StartsWith("too large for an INI file: " + ini));
 }
 
 TEST_F(ConfigurationTest, UnknownKey) {
