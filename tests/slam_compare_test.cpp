@@ -189,6 +189,24 @@ TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
     EXPECT_EQ(fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json")), time) << name;
 }
 
+TEST_F(SlamCompare, ADamagedRunIsRunAgain) {
+  const std::string arguments = "--methods general --seeds 3 -q";
+  ASSERT_EQ(run(arguments).status, 0);
+  const std::string whole = untimedTable();
+  const std::string damaged = "out/runs/general-3-2/trajectory.tum";
+  fs::resize_file(folder.path(damaged), fs::file_size(folder.path(damaged)) / 2);
+  const Outcome report = run(arguments + " --report-only");
+  EXPECT_EQ(report.status, 1);
+  EXPECT_THAT(report.err,
+              HasSubstr("run cannot be evaluated: out/runs/general-3-2; damaged file: " + damaged));
+  EXPECT_EQ(table("results.csv")[1].at("status"), "failed");
+  EXPECT_EQ(table("results.csv")[2].at("status"), "done");
+  const Outcome again = run(arguments);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.err, "slam-compare: warning: damaged run: " + damaged + "; it is run again\n");
+  EXPECT_EQ(untimedTable(), whole);
+}
+
 TEST_F(SlamCompare, MoreSeedsKeepExistingRuns) {
   ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
   const auto before = fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json"));

@@ -262,6 +262,7 @@ std::string quoted(const std::vector<std::string>& arguments) {
 
 int execute(const CommandLine& line, const std::string& command) {
   check(line);
+  warn(run::Configuration(line.files.config, line.settings).warnings);
   std::vector<comparison::Variant> variants;
   for (const std::string& text : line.variants) variants.push_back(comparison::parseVariant(text));
   std::vector<comparison::ParticleCount> particles;
@@ -285,6 +286,13 @@ int execute(const CommandLine& line, const std::string& command) {
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
+  for (const comparison::ComparisonRun& r : sweep) {
+    if (!r.folder.isFinished() || line.isReportOnly) continue;
+    if (const std::string damaged = r.folder.damage(); !damaged.empty()) {
+      warn({"damaged run: " + r.folder.file(damaged).string() + "; it is run again"});
+      r.folder.discard();
+    }
+  }
   size_t ended = 0;
   const auto start = std::chrono::steady_clock::now();
   size_t todo = 0;
@@ -303,7 +311,7 @@ int execute(const CommandLine& line, const std::string& command) {
   comparison::SweepOutcome outcome;
   if (line.isReportOnly) {
     for (const comparison::ComparisonRun& r : sweep)
-      if (r.folder.isFinished()) r.folder.expect(r.identity);
+      if (r.folder.isFinished() && r.folder.damage().empty()) r.folder.expect(r.identity);
   } else {
     const size_t jobs =
         line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
@@ -327,6 +335,9 @@ int execute(const CommandLine& line, const std::string& command) {
                                  fs::path(line.output) / "runs"};
   for (const comparison::ComparisonRun& r : sweep) {
     report.results.push_back(comparison::evaluateRun(r.run, r.folder, report.truth));
+    if (const comparison::RunResult& result = report.results.back();
+        r.folder.isFinished() && result.status == comparison::RunResult::Status::failed)
+      warn({"run cannot be evaluated: " + r.folder.path().string() + "; " + result.error});
     if (r.folder.isFinished()) r.folder.dropLargeFiles();
   }
   report.summaries = summarise(groups.size(), report.results);
@@ -364,8 +375,9 @@ int main(int argc, char** argv) {
   describe(app, line);
   return exitCodeOf([&] {
     if (const auto code = parse(app, argc, argv)) return *code;
-    std::signal(SIGINT, onSignal);
-    std::signal(SIGTERM, onSignal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      if (std::signal(signal, onSignal) == SIG_IGN && signal == SIGHUP)
+        std::signal(signal, SIG_IGN);  // nohup
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     line.files.sort();

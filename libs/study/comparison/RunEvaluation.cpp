@@ -85,15 +85,9 @@ std::vector<std::pair<Figure, double>> GroundTruth::bounds() const {
   return all;
 }
 
-RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth) {
-  RunResult result;
-  result.run = run;
-  result.error = folder.error();
-  if (!folder.isFinished()) {
-    if (!result.error.empty()) result.status = RunResult::Status::failed;
-    return result;
-  }
-  result.status = RunResult::Status::done;
+namespace {
+
+void takeFigures(RunResult& result, const RunFolder& folder, const GroundTruth& truth) {
   takeMetrics(result, folder.file("metrics.json").string());
   const Spread spread = meanSpread(loadSpread(folder.file("steps.csv").string()));
   result[Figure::stdAlong] = spread[0];
@@ -118,6 +112,29 @@ RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth
     result[Figure::success] = std::all_of(bounds.begin(), bounds.end(), [&](const auto& bound) {
       return result[bound.first] && *result[bound.first] < bound.second;
     });
+}
+
+}  // namespace
+
+RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth) {
+  RunResult result;
+  result.run = run;
+  result.error = folder.error();
+  if (!folder.isFinished()) {
+    if (!result.error.empty()) result.status = RunResult::Status::failed;
+    return result;
+  }
+  try {
+    const std::string damaged = folder.damage();
+    if (!damaged.empty()) throw std::runtime_error("damaged file: " + folder.file(damaged).string());
+    takeFigures(result, folder, truth);
+    result.status = RunResult::Status::done;
+  } catch (const std::exception& e) {
+    result = RunResult();
+    result.run = run;
+    result.status = RunResult::Status::failed;
+    result.error = messageOf(e);
+  }
   return result;
 }
 

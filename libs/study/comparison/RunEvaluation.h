@@ -53,8 +53,7 @@ struct GroundTruth {
 };
 
 /// Fills status and figures from the run's folder. Success is evaluated if there are bounds; a missing figure
-/// fails its bound.
-/// @throws InputError, std::runtime_error for unreadable result files
+/// fails its bound. A run with damaged or unreadable result files counts as failed.
 RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth& truth);
 
 }  // namespace hybrid_slam::comparison

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/Errors.h"
+#include "files/Checksum.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 const char* const kOrigin = "origin.json";
 const char* const kError = "error.txt";
+const char* const kChecksums = "checksums.json";
+const char* const kLargeFiles[] = {"map.simplemap.gz", "map.pgm", "map.yaml"};
 
 /// "[section] key" -> value. A config.ini has no other lines.
 std::map<std::string, std::string> settingsOf(std::istream& text) {
@@ -86,9 +89,28 @@ void RunFolder::begin(const RunIdentity& identity) const {
 }
 
 void RunFolder::finish() const {
-  fs::remove_all(folder_);
+  for (const char* name : kLargeFiles) fs::remove(partial_ / name);
+  nlohmann::ordered_json checksums;
+  for (const auto& entry : fs::directory_iterator(partial_))
+    if (const auto sum = files::checksumOf(entry.path().string()))
+      checksums[entry.path().filename().string()] = *sum;
+  std::ofstream out(partial_ / kChecksums);
+  out << checksums.dump(2) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error("cannot write: " + partial_.string() + "; is the disk full?");
+  discard();
   fs::rename(partial_, folder_);
-  dropLargeFiles();
+}
+
+std::string RunFolder::damage() const {
+  if (!fs::exists(file(kChecksums))) return {};
+  std::ifstream in(file(kChecksums));
+  const auto checksums = nlohmann::json::parse(in, nullptr, false);
+  if (!checksums.is_object()) return kChecksums;
+  for (const auto& [name, sum] : checksums.items())
+    if (!sum.is_number_unsigned() || files::checksumOf(file(name).string()) != sum.get<uint32_t>())
+      return name;
+  return {};
 }
 
 void RunFolder::fail(const std::string& error) const {
@@ -101,6 +123,10 @@ void RunFolder::fail(const std::string& error) const {
 void RunFolder::abandon() const {
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
+  // Where a killed hybrid-slam staged its results.
+  const std::string staged = "." + partial_.filename().string() + ".part-";
+  for (const auto& entry : fs::directory_iterator(partial_.parent_path(), ignored))
+    if (entry.path().filename().string().rfind(staged, 0) == 0) fs::remove_all(entry.path(), ignored);
 }
 
 std::string RunFolder::error() const {
@@ -111,7 +137,7 @@ std::string RunFolder::error() const {
 }
 
 void RunFolder::dropLargeFiles() const {
-  for (const char* name : {"map.simplemap.gz", "map.pgm", "map.yaml"}) fs::remove(file(name));
+  for (const char* name : kLargeFiles) fs::remove(file(name));
 }
 
 }  // namespace hybrid_slam::comparison

@@ -39,8 +39,12 @@ class RunFolder {
 
   /// Recreates the partial folder and records the identity.
   void begin(const RunIdentity& identity) const;
-  /// Renames the partial folder to its final name.
+  /// Records checksums of the partial folder's files, and renames it to its final name.
   void finish() const;
+  /// The first file of the run that has changed since; empty if none has, or there are no checksums.
+  std::string damage() const;
+  /// Removes the run.
+  void discard() const { std::filesystem::remove_all(folder_); }
   /// Removes everything except a record of the error.
   void fail(const std::string& error) const;
   /// Removes everything.

@@ -63,6 +63,20 @@ TEST_F(RunFolderTest, KeepsTheFilesOfTheReportAndRemovesLargeOnes) {
     EXPECT_FALSE(fs::exists(folder.file(name)));
 }
 
+TEST_F(RunFolderTest, NoticesAFileThatHasChanged) {
+  finishRun();
+  EXPECT_EQ(folder.damage(), "");
+  std::ofstream(folder.file("metrics.json")) << "{";
+  EXPECT_EQ(folder.damage(), "metrics.json");
+  std::ofstream(folder.file("metrics.json")) << "{}";
+  fs::remove(folder.file("map.gridmap.gz"));
+  EXPECT_EQ(folder.damage(), "map.gridmap.gz");
+  std::ofstream(folder.file("checksums.json")) << "{";
+  EXPECT_EQ(folder.damage(), "checksums.json");
+  fs::remove(folder.file("checksums.json"));
+  EXPECT_EQ(folder.damage(), "") << "a run that slam-compare did not start";
+}
+
 TEST_F(RunFolderTest, ExpectsTheSameSettingsAndLog) {
   finishRun();
   EXPECT_EQ(difference(identity), "none");
@@ -112,7 +126,11 @@ TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {
 
 TEST_F(RunFolderTest, AnAbandonedRunLeavesNothing) {
   folder.begin(identity);
+  fs::create_directory(folder.partial().parent_path() / ".other.part-x");
+  fs::create_directory(folder.partial().parent_path() /
+                       ("." + folder.partial().filename().string() + ".part-x"));
   folder.abandon();
+  fs::remove(folder.partial().parent_path() / ".other.part-x");
   EXPECT_TRUE(fs::is_empty(temporary.path("runs")));
 }
 
