@@ -111,8 +111,8 @@ TEST_F(SimulFloorplan, WrongCommandLines) {
   expectInputError("", "config is required");
   expectInputError("room.ini", "--output is required");
   expectInputError("room.ini -o out.rawlog --fast", "--fast");
-  expectInputError("none.ini -o out.rawlog", "cannot be read: file none.ini");
-  expectInputError(". -o out.rawlog", "cannot be read");
+  expectInputError("none.ini -o out.rawlog", "no such file: none.ini");
+  expectInputError(". -o out.rawlog", "not a file");
   expectInputError("room.ini -o out.txt", "expected a name ending in .rawlog");
   expectInputError("room.ini -o nowhere/out.rawlog", "no such folder");
   expectInputError("room.ini -o out.rawlog -s -3", "--seed");
@@ -121,11 +121,12 @@ TEST_F(SimulFloorplan, WrongCommandLines) {
 
 TEST_F(SimulFloorplan, WrongIniFiles) {
   expectInputError(std::string(kRun) + " --set laser.sensor=LMS-300",
-                   "wrong value `LMS-300`: section [laser], key `sensor`; expected one of LMS-100 | LMS-200");
+                   "wrong value `LMS-300`: command line, section [laser], key `sensor`; expected one of "
+                   "LMS-100 | LMS-200");
   expectInputError(std::string(kRun) + " --set laser.resolution_deg=1",
                    "the LMS-100 does not have this resolution");
   expectInputError(std::string(kRun) + " --set laser.rat=4", "the nearest known key is `rate`");
-  expectInputError(std::string(kRun) + " --set lasers.rate=4", "unknown section: section [lasers]");
+  expectInputError(std::string(kRun) + " --set lasers.rate=4", "unknown section [lasers]");
   expectInputError(std::string(kRun) + " --set odometry.slips=12", "wrong slip `12`");
   expectInputError(std::string(kRun) + " --set simulation.robot_radius=-1", "expected a number in 0..5 m");
   write("room.ini", "[simulation]\nroute = room.route\n");
@@ -148,6 +149,30 @@ TEST_F(SimulFloorplan, WrongFloorPlans) {
   expectInputError(kRun, "floor plan without walls");
   fs::remove(folder.path("room.plan"));
   expectInputError(kRun, "cannot be read: file room.plan");
+}
+
+/// Each of these would take all memory, or hours.
+TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
+  write("room.route", "start 1 1 0\nwait 1e300\n");
+  expectInputError(kRun, "`1e300` is too large: file room.route, line 2");
+  std::string waits = "start 1 1 0\ngo 6 1\n";
+  for (int i = 0; i < 1000; ++i) waits += "wait 100000\n";
+  write("room.route", waits);
+  expectInputError(kRun, "too many readings: 27777.8 h");
+  write("room.route", "start 1 1 0\nspeed 1e-9\ngo 6 1\n");
+  expectInputError(kRun, "too many readings");
+  std::string many;
+  for (int i = 0; i < 20001; ++i) many += "wall 0 0 8 0\n";
+  write("room.plan", many);
+  expectInputError(kRun, "too many lines: file room.plan, line 20001");
+  write("room.plan", "wall 0 0 1e9 0\n");
+  expectInputError(kRun, "`1e9` is too large: file room.plan, line 1");
+}
+
+TEST_F(SimulFloorplan, APlanOfManyKilometresHasASmallPicture) {
+  write("room.plan", "rectangle 0 0 100000 60000\n");
+  EXPECT_EQ(simulate(kRun).status, 0);
+  EXPECT_LT(fs::file_size(folder.path("out.png")), 10000000u);
 }
 
 TEST_F(SimulFloorplan, WrongRoutes) {

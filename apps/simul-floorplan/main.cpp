@@ -4,17 +4,15 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "Program.h"
+#include "files/IniFile.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
@@ -30,31 +28,6 @@ struct CommandLine {
   std::vector<std::string> settings;
   bool quiet = false;
 };
-
-mrpt::config::CConfigFileMemory readConfig(const CommandLine& line) {
-  std::ifstream in(line.config);
-  if (!in || !fs::is_regular_file(line.config))
-    throw InputError("cannot be read", "file " + line.config, "expected an INI file");
-  mrpt::config::CConfigFileMemory config(std::string(std::istreambuf_iterator<char>(in), {}));
-  for (const std::string& setting : line.settings) {
-    const auto equals = setting.find('='), dot = setting.find('.');
-    if (equals == std::string::npos || dot == std::string::npos || dot > equals)
-      throw InputError("wrong setting `" + setting + "`", "option --set", "expected SECTION.KEY=VALUE");
-    config.write(setting.substr(0, dot), setting.substr(dot + 1, equals - dot - 1),
-                 setting.substr(equals + 1));
-  }
-  if (line.seed >= 0) config.write("simulation", "seed", line.seed);
-  return config;
-}
-
-void checkSections(const mrpt::config::CConfigFileBase& config, const std::vector<std::string>& known) {
-  std::vector<std::string> sections;
-  config.getAllSections(sections);
-  for (const std::string& section : sections)
-    if (std::find(known.begin(), known.end(), section) == known.end())
-      throw InputError("unknown section", "section [" + section + "]",
-                       "the nearest known section is [" + nearestName(section, known) + "]");
-}
 
 std::string besideConfig(const CommandLine& line, const std::string& file, const char* key) {
   if (file.empty())
@@ -80,14 +53,14 @@ void writeTogether(
 }
 
 void run(const CommandLine& line) {
-  const mrpt::config::CConfigFileMemory config = readConfig(line);
   simulation::SimulationOptions options;
   simulation::LaserOptions laser;
   simulation::OdometryOptions odometry;
-  checkSections(config, {"simulation", "laser", "odometry"});
-  options.loadFromConfigFile(config, "simulation");
-  laser.loadFromConfigFile(config, "laser");
-  odometry.loadFromConfigFile(config, "odometry");
+  mrpt::config::CConfigFileMemory source;
+  warn(files::loadIni(source, line.config, line.settings,
+                      {{"simulation", &options}, {"laser", &laser}, {"odometry", &odometry}}, "",
+                      "expected a section [simulation] (doc/simulation.md)"));
+  if (line.seed >= 0) options.seed = line.seed;
   const fs::path output = line.output;
   if (output.extension() != ".rawlog")
     throw InputError("wrong output name `" + line.output + "`", "option -o",

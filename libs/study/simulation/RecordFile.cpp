@@ -1,6 +1,7 @@
 #include "study/simulation/RecordFile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,12 @@
 #include "base/Options.h"
 
 namespace hybrid_slam::simulation {
+namespace {
+
+constexpr double kLargestNumber = 1e5;  // m, s, deg: a building has no more
+constexpr size_t kMostRecords = 20000;
+
+}  // namespace
 
 std::vector<Record> readRecords(const std::string& file, const std::vector<std::string>& words) {
   std::ifstream in(file);
@@ -31,8 +38,12 @@ std::vector<Record> readRecords(const std::string& file, const std::vector<std::
       if (!value)
         throw InputError("`" + text + "` is not a number", record.where,
                          "expected only numbers after the word");
+      if (std::abs(*value) > kLargestNumber)
+        throw InputError("`" + text + "` is too large", record.where, "expected a number in -100000..100000");
       record.numbers.push_back(*value);
     }
+    if (records.size() == kMostRecords)
+      throw InputError("too many lines", record.where, "expected at most " + std::to_string(kMostRecords));
     records.push_back(std::move(record));
   }
   return records;

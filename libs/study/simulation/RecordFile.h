@@ -15,7 +15,8 @@ struct Record {
 };
 
 /// @param words  allowed words
-/// @throws InputError for an unreadable file, an unknown word or a non-finite number
+/// @throws InputError for an unreadable file, an unknown word, a number that is not finite or beyond 1e5, and
+///         more than 20,000 records
 std::vector<Record> readRecords(const std::string& file, const std::vector<std::string>& words);
 
 /// @throws InputError unless the record has one number per name in `names` (space-separated)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "base/RandomStream.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/Route.h"
@@ -39,6 +40,23 @@ std::vector<Event> eventsOf(const Route& route, const std::vector<Slip>& slips, 
   return events;
 }
 
+/// All readings are in memory until they are written.
+void expectBounded(const Route& route, int scans, double scanRate, size_t beamsOfScan, double odometryRate) {
+  constexpr double kMostBeams = 2e8, kMostReadings = 1e7, kLongestPath = 1e5;  // m
+  const double metres = route.progressAt(route.duration()).distance;
+  if (!(metres <= kLongestPath))
+    throw InputError("route too long: " + fixedText(metres / 1000, 1) + " km",
+                     "section [simulation], key `route`",
+                     "expected at most " + fixedText(kLongestPath / 1000, 0) + " km");
+  double seconds = route.duration();
+  if (scans > 0) seconds = std::min(seconds, scans / scanRate);
+  if (seconds * scanRate * static_cast<double>(beamsOfScan) > kMostBeams ||
+      seconds * std::max(scanRate, odometryRate) > kMostReadings)
+    throw InputError("too many readings: " + fixedText(seconds / 3600, 1) + " h",
+                     "section [simulation], keys `route` and `scans`",
+                     "expected a shorter route, a higher speed, lower rates, or fewer scans");
+}
+
 }  // namespace
 
 void SimulationOptions::describe(OptionTable& t) {
@@ -60,6 +78,7 @@ SimulatedLog simulate(const FloorPlan& plan, const Route& route, const Simulatio
     if (slip.time > route.duration())
       throw InputError("slip after the end of the route", "section [odometry], key `slips`",
                        "expected times up to " + std::to_string(route.duration()) + " s");
+  expectBounded(route, options.scans, laserOptions.rate, laser.beamCount(), odometryOptions.rate);
   route.checkClear(plan, options.robotRadius);
 
   SimulatedLog log;

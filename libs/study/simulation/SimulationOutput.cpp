@@ -43,8 +43,9 @@ class Drawing {
  public:
   Drawing(const TPoint2D& low, const TPoint2D& high)
       : low_(low - TPoint2D(kMargin, kMargin)),
-        height_(static_cast<int>((high.y - low.y + 2 * kMargin) * kScale)),
-        image_(static_cast<unsigned>((high.x - low.x + 2 * kMargin) * kScale), height_) {
+        scale_(std::min(kScale, kLargest / (std::max(high.x - low.x, high.y - low.y) + 2 * kMargin))),
+        height_(pixels(high.y - low.y)),
+        image_(static_cast<unsigned>(pixels(high.x - low.x)), height_) {
     image_.filledRectangle(0, 0, static_cast<int>(image_.getWidth()) - 1, height_ - 1, {255, 255, 255});
   }
   void line(const TPoint2D& a, const TPoint2D& b, const mrpt::img::TColor& color, unsigned width) {
@@ -57,12 +58,15 @@ class Drawing {
 
  private:
   static constexpr double kScale = 20, kMargin = 1;  // pixels/m, m
-  int column(const TPoint2D& p) const { return static_cast<int>(std::lround((p.x - low_.x) * kScale)); }
+  static constexpr double kLargest = 8000;           // pixels; larger plans are scaled down
+  int pixels(double metres) const { return std::max(1, static_cast<int>((metres + 2 * kMargin) * scale_)); }
+  int column(const TPoint2D& p) const { return static_cast<int>(std::lround((p.x - low_.x) * scale_)); }
   int row(const TPoint2D& p) const {
-    return height_ - 1 - static_cast<int>(std::lround((p.y - low_.y) * kScale));
+    return height_ - 1 - static_cast<int>(std::lround((p.y - low_.y) * scale_));
   }
 
   TPoint2D low_;
+  double scale_;  ///< pixels/m
   int height_;
   mrpt::img::CImage image_;
 };
