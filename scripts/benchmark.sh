@@ -33,7 +33,7 @@ ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g", a / b }'; }
 ours() {
   local name=$1 log=$2
   shift 2
-  measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/paper.ini" "$log" -q -o "$out/$name" "$@"
+  measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/paper.ini" "$log" -q --overwrite -o "$out/$name" "$@"
 }
 # CPU milliseconds per update of a run on one core.
 per_update() {
@@ -144,7 +144,7 @@ simulated_tables() {
   world 20 110 world-20-long
   local options=(-n 20 -j 1) name
   for name in world-20 world-200 world-20-long; do
-    measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$name.rawlog" -q -o "$name" "${options[@]}"
+    measure "$name" "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$name.rawlog" -q --overwrite -o "$name" "${options[@]}"
   done
   echo
   echo "## Time and memory against map size and log length (simulated, 541 beams, 20 particles, one core)"
@@ -163,7 +163,7 @@ simulated_tables() {
   echo "A log of 20 m ten times as long: $(ratio "$(mean_step world-20-long 0 1)" "$(mean_step world-20 0 1)") times the time per update (step_ms)."
   local csie=500
   [[ -z ${FULL:-} ]] || csie=5000
-  measure csie "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$PWD/datasets/csie/csie-loop.rawlog" -q -o csie \
+  measure csie "$bin/hybrid-slam" "$PWD/config-ini/csie-lms100.ini" "$PWD/datasets/csie/csie-loop.rawlog" -q --overwrite -o csie \
     -n "$csie" -j 2
   echo "CSIE loop, $csie particles on two cores: $(per_update csie) ms of CPU per update (mean step $(mean_step csie 0 1) ms wall), $(memory csie) MB."
 }

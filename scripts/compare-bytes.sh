@@ -22,6 +22,7 @@ untimed() {
 same() {
   local name=$1 file
   shift
+  rm -rf "$out/$name-before" "$out/$name-after"
   "$before/hybrid-slam" -q "${options[@]}" "$@" 2>/dev/null -o "$out/$name-before"
   "$after/hybrid-slam" -q "${options[@]}" "$@" 2>/dev/null -o "$out/$name-after"
   for file in trajectory.tum steps.csv lines.csv map.png map.pgm; do

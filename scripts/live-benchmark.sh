@@ -32,7 +32,7 @@ run() {
     2>"$work/live.err" || { cat "$work/live.err" "$work/server.err" >&2; exit 1; }
   wait "$server" || { cat "$work/server.err" >&2; exit 1; }
   server=
-  "$bin/hybrid-slam" config-ini/csie-lms100.ini "$out/recording.rawlog" -o "$out-again" -n 50 -j 2 -q
+  "$bin/hybrid-slam" config-ini/csie-lms100.ini "$out"/recording-*.rawlog -o "$out-again" -n 50 -j 2 -q
   local same=differs
   cmp -s "$out/trajectory.tum" "$out-again/trajectory.tum" && same=same
   python3 - "$out/metrics.json" "$rate" "$same" <<'PYTHON'

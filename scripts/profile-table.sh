@@ -14,7 +14,7 @@ mkdir -p "$out"
 profile() {
   local name=$1
   shift
-  "$bin/hybrid-slam" config-ini/paper.ini "$out/intel.rawlog" -q -j 1 --profile -o "$out/$name" "$@" |
+  "$bin/hybrid-slam" config-ini/paper.ini "$out/intel.rawlog" -q -j 1 --profile --overwrite -o "$out/$name" "$@" |
     awk '/^[0-9] / {
         seconds = $NF == "s" ? $(NF - 1) : $NF ~ /us$/ ? $NF / 1e6 : $NF ~ /ms$/ ? $NF / 1e3 : $NF + 0
         sub(/^[0-9] /, ""); sub(/  .*/, ""); printf "%s\t%.2f\n", $0, seconds

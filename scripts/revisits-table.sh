@@ -17,7 +17,7 @@ row() {
   local log=$1 distance=$2 name=$3 ini=$4 particles=$5 seed=$6 run
   shift 6
   run=$out/${name//[ ,]/}-$(basename "$ini" .ini)-$particles-$seed
-  "$bin/hybrid-slam" "$ini" "$log" -q -n "$particles" -s "$seed" -o "$run" "$@"
+  "$bin/hybrid-slam" "$ini" "$log" -q -n "$particles" -s "$seed" --overwrite -o "$run" "$@"
   "$bin/slam-eval" revisits --trajectory "$run/trajectory.tum" --rawlog "$log" --distance "$distance" |
     python3 -c 'import json, sys
 e = json.load(sys.stdin)

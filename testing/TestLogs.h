@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -110,6 +111,17 @@ inline Log laps(size_t steps, size_t stepsPerLap = 80, size_t beams = 181) {
 inline std::string contentOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Paths of what is in a folder with a name that begins so, in alphabetical order; empty if there is no
+/// folder.
+inline std::vector<std::string> filesIn(const std::string& folder, const std::string& beginning) {
+  std::vector<std::string> paths;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().filename().string().rfind(beginning, 0) == 0) paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
 }
 
 /// Writes a gzipped rawlog; returns its path.

@@ -26,9 +26,9 @@ class HybridSlam : public testing::Test {
     err = outcome.err;
     return outcome.status;
   }
-  /// Replays a log with the test's INI file into `output`.
+  /// Replays a log with the test's INI file into `output`, in place of earlier results.
   int replay(const std::string& log, const std::string& options = "", const std::string& before = "") {
-    return run("'" + ini + "' '" + log + "' -o '" + output + "' " + options, before);
+    return run("'" + ini + "' '" + log + "' --overwrite -o '" + output + "' " + options, before);
   }
   int replay(const test::Log& log, const std::string& options = "") {
     return replay(test::writeGzipped(folder.path("log.rawlog"), log), options);

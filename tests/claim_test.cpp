@@ -26,8 +26,8 @@ class Claim : public testing::Test {
   files::Trajectory run(const std::string& ini, const std::string& log, const std::string& options,
                         int seed) {
     const std::string command = std::string("'") + HYBRID_SLAM + "' '" SOURCE_DIR "/config-ini/" + ini +
-                                "' '" + log + "' -q -p standard -n 20 -s " + std::to_string(seed) + " -o '" +
-                                folder_.path("out") + "' " + options;
+                                "' '" + log + "' -q --overwrite -p standard -n 20 -s " +
+                                std::to_string(seed) + " -o '" + folder_.path("out") + "' " + options;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return files::loadTum(folder_.path("out/trajectory.tum"));
   }

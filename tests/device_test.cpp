@@ -212,7 +212,7 @@ TEST_F(DeviceTest, TheRecordingOfBothDevicesReplaysToTheSameMap) {
   EXPECT_EQ(run.skipped(), 0u);
 
   run::Configuration again(ini, {"run.output=" + folder.path("offline")});
-  again.run.rawlog = folder.path("live/recording.rawlog");
+  again.run.rawlog = test::filesIn(folder.path("live"), "recording-").at(0);
   const std::atomic<bool> stop{false};
   run::replay(again, true, stop, "test");
   const std::string trajectory = test::contentOf(folder.path("live/trajectory.tum"));

@@ -290,7 +290,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   EXPECT_EQ(count(screenshot("live-without-path"), *frame->live()->canvas(), 220, 0, 0), 0u);
   frame->live()->connectOrStop();
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 3; }));
-  EXPECT_THAT(dialogs.messages[2], HasSubstr("recording.rawlog"));
+  EXPECT_THAT(dialogs.messages[2], HasSubstr("recording-20"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
   EXPECT_TRUE(stands(State::ended, 60));
 }

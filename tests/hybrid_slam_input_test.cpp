@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "HybridSlamProgram.h"
@@ -169,7 +170,8 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
 TEST_F(HybridSlam, ScansWithoutBeamsAreSkipped) {
   test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
-  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4; skipped");
+  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4 of " +
+                              folder.path("log.rawlog"));
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 9u);
 }
 
@@ -194,8 +196,43 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   fs::remove_all(output);
   for (const double jump : {101., 1e5, 1e9, 1e300}) {
     SCOPED_TRACE(jump);
-    expectError(replay(withJump(jump)), "odometry jumps: entry 12 of " + folder.path("log.rawlog"));
+    expectDone(replay(withJump(jump)),
+               "1 odometry jumps of over 100 m: first at entry 11 of " + folder.path("log.rawlog"));
+    const auto poses = files::loadTum(output + "/trajectory.tum");
+    ASSERT_EQ(poses.size(), 10u);
+    EXPECT_LT(poses.back().pose.norm(), 10);
+    EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["skipped_readings"], 1);
   }
+}
+
+/// One scan of 40 that cannot be true.
+TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
+  const auto with = [](const mrpt::poses::CPose3D& sensor) {
+    test::Log log = test::laps(40);
+    std::dynamic_pointer_cast<test::CObservation2DRangeScan>(log[21])->sensorPose = sensor;
+    return log;
+  };
+  for (const double far : {101., 3270., 1e5, 1e300}) {
+    SCOPED_TRACE(far);
+    expectDone(replay(with({far, far, 0, 0, 0, 0})),
+               "1 scans with a sensor pose over 100 m from the robot: first at entry 22 of");
+    EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["skipped_readings"], 1);
+    EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 39u);
+  }
+  for (const std::string options : {"", "--set input.sensor_label=LASER"})
+    expectDone(replay(with({0, 0, 0, 0, 0.5, 0}), options),
+               "1 scans of a tilted plane: first at entry 22 of " + folder.path("log.rawlog"));
+  EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
+}
+
+TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
+  test::Log log;
+  for (size_t i = 0; i < 10; ++i) {
+    log.push_back(test::action({0.1, 0, 0}));
+    log.push_back(test::frame({test::scan(1000 + 0.2 * static_cast<double>(i), {})}));
+  }
+  log[4] = test::action({1e30, 0, 0});
+  expectDone(replay(log), "1 odometry jumps of over 100 m: first at entry 5");
 }
 
 TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {

@@ -47,7 +47,7 @@ TEST_F(HybridSlam, OutputFolderNotWritable) {
   expectError(replay(test::laps(4)), "output folder not writable: " + output);
 }
 
-TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPartialFile) {
+TEST_F(HybridSlam, AResultThatCannotBeReplacedLeavesNoOtherFile) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   for (const std::string& name : kResults) {
     SCOPED_TRACE(name);
@@ -55,7 +55,7 @@ TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPartialFile) {
     fs::create_directories(output + "/" + name);
     EXPECT_EQ(replay(log), 2);
     EXPECT_EQ(err, "hybrid-slam: error: cannot write: " + output + "/" + name + "; expected a file name\n");
-    for (const std::string& left : results()) EXPECT_THAT(kResults, testing::Contains(left));
+    EXPECT_THAT(results(), testing::ElementsAre(name));
   }
 }
 
@@ -63,8 +63,6 @@ TEST_F(HybridSlam, AResultThatCannotBeWrittenLeavesNoPartialFile) {
 TEST_F(HybridSlam, DiskFull) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
   ASSERT_EQ(replay(log), 0);
-  std::map<std::string, std::string> complete;
-  for (const std::string& name : results()) complete[name] = result(name);
   const auto largest = fs::file_size(output + "/map.png");
   std::set<std::string> failures;
   for (std::uintmax_t blocks = 1; blocks * 512 < largest; blocks *= 2) {
@@ -72,12 +70,66 @@ TEST_F(HybridSlam, DiskFull) {
     fs::remove_all(output);
     EXPECT_EQ(replay(log, "", "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; "), 2);
     EXPECT_THAT(err, MatchesRegex(kErrorLine));
-    EXPECT_THAT(err, AllOf(StartsWith("hybrid-slam: error: cannot write: " + output + "/"),
+    EXPECT_THAT(err, AllOf(StartsWith("hybrid-slam: error: cannot write: " + folder.path(".out.part-")),
                            HasSubstr("free disk space")));
-    failures.insert(err);
-    for (const std::string& name : results()) EXPECT_EQ(result(name), complete.at(name)) << name;
+    failures.insert(err.substr(0, err.find(';')).substr(err.rfind('/')));
+    EXPECT_FALSE(fs::exists(output));
   }
   EXPECT_GE(failures.size(), 2u) << "of several files";
+}
+
+TEST_F(HybridSlam, ASecondRunLeavesTheResultsOfTheFirst) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
+  const std::string call = "'" + ini + "' '" + log + "' -o '" + output + "'";
+  ASSERT_EQ(run(call), 0) << err;
+  EXPECT_EQ(err, "");
+  const std::string first = result("metrics.json");
+  for (const size_t more : {1u, 2u}) {
+    ASSERT_EQ(run(call), 0) << err;
+    EXPECT_THAT(err, MatchesRegex(output + " has results of an earlier run; those of this run go to " +
+                                  output + "/20[^ ]* \\(--overwrite[^\n]*\n"));
+    const std::string place = err.substr(err.find(output + "/20"), err.find(" (") - err.find(output + "/20"));
+    EXPECT_THAT(test::namesIn(place), UnorderedElementsAreArray(kResults));
+    EXPECT_THAT(out, HasSubstr(place + "/map.png"));
+    EXPECT_EQ(results().size(), kResults.size() + more);
+  }
+  EXPECT_EQ(result("metrics.json"), first);
+  ASSERT_EQ(run(call + " --overwrite"), 0) << err;
+  EXPECT_EQ(err, "");
+  EXPECT_NE(result("metrics.json"), first);
+  EXPECT_EQ(results().size(), kResults.size() + 2);
+}
+
+TEST_F(HybridSlam, AFailedRunLeavesTheResultsOfTheOneBefore) {
+  ASSERT_EQ(replay(test::laps(10)), 0);
+  const std::string first = result("metrics.json");
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
+  EXPECT_EQ(replay(log, "", "trap '' XFSZ; ulimit -f 2; "), 2);
+  EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
+  EXPECT_EQ(result("metrics.json"), first);
+}
+
+TEST_F(HybridSlam, AFullStandardOutputIsAnError) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  for (const std::string& arguments :
+       {std::string("--help-config"), std::string("--help"), "'" + log + "' -o out"}) {
+    const test::Outcome full =
+        test::shell(folder, "{ '" HYBRID_SLAM "' " + arguments + " >/dev/full; echo $? >code; }");
+    EXPECT_EQ(contentOf(folder.path("code")), "1\n") << arguments;
+    EXPECT_THAT(full.err, HasSubstr("hybrid-slam: error: cannot write: standard output; ")) << arguments;
+  }
+}
+
+/// A result file must not get the number of standard error, and its messages.
+TEST_F(HybridSlam, ClosedStandardDescriptorsHarmNoResult) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
+  ASSERT_EQ(run("'" + ini + "' '" + log + "' -o '" + output + "'"), 0);
+  const std::string expected = result("trajectory.tum");
+  test::shell(folder,
+              "('" HYBRID_SLAM "' '" + ini + "' '" + log + "' -o closed <&- >&- 2>&-; echo $? >code); true");
+  EXPECT_EQ(contentOf(folder.path("code")), "0\n");
+  EXPECT_THAT(test::namesIn(folder.path("closed")), UnorderedElementsAreArray(kResults));
+  EXPECT_EQ(contentOf(folder.path("closed/trajectory.tum")), expected);
 }
 
 // ---- processes
@@ -108,40 +160,50 @@ std::pair<std::string, int> onTerminal(const std::vector<std::string>& arguments
 }
 
 TEST_F(HybridSlam, ATerminalShowsABarWithTheTimeLeft) {
-  test::Log log = test::laps(100);
-  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), test::laps(100));
   const auto [text, code] = onTerminal({"hybrid-slam", "-o", output, ini, path});
   EXPECT_EQ(code, 0);
   EXPECT_THAT(text, HasSubstr("\r[##############################] 100 %  0:00 left  spread "));
   EXPECT_THAT(text, HasSubstr("\n100 scans, ")) << "the bar's line is ended";
-
-  std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[log.size() - 2])->odometry.x(1000);
-  ini = folder.write("every.ini",
-                     "[particle_filter]\nproposal = standard\nupdate_distance = 0\nparticles = 300\n");
-  const auto [error, errorCode] =
-      onTerminal({"hybrid-slam", "-o", output, ini, test::writeGzipped(path, log)});
-  EXPECT_EQ(errorCode, 2);
-  EXPECT_THAT(error, HasSubstr("\nhybrid-slam: error: odometry jumps")) << "also by an error";
 }
 
 TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4000));
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     fs::remove_all(output);
     test::ChildProgram program(folder, "run", {HYBRID_SLAM, "-q", "-n", "300", "-o", output, ini, log});
-    const std::string steps = output + "/.partial.steps.csv";  // its first rows come in one block
-    EXPECT_TRUE(test::happens([&] {
+    const auto hasSteps = [this] {  // the first rows come in one block
       std::error_code none;
-      return program.hasEnded() || (fs::file_size(steps, none) > 0 && !none);
-    }));
+      for (const std::string& name : test::namesIn(folder.path("")))
+        if (fs::file_size(folder.path(name + "/.partial.steps.csv"), none) > 0 && !none) return true;
+      return false;
+    };
+    EXPECT_TRUE(test::happens([&] { return program.hasEnded() || hasSteps(); }));
     program.signal(signal);
     EXPECT_EQ(program.wait(), 1);
     err = program.err();
     EXPECT_THAT(err, MatchesRegex(kErrorLine));
     EXPECT_THAT(err, HasSubstr("interrupted: entry "));
     EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
-    EXPECT_LT(files::loadTum(output + "/trajectory.tum").size(), 4000u);
+    const size_t scans = files::loadTum(output + "/trajectory.tum").size();
+    EXPECT_LT(scans, 4000u);
+    const auto metrics = nlohmann::json::parse(result("metrics.json"));
+    EXPECT_EQ(metrics["complete"], false);
+    EXPECT_NEAR(metrics["duration_s"].get<double>(), 0.2 * static_cast<double>(scans - 1), 1e-3)
+        << "of the scans that were replayed";
   }
+}
+
+TEST_F(HybridSlam, ARunUnderNohupOutlivesItsTerminal) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(400));
+  test::ChildProgram program(
+      folder, "run",
+      {"/bin/sh", "-c",
+       "trap '' HUP; exec '" HYBRID_SLAM "' -q -n 50 -o '" + output + "' '" + ini + "' '" + log + "'"});
+  EXPECT_TRUE(test::happens([&] { return fs::exists(output); }));
+  program.signal(SIGHUP);
+  EXPECT_EQ(program.wait(), 0) << program.err();
+  EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
 }
 
 TEST_F(HybridSlam, PeakMemoryIsThatOfTheProgramAlone) {

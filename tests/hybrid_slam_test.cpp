@@ -69,11 +69,11 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   std::vector<std::string> keys;
   for (const auto& [key, value] : metrics.items()) keys.push_back(key);
-  EXPECT_THAT(
-      keys, UnorderedElementsAre("method", "particles", "particles_min", "particles_max", "seed", "threads",
-                                 "scans", "updates", "duration_s", "wall_s", "cpu_s", "realtime_factor",
-                                 "peak_rss_mb", "resamplings", "slips", "loops_closed", "verdict", "reasons",
-                                 "doubtful_places", "lines", "distance_m", "versions"));
+  EXPECT_THAT(keys, UnorderedElementsAre("method", "particles", "particles_min", "particles_max", "seed",
+                                         "threads", "scans", "updates", "duration_s", "wall_s", "cpu_s",
+                                         "realtime_factor", "peak_rss_mb", "resamplings", "slips",
+                                         "loops_closed", "verdict", "reasons", "doubtful_places", "lines",
+                                         "distance_m", "complete", "skipped_readings", "versions"));
   EXPECT_EQ(metrics["method"], "hybrid");
   EXPECT_EQ(metrics["particles"], 5);
   EXPECT_EQ(metrics["seed"], 7);
@@ -287,13 +287,13 @@ TEST_F(HybridSlam, TheIniFileIsOptional) {
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   EXPECT_EQ(metrics["method"], "hybrid");
   EXPECT_THAT(result("config.ini"), HasSubstr("proposal = standard"));
-  expectDone(run("--set run.rawlog='" + log + "' -n 5 -o '" + output + "'"));
+  expectDone(run("--overwrite --set run.rawlog='" + log + "' -n 5 -o '" + output + "'"));
   EXPECT_THAT(result("config.ini"), HasSubstr("proposal = improved"));
   for (const char* name : {"settings.txt", "settings.INI"}) {
     SCOPED_TRACE(name);
     const std::string settings =
         folder.write(name, "# comment\n\n[run]\nrawlog = " + log + "\n[particle_filter]\nparticles = 7\n");
-    expectDone(run("'" + settings + "' -o '" + output + "'"));
+    expectDone(run("--overwrite '" + settings + "' -o '" + output + "'"));
     EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["particles"], 7);
   }
   fs::remove_all(output);
@@ -322,14 +322,14 @@ TEST_F(HybridSlam, ATextLogGivesWhatItsRawlogGives) {
   const std::string log = folder.write("log.clf", carmenLog()), rawlog = folder.path("log.rawlog");
   ASSERT_EQ(test::shell(folder, "'" LOG2RAWLOG "' '" + log + "' '" + rawlog + "'").status, 0);
   const auto trajectoryOf = [&](const std::string& file, const std::string& warning) {
-    expectDone(run("'" + file + "' -o '" + output + "'"), warning);
+    expectDone(run("--overwrite '" + file + "' -o '" + output + "'"), warning);
     return result("trajectory.tum");
   };
   const std::string expected = trajectoryOf(rawlog, "");
   EXPECT_THAT(out, AllOf(HasSubstr("laser FLASER: 180 beams every 1 deg, at x 0.40 m"),
                          HasSubstr("line_weight.sigma_deg = 0.5")));
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 40u);
-  EXPECT_EQ(trajectoryOf(log, "1 broken lines: first at line 3; skipped"), expected);
+  EXPECT_EQ(trajectoryOf(log, "1 broken lines: first at line 3 of " + log + "; skipped"), expected);
   ASSERT_EQ(test::shell(folder, "gzip -k '" + log + "'").status, 0);
   EXPECT_EQ(trajectoryOf(log + ".gz", "1 broken lines"), expected);
 

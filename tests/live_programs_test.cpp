@@ -63,19 +63,24 @@ class LivePrograms : public testing::Test {
   bool isRecording() const {
     return test::happens([&] {
       std::error_code none;
-      return std::filesystem::file_size(output + "/.partial.recording.rawlog", none) > 1000 && !none;
+      const auto files = test::filesIn(output, ".partial.recording-");
+      return !files.empty() && std::filesystem::file_size(files[0], none) > 1000 && !none;
     });
   }
   std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
   /// All that a replay writes, and the recording.
   void expectAllResults() const {
     std::vector<std::string> all = test::kResults;
-    all.push_back("recording.rawlog");
+    all.push_back(std::filesystem::path(recording()).filename().string());
     EXPECT_THAT(results(), testing::UnorderedElementsAreArray(all));
+  }
+  std::string recording() const {
+    const auto files = test::filesIn(output, "recording-20");
+    return files.empty() ? "none" : files[0];
   }
   std::vector<std::string> results() const { return test::namesIn(output); }
   size_t recorded() const {
-    files::RawlogReader reader(output + "/recording.rawlog");
+    files::RawlogReader reader(recording());
     size_t scans = 0;
     while (const auto object = reader.next())
       if (std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object)) ++scans;
@@ -105,7 +110,7 @@ TEST_F(LivePrograms, TheLiveMapEqualsThatOfTheLogAndOfTheRecording) {
   expectAllResults();
   const std::string trajectory = result("trajectory.tum");
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 100);
-  EXPECT_EQ(trajectory, replay(output + "/recording.rawlog", "again")) << "the recording's replay";
+  EXPECT_EQ(trajectory, replay(recording(), "again")) << "the recording's replay";
   EXPECT_EQ(trajectory, replay(folder.path("log.rawlog"), "original")) << "no cycle was lost";
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   EXPECT_EQ(metrics["skipped"], 0);
@@ -144,7 +149,7 @@ TEST_F(LivePrograms, AServerRestartContinuesTheSameMap) {
   const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
   EXPECT_GT(scans, 50u) << "both servers'";
   EXPECT_EQ(recorded(), scans);
-  EXPECT_EQ(result("trajectory.tum"), replay(output + "/recording.rawlog", "again"));
+  EXPECT_EQ(result("trajectory.tum"), replay(recording(), "again"));
 }
 
 TEST_F(LivePrograms, WithoutAServerThereAreNoResults) {
@@ -154,7 +159,45 @@ TEST_F(LivePrograms, WithoutAServerThereAreNoResults) {
   map->signal(SIGTERM);
   EXPECT_EQ(map->wait(), 1);
   EXPECT_THAT(map->err(), HasSubstr("no scan with odometry"));
-  EXPECT_THAT(results(), testing::ElementsAre("recording.rawlog"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(LivePrograms, AnotherStartLosesNothing) {
+  const auto robot = replaying(60, "500");
+  const auto first = live();
+  EXPECT_EQ(first->wait(), 0) << first->err();
+  const std::string metrics = result("metrics.json"), recorded = test::contentOf(recording());
+  const auto before = results();
+
+  port = "1";  // mistyped
+  const auto second = live();
+  ASSERT_TRUE(test::happens([&] { return second->err().find("refused") != std::string::npos; }));
+  EXPECT_THAT(second->err(), HasSubstr("has results of an earlier run"));
+  second->signal(SIGTERM);
+  EXPECT_EQ(second->wait(), 1);
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(before));
+
+  std::filesystem::remove(folder.path("server.out"));  // it has the port of the first server
+  const auto again = replaying(60, "500");
+  const auto third = live({"--overwrite"});
+  EXPECT_EQ(third->wait(), 0) << third->err();
+  EXPECT_NE(result("metrics.json"), metrics);
+  EXPECT_EQ(test::contentOf(recording()), recorded);
+  EXPECT_EQ(results().size(), before.size() + 1) << "one recording more";
+}
+
+TEST_F(LivePrograms, AKilledRunLeavesItsRecording) {
+  const auto robot = replaying(5000, "100");
+  const auto map = live();
+  ASSERT_TRUE(isRecording()) << map->err();
+  map->signal(SIGKILL);
+  EXPECT_EQ(map->wait(), -1);
+  const auto left = test::filesIn(output, ".partial.recording-");
+  ASSERT_EQ(left.size(), 1u);
+  files::RawlogReader reader(left[0]);
+  size_t objects = 0;
+  while (reader.next()) ++objects;
+  EXPECT_GT(objects, 10u);
 }
 
 TEST_F(LivePrograms, TheShippedConfigurationsWaitForTheirSensors) {

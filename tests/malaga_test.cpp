@@ -27,7 +27,8 @@ class Malaga : public testing::Test {
 
   files::Trajectory run(const std::string& arguments) {
     const std::string command = std::string(HYBRID_SLAM) + " " + SOURCE_DIR +
-                                "/config-ini/malaga.ini -q -o '" + folder_.string() + "' " + arguments;
+                                "/config-ini/malaga.ini -q --overwrite -o '" + folder_.string() + "' " +
+                                arguments;
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return files::loadTum((folder_ / "trajectory.tum").string());
   }

@@ -84,8 +84,8 @@ class TwoLasers : public testing::Test {
   double error(const std::string& label, int seed) {
     const std::string command =
         std::string("'") + HYBRID_SLAM + "' '" SOURCE_DIR "/config-ini/csie-lms100.ini' '" +
-        folder_.path("two.rawlog") + "' -q -p improved -n 10 -s " + std::to_string(seed) + " -o '" +
-        folder_.path("out") + "'" + (label.empty() ? "" : " --set input.sensor_label=" + label);
+        folder_.path("two.rawlog") + "' -q --overwrite -p improved -n 10 -s " + std::to_string(seed) +
+        " -o '" + folder_.path("out") + "'" + (label.empty() ? "" : " --set input.sensor_label=" + label);
     EXPECT_EQ(std::system((command + " 2>'" + folder_.path("err") + "'").c_str()), 0) << command;
     return evaluation::absoluteTrajectoryError(files::loadTum(folder_.path("out/trajectory.tum")), truth_,
                                                0.02)

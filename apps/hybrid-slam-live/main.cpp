@@ -21,7 +21,7 @@ struct CommandLine {
   std::string config, server, output;
   FilterArguments filter;
   std::vector<std::string> settings;
-  bool isQuiet = false, wantsManual = false;
+  bool isQuiet = false, overwrites = false, wantsManual = false;
 };
 
 void describe(CLI::App& app, CommandLine& line) {
@@ -31,15 +31,19 @@ void describe(CLI::App& app, CommandLine& line) {
                  "read from this observation-server, not from the INI file's sensors")
       ->type_name("HOST:PORT");
   app.add_option("-o,--output", line.output, "folder for results and recording")->type_name("DIR");
+  app.add_flag("--overwrite", line.overwrites,
+               "replace the results of an earlier run in DIR, but no recording; else they go to a dated "
+               "subfolder");
   line.filter.addMethod(app);
   line.filter.addParticles(app, "random seed; same seed and recording: identical results");
   addSettings(app, line.settings);
   app.add_flag("-q,--quiet", line.isQuiet, "no status every 10 s, no summary");
   app.add_flag("--help-config", line.wantsManual, "print every key of section [live]");
   app.footer(
-      "Results: those of hybrid-slam (doc/results.md) and recording.rawlog, which hybrid-slam replays. "
-      "Ctrl-C\n"
-      "ends the run and writes the results. Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
+      "Results: those of hybrid-slam (doc/results.md) and recording-DATE.rawlog, which hybrid-slam "
+      "replays.\n"
+      "Ctrl-C ends the run and writes the results. Exit: 0 done, 1 the run failed, 2 wrong command line or "
+      "input.");
 }
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {
@@ -66,9 +70,18 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
     source = std::move(owned);
   }
   live::LiveRun run(configuration, options, *log, isQuiet);
-  source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
-              [&] { return stop || run.hasFailed(); });
-  return run.finish(HYBRID_SLAM_VERSION, client ? client->lost() : 0);
+  const auto finish = [&] { return run.finish(HYBRID_SLAM_VERSION, client ? client->lost() : 0); };
+  try {
+    source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
+                [&] { return stop || run.hasFailed(); });
+  } catch (const std::exception&) {
+    try {
+      finish();                        // the results so far
+    } catch (const std::exception&) {  // there are none
+    }
+    throw;
+  }
+  return finish();
 }
 
 int execute(const CommandLine& line, const std::vector<std::string>& settings) {
@@ -82,6 +95,8 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   ignoreHangUps();
   stopOnSignals();
   run::Configuration configuration(line.config, settings, sections);
+  configuration.run.overwrite = line.overwrites;
+  warn(configuration.warnings);
   const std::string summary = runLive(configuration, options, line.isQuiet);
   if (!line.isQuiet) std::cout << summary << "\n";
   return 0;

@@ -21,13 +21,15 @@ struct CommandLine {
   FilterArguments filter;
   std::vector<std::string> settings;
   int refine = 0;
-  bool isQuiet = false, isStrict = false, wantsProfile = false, wantsManual = false;
+  bool isQuiet = false, isStrict = false, overwrites = false, wantsProfile = false, wantsManual = false;
 };
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
   line.files.add(app, std::string(kLogMeans) + " (default: [run] rawlog)");
   app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
+  app.add_flag("--overwrite", line.overwrites,
+               "replace the results of an earlier run in DIR; else they go to a dated subfolder");
   line.filter.addMethod(app);
   line.filter.addParticles(app);
   app.add_option("--refine", line.refine,
@@ -65,11 +67,12 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   const std::string usage = "expected hybrid-slam [config.ini] LOG";
   stopOnSignals();
   run::Configuration configuration(line.files.config, settings);
+  configuration.run.overwrite = line.overwrites;
   if (configuration.run.rawlog.empty())
     return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
+  warn(configuration.warnings);
   const auto outcome = run::replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
-  for (const std::string& warning : outcome.warnings)
-    std::cerr << "hybrid-slam: warning: " << warning << "\n";
+  warn(outcome.warnings);
   if (!line.isQuiet) std::cout << outcome.summary << "\n" << outcome.verdict.line() << "\n";
   std::cout << outcome.profile;
   if (!outcome.incomplete.empty()) return fail(1, outcome.incomplete);

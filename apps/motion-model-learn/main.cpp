@@ -92,7 +92,11 @@ int learn(const CommandLine& line, run::Configuration configuration) {
     if (std::filesystem::equivalent(input, line.output, ignored))
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
+  warn(configuration.warnings);
   const readings::RawlogSummary log = summarise(line.files.log, configuration.input);
+  if (log.jumps.count > 0)
+    warn({std::to_string(log.jumps.count) + " odometry jumps of over 100 m: first at " + log.unit + " " +
+          std::to_string(log.jumps.first) + " of " + line.files.log + "; taken as no motion"});
   if (!log.hasMotion)
     throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
   for (const std::string& text :
@@ -116,8 +120,7 @@ int learn(const CommandLine& line, run::Configuration configuration) {
   const LearntMotionModel learnt =
       learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.files.log, report);
   for (const auto& [keys, why] : learnt.determined.lacks)
-    std::cerr << "motion-model-learn: warning: prior kept for " << keys
-              << " of distance, drift and turn: " << line.files.log << "; " << why << "\n";
+    warn({"prior kept for " + keys + " of distance, drift and turn: " + line.files.log + "; " + why});
   output.stream() << run::motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
   output.finish();
   if (!line.isQuiet)

@@ -47,8 +47,8 @@ int run(const CommandLine& line) {
   ignoreHangUps();
   stopOnSignals();
   mrpt::config::CConfigFileMemory source;
-  files::loadIni(source, line.config, line.settings, sections, "",
-                 "expected a section [server] (doc/live.md)");
+  warn(files::loadIni(source, line.config, line.settings, sections, "",
+                      "expected a section [server] (doc/live.md)"));
   const auto log = std::make_shared<live::EventLog>("observation-server");
   const std::string summary = sensors::serveObservations(
       options, source, log, [] { return stop.load(); },

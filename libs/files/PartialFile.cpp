@@ -9,9 +9,11 @@ namespace hybrid_slam::files {
 
 namespace fs = std::filesystem;
 
-PartialFile::PartialFile(const std::string& path)
-    : final_(path),
-      partial_((fs::path(path).parent_path() / (".partial." + fs::path(path).filename().string())).string()) {
+std::string PartialFile::partialName(const std::string& path) {
+  return (fs::path(path).parent_path() / (".partial." + fs::path(path).filename().string())).string();
+}
+
+PartialFile::PartialFile(const std::string& path) : final_(path), partial_(partialName(path)) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
     throw InputError("cannot write", path, "expected a file name");

@@ -15,6 +15,9 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
+  /// The name until then of a file.
+  static std::string partialName(const std::string& path);
+
   const std::string& path() const { return partial_; }  ///< where to write until then
   /// @throws InputError if the file cannot be renamed
   void commit();

@@ -17,7 +17,8 @@ void LiveOptions::describe(OptionTable& t) {
   t.add("max_waiting", maxWaiting, 1, 1000000,
         "largest number of scans waiting for the filter; beyond it all but the newest are skipped, their "
         "motion is kept");
-  t.add("recording", recording, "file name of the rawlog of raw observations, in the results folder");
+  t.add("recording", recording,
+        "file name of the rawlog of raw observations, in the results folder; the date and time are added");
 }
 
 void ServerOptions::describe(OptionTable& t) {

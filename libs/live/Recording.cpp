@@ -1,15 +1,41 @@
 #include "live/Recording.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 
 #include "base/Errors.h"
+#include "files/DatedName.h"
 
 namespace hybrid_slam::live {
 
-Recording::Recording(const std::string& path, EventLog& log)
-    : path_(path), log_(log), writer_(std::make_unique<files::RawlogWriter>(path)) {}
+Recording::Recording(const std::string& folder, const std::string& name, EventLog& log)
+    : folder_(folder), name_(name), log_(log) {}
+
+void Recording::open() {
+  namespace fs = std::filesystem;
+  const fs::path stem = fs::path(name_).stem(), extension = fs::path(name_).extension();
+  files::claimDatedName([&](const std::string& date) {
+    path_ = (fs::path(folder_) / (stem.string() + "-" + date + extension.string())).string();
+    if (fs::exists(path_)) return false;
+    const std::string partial = files::PartialFile::partialName(path_);
+    const int file = ::open(partial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file < 0 && errno != EEXIST)
+      throw InputError(
+          "cannot write", path_,
+          std::string("expected a writable folder with free disk space: ") + std::strerror(errno));
+    if (file >= 0) ::close(file);
+    return file >= 0;
+  });
+  writer_ = std::make_unique<files::RawlogWriter>(path_);
+}
 
 void Recording::write(const mrpt::obs::CObservation& observation) {
+  if (entries_++ == 0) open();
   if (!writer_) return;
   try {
     writer_->write(observation);

@@ -13,30 +13,36 @@
 
 namespace hybrid_slam::live {
 
-/// The file is `.partial.NAME` while it grows and is synced to disk every 5 s. It gets its final name at the
-/// end of the run, even a failed one. After a power cut the partial file is readable up to its end.
+/// The file is opened at the first observation, with the date and time in its name, so that it never replaces
+/// another. It is `.partial.NAME` while it grows and is synced to disk every 5 s. It gets its final name at
+/// the end of the run, even a failed one. After a power cut the partial file is readable up to its end.
 class Recording {
  public:
-  /// @throws InputError if it cannot be written
-  Recording(const std::string& path, EventLog& log);
+  /// @param name  of the file, which gets the date and time before its extension
+  Recording(const std::string& folder, const std::string& name, EventLog& log);
   ~Recording() { finish(); }
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
   /// A full disk ends the recording, not the run, and is reported.
+  /// @throws InputError if the file cannot be opened
   void write(const mrpt::obs::CObservation& observation);
   /// Syncs everything written so far to disk.
   void flush();
   void finish();
+  /// Empty before the first observation.
   const std::string& path() const { return path_; }
+  size_t entries() const { return entries_; }  ///< observations taken, even if they could not be written
 
  private:
   using Clock = std::chrono::steady_clock;
+  void open();
   void endAt(const std::exception& fault);
 
-  std::string path_;
+  std::string folder_, name_, path_;
+  size_t entries_ = 0;
   EventLog& log_;
-  std::unique_ptr<files::RawlogWriter> writer_;  ///< null after the end
+  std::unique_ptr<files::RawlogWriter> writer_;  ///< null before the first observation and after the end
   Clock::time_point lastFlush_ = Clock::now();
 };
 

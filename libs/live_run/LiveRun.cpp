@@ -25,11 +25,11 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-std::string recordingPath(const run::Configuration& configuration, const LiveOptions& options) {
+const std::string& recordingName(const LiveOptions& options) {
   if (options.recording.empty() || options.recording.find('/') != std::string::npos)
     throw InputError("wrong name `" + options.recording + "`", "section [live], key `recording`",
                      "expected a file name in the folder for the results");
-  return files::OutputFolder(configuration.run.output).path(options.recording);
+  return options.recording;
 }
 
 }  // namespace
@@ -38,12 +38,15 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
     : configuration_(configuration),
       log_(log),
       isQuiet_(isQuiet),
+      recordingName_(recordingName(options)),
       run_(configuration),
-      recording_(recordingPath(configuration, options), log),
+      recording_(run_.folder(), recordingName_, log),
       assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
                  configuration.input.maxOdometryGap),
       queue_(static_cast<size_t>(options.maxWaiting)),
-      thread_([this] { filter(); }) {}
+      thread_([this] { filter(); }) {
+  if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
+}
 
 LiveRun::~LiveRun() { stopFilter(); }
 
@@ -55,7 +58,11 @@ void LiveRun::take(const mrpt::obs::CSensoryFrame::Ptr& cycle) {
 void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival) {
   const bool requiresOdometry = configuration_.input.requireOdometry;
   if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
-    if (!requiresOdometry || !readings::isFinite(odometry->odometry.asTPose())) return;
+    if (!requiresOdometry) return;
+    if (!readings::isFinite(odometry->odometry.asTPose())) {
+      if (wrongOdometry_++ == 0) log_.report("odometry", "not a number; skipped, as are further ones");
+      return;
+    }
     hasOdometry_ = true;
     for (const Arrived& arrived : std::exchange(early_, {})) pass(arrived);
   } else if (requiresOdometry && !hasOdometry_) {
@@ -72,9 +79,17 @@ void LiveRun::pass(const Arrived& arrived) {
   if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(arrived.first))
     if (const auto use = assembler_.useOf(*scan);
         use != readings::ScanGrouper::Use::taken && ignored_.insert(scan->sensorLabel).second)
-      log_.report("laser `" + scan->sensorLabel + "`", "not used: " + readings::reasonOf(use));
+      log_.report("laser `" + scan->sensorLabel + "`",
+                  "scan not used, as are further ones: " + readings::reasonOf(use) + ": " + place());
+  const size_t jumps = assembler_.jumps();
   assembler_.take(arrived.first);
+  if (jumps == 0 && assembler_.jumps() > 0)
+    log_.report("odometry", "jumps by over 100 m, taken as no motion, as are further ones: " + place());
   while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
+}
+
+std::string LiveRun::place() const {
+  return "entry " + std::to_string(recording_.entries()) + " of " + recording_.path();
 }
 
 void LiveRun::filter() {
@@ -117,18 +132,24 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
   while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
   stopFilter();
   recording_.finish();
-  if (failure_) std::rethrow_exception(failure_);
+  if (run_.scans() == 0 && failure_) std::rethrow_exception(failure_);
   if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");
 
   const readings::RawlogSummary recorded = summarise(recording_.path(), configuration_.input);
-  const nlohmann::ordered_json more{{"skipped", skipped_.load()},
-                                    {"lost_cycles", lost},
-                                    {"latency_ms",
-                                     {{"median", quantile(latencies_, 0.5)},
-                                      {"p99", quantile(latencies_, 0.99)},
-                                      {"max", quantile(latencies_, 1)}}}};
-  return run_.finish(recording_.path(), recorded, version, more) + ", " + recording_.path() + "\n" +
-         run_.verdict().line();
+  nlohmann::ordered_json more{{"skipped_readings", recorded.skippedReadings() + wrongOdometry_},
+                              {"skipped", skipped_.load()},
+                              {"lost_cycles", lost},
+                              {"latency_ms",
+                               {{"median", quantile(latencies_, 0.5)},
+                                {"p99", quantile(latencies_, 0.99)},
+                                {"max", quantile(latencies_, 1)}}}};
+  if (failure_) more["complete"] = false;
+  const std::string summary = run_.finish(recording_.path(), recorded, version, more);
+  if (failure_) {
+    log_.report("results", "those up to the failure: " + run_.folder());
+    std::rethrow_exception(failure_);
+  }
+  return summary + ", " + recording_.path() + "\n" + run_.verdict().line();
 }
 
 }  // namespace hybrid_slam::live

@@ -48,7 +48,9 @@ class LiveRun {
   /// Filters the waiting readings, then writes all results.
   /// @param lost  number of lost cycles, for metrics.json
   /// @return the summary and the verdict, a line each
-  /// @throws std::runtime_error if there was no scan, or with the filter's failure; the recording is kept
+  /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results up to
+  /// it
+  ///         have been written; the recording is kept
   std::string finish(const std::string& version, size_t lost);
 
   size_t skipped() const { return skipped_; }
@@ -63,17 +65,21 @@ class LiveRun {
   void filter();
   void stopFilter();
   void tellState();
+  /// Of the last observation, in the recording.
+  std::string place() const;
 
   run::Configuration& configuration_;
   EventLog& log_;
   bool isQuiet_;
   Watcher watcher_;
+  std::string recordingName_;
   run::FilterRun run_;
   Recording recording_;
   std::set<std::string> ignored_;  ///< labels of lasers whose scans are not used
   readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
   bool hasOdometry_ = false;
+  size_t wrongOdometry_ = 0;       ///< readings that are not numbers
   std::deque<Arrived> early_;      ///< before the first odometry
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();

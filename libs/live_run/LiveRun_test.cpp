@@ -34,8 +34,7 @@ class LiveRunTest : public testing::Test {
                      "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
                      "resolution = 0.1\n" +
                          more);
-    run::Configuration c(ini, {"run.output=" + folder.path(output)});
-    return c;
+    return run::Configuration(ini, {"run.output=" + folder.path(output)});
   }
   /// The log's observations through a grouper into a live run. @return the summary
   std::string runLive(const test::Log& log, const std::string& more = "") {
@@ -48,9 +47,15 @@ class LiveRunTest : public testing::Test {
   }
   void replayRecording(const std::string& more = "") {
     run::Configuration c = configuration("offline", more);
-    c.run.rawlog = folder.path("live/recording.rawlog");
+    c.run.rawlog = recording();
+    c.run.overwrite = true;
     const std::atomic<bool> stop{false};
     run::replay(c, true, stop, "test");
+  }
+  /// The newest; empty if there is none.
+  std::string recording() const {
+    const auto all = test::filesIn(folder.path("live"), "recording-");
+    return all.empty() ? "" : all.back();
   }
   std::string result(const std::string& name) const { return test::contentOf(folder.path(name)); }
   void expectSameResults() {
@@ -141,34 +146,71 @@ TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
 TEST_F(LiveRunTest, WithoutAScanThereAreNoResults) {
   EXPECT_THROW(runLive({test::odometry(1, {}), test::odometry(2, {})}), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(folder.path("live/trajectory.tum")));
-  EXPECT_TRUE(std::filesystem::exists(folder.path("live/recording.rawlog")));
+  EXPECT_NE(recording(), "");
   EXPECT_THROW(runLive({test::scan(1), test::scan(2)}), std::runtime_error) << "and no odometry";
 }
 
-TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecording) {
-  auto tilted = test::scan(1001);
-  tilted->sensorPose.setYawPitchRoll(0, 0.5, 0);
+TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecordingAndTheResultsSoFar) {
   run::Configuration c = configuration("live");
-  c.input.sensorLabel = "LASER";  // otherwise a tilted laser is ignored
+  options.maxWaiting = 1000;
   LiveRun run(c, options, events.log(), true);
-  const auto cycle = CSensoryFrame::Create();
-  cycle->insert(test::odometry(1001, {}));
-  cycle->insert(tilted);
-  run.take(cycle);
+  run.setWatcher([](const FilterView& view, const readings::Reading&, bool) {
+    if (view.updates() == 5) throw InputError("failure", "fifth update", "expected none");
+  });
+  const test::Log log = test::laps(40);
+  for (const auto& object : log) {
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
+    run.take(cycle);
+  }
   EXPECT_TRUE(test::happens([&] { return run.hasFailed(); }));
   EXPECT_THROW(run.finish("test", 0), InputError);
-  files::RawlogReader reader(folder.path("live/recording.rawlog"));
-  EXPECT_TRUE(reader.next());
-  EXPECT_TRUE(reader.next());
-  EXPECT_FALSE(reader.next());
+  files::RawlogReader reader(recording());
+  size_t objects = 0;
+  while (reader.next()) ++objects;
+  EXPECT_EQ(objects, log.size());
   EXPECT_EQ(reader.defect(), "");
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
+}
+
+TEST_F(LiveRunTest, WhatCannotBeTrueIsSkippedAndReported) {
+  options.maxWaiting = 1000;
+  test::Log log = test::laps(40);
+  std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[20])->odometry.x(1e5);
+  std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(log[41])->sensorPose.x(1e5);
+  EXPECT_THAT(runLive(log), HasSubstr("39 scans"));
+  EXPECT_EQ(events.count("jumps by over 100 m"), 1u) << events.text();
+  EXPECT_THAT(events.text(), HasSubstr("entry 21 of " + folder.path("live/recording-")));
+  EXPECT_EQ(events.count("its sensor pose is over 100 m"), 1u) << events.text();
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["skipped_readings"], 3);
+  replayRecording();
+  expectSameResults();
+}
+
+TEST_F(LiveRunTest, AnotherRunInTheSameFolderTouchesNothing) {
+  options.maxWaiting = 1000;
+  runLive(test::laps(20));
+  const auto before = test::filesIn(folder.path("live"), "");
+  const std::string first = recording(), recorded = test::contentOf(first),
+                    metrics = result("live/metrics.json");
+  {
+    run::Configuration c = configuration("live");
+    LiveRun run(c, options, events.log(), true);  // without data
+    EXPECT_THROW(run.finish("test", 0), std::runtime_error);
+  }
+  EXPECT_EQ(test::filesIn(folder.path("live"), ""), before);
+  EXPECT_THAT(runLive(test::laps(20)), HasSubstr("20 scans"));
+  EXPECT_GE(events.count("has results of an earlier run"), 1u) << events.text();
+  EXPECT_EQ(test::contentOf(first), recorded);
+  EXPECT_EQ(result("live/metrics.json"), metrics);
 }
 
 TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
-  Recording recording(folder.path("killed.rawlog"), events.log());
-  for (int i = 0; i < 100; ++i) recording.write(*test::scan(1000 + i));
-  recording.flush();
-  std::filesystem::copy_file(folder.path(".partial.killed.rawlog"), folder.path("copy.rawlog"));
+  Recording killed(folder.path(""), "killed.rawlog", events.log());
+  for (int i = 0; i < 100; ++i) killed.write(*test::scan(1000 + i));
+  killed.flush();
+  std::filesystem::copy_file(test::filesIn(folder.path(""), ".partial.killed-20").at(0),
+                             folder.path("copy.rawlog"));
   files::RawlogReader reader(folder.path("copy.rawlog"));
   size_t scans = 0;
   while (reader.next()) ++scans;
@@ -193,7 +235,7 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_THAT(run.finish("test", 0), HasSubstr("300 scans"));
-  files::RawlogReader reader(folder.path("live/recording.rawlog"));
+  files::RawlogReader reader(recording());
   size_t objects = 0;
   while (reader.next()) ++objects;
   EXPECT_GT(objects, 10u);

@@ -30,15 +30,21 @@ struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
   std::vector<std::string> ignored;  ///< one line for each other laser: its label, and why it is not used
   size_t scans = 0;                  ///< readings: scans that several lasers take at one time count as one
-  Oddity empty, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans of the lasers used
-  Oddity wrongOdometry;                                        ///< NaN or infinite
-  Oddity brokenLines;                                          ///< of a text log
+  Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
+  Oddity wrongOdometry;                                                   ///< NaN or infinite
+  Oddity noOdometry;                                                      ///< actions
+  Oddity jumps;                                                           ///< of the odometry, over kMaxStep
+  Oddity brokenLines;                                                     ///< of a text log
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;  ///< the odometry changes
   double duration = 0;     ///< s, from the earliest scan to the latest
   size_t entries = 0;      ///< lines of a text log
   std::string unit;        ///< of `entries` and `Oddity::first`: "entry" or "line"
   std::string defect;      ///< how the log is truncated; empty if complete
+  /// Scans and odometry readings that are not used because they cannot be true.
+  size_t skippedReadings() const {
+    return empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
+  }
   /// Where the defect is.
   std::string defectPlace(const std::string& file) const {
     return unit + " " + std::to_string(entries + 1) + " of " + file;
@@ -58,7 +64,6 @@ class RawlogSource {
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
 
   /// Empty at the end of the log.
-  /// @throws InputError if the odometry jumps by more than 100 m between two scans
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
   /// Of the last object read: `entry 12 of FILE`.

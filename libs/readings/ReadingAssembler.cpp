@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/Errors.h"
 #include "readings/Timestamps.h"
 #include "slam/motion/OdometryIncrement.h"
 
@@ -34,10 +35,18 @@ TPose2D interpolate(const TPose2D& a, const TPose2D& b, double share) {
 
 }  // namespace
 
-std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object) {
+bool isAction(const mrpt::serialization::CSerializable::Ptr& object) {
   const auto action = std::dynamic_pointer_cast<CActionCollection>(object);
-  if (!action || action->size() == 0) return std::nullopt;
-  return odometryIncrement(*action);
+  return action && action->size() > 0;
+}
+
+std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object) {
+  if (!isAction(object)) return std::nullopt;
+  try {
+    return odometryIncrement(dynamic_cast<const CActionCollection&>(*object));
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 bool isFinite(const TPose2D& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.phi); }
@@ -62,7 +71,12 @@ std::optional<Reading> ReadingAssembler::next() {
 
 void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& object) {
   const auto increment = incrementOf(object);
-  if (increment && isFinite(*increment)) travelled_ = travelled_ + *increment;
+  if (increment && isFinite(*increment)) {
+    if (isJump({}, *increment))
+      ++jumps_;
+    else
+      travelled_ = travelled_ + *increment;
+  }
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) grouper_.expect(scan->sensorLabel);
@@ -87,7 +101,7 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
-  const TPose2D pose = odometry.odometry.asTPose();
+  const TPose2D pose = withoutJumps(odometry.odometry.asTPose());
   const bool isStampedOdometry = isStamped(odometry);
   const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
   for (const Waiting& scan : waiting_) {
@@ -102,6 +116,15 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   waiting_.clear();
   lastOdometry_ = travelled_ = pose;
   lastOdometryTime_ = time;
+}
+
+TPose2D ReadingAssembler::withoutJumps(const TPose2D& reading) {
+  const TPose2D before = lastReading_.value_or(reading);
+  lastReading_ = reading;
+  const bool isAJump = isJump(before, reading);
+  jumps_ += isAJump ? 1 : 0;
+  if (jumps_ == 0 || !lastOdometry_) return reading;
+  return isAJump ? *lastOdometry_ : *lastOdometry_ + (reading - before);
 }
 
 void ReadingAssembler::finishWaiting(const TPose2D& odometry) {

@@ -30,10 +30,11 @@ struct Reading {
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used; scans before the first odometry reading use that one. Scans without
-/// beams or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite, not positive, or
-/// at or beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans are used and
-/// which of them form one reading.
+/// previous odometry reading is used; scans before the first odometry reading use that one. A jump of the
+/// odometry by over 100 m counts as no motion; the odometry goes on from the new value. Scans without beams
+/// or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite, not positive, or at or
+/// beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans are used and which of
+/// them form one reading.
 ///
 /// The same objects in the same order give bit-identical readings, from a file or a robot: the replay of a
 /// recording equals the live run.
@@ -49,6 +50,7 @@ class ReadingAssembler {
   ScanGrouper::Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
     return grouper_.useOf(scan);
   }
+  size_t jumps() const { return jumps_; }  ///< of the odometry so far
   /// End of input: scans that still wait for odometry take the last odometry reading.
   void finish();
   /// The next complete reading; empty until more objects arrive.
@@ -57,6 +59,8 @@ class ReadingAssembler {
  private:
   void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
+  /// A reading in the frame of the readings before the first jump.
+  mrpt::math::TPose2D withoutJumps(const mrpt::math::TPose2D& reading);
   void finishWaiting(const mrpt::math::TPose2D& odometry);
   struct Waiting {
     mrpt::obs::CObservation2DRangeScan::Ptr scan;
@@ -73,8 +77,10 @@ class ReadingAssembler {
   std::deque<Waiting> waiting_;  ///< for the odometry reading after them
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
   std::vector<std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>>
-      collected_;  ///< with odometry
-  std::optional<mrpt::math::TPose2D> lastOdometry_;
+      collected_;                                    ///< with odometry
+  std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
+  std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
+  size_t jumps_ = 0;
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
@@ -90,14 +96,21 @@ void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, c
     for (const auto& observation : *frame) visit(observation);
 }
 
-/// The increment (m, rad) of an action; empty for other objects or empty actions.
+/// The increment (m, rad) of an action; empty for other objects, and actions without odometry.
 std::optional<mrpt::math::TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object);
+
+/// Whether an object is an action that should have odometry.
+bool isAction(const mrpt::serialization::CSerializable::Ptr& object);
 
 bool isFinite(const mrpt::math::TPose2D& pose);
 /// Whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
-/// m; a larger odometry jump between two readings means two logs in one file, or reset odometry.
+/// m; a larger step between two odometry readings means two logs in one file, reset odometry, or an error.
 constexpr double kMaxStep = 100;
+/// Whether two odometry readings are over kMaxStep apart.
+inline bool isJump(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& now) {
+  return !((now - before).norm() <= kMaxStep);
+}
 
 }  // namespace hybrid_slam::readings

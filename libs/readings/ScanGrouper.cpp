@@ -29,8 +29,9 @@ ScanGrouper::Use ScanGrouper::useOf(const mrpt::obs::CObservation2DRangeScan& sc
   const bool isNamed = std::find(wanted_.begin(), wanted_.end(), scan.sensorLabel) != wanted_.end();
   if (!wanted_.empty() && !isNamed) return Use::unwanted;
   if (!hasBeams(scan)) return Use::empty;
-  if (isNamed) return Use::taken;
+  if (!(scan.sensorPose.norm() <= kMaxSensorDistance)) return Use::misplaced;
   if (!isHorizontal(scan)) return Use::tilted;
+  if (isNamed) return Use::taken;
   return known_.size() < kMaxLasers || known_.count(scan.sensorLabel) > 0 ? Use::taken : Use::tooMany;
 }
 
@@ -54,6 +55,8 @@ std::string reasonOf(ScanGrouper::Use use) {
   switch (use) {
     case ScanGrouper::Use::unwanted:
       return "not in [input] sensor_label";
+    case ScanGrouper::Use::misplaced:
+      return "its sensor pose is over 100 m from the robot";
     case ScanGrouper::Use::tilted:
       return "its scan plane is tilted";
     case ScanGrouper::Use::tooMany:

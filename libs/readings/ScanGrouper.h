@@ -20,8 +20,8 @@ class ScanGrouper {
   /// @param maxGap  s
   ScanGrouper(const std::vector<std::string>& lasers, double maxGap);
 
-  enum class Use { taken, empty, tilted, unwanted, tooMany };
-  /// Whether a scan is used: it has beams, its laser is wanted and, unless named, mounted horizontally.
+  enum class Use { taken, empty, misplaced, tilted, unwanted, tooMany };
+  /// Whether a scan is used: it has beams, and its laser is wanted, on the robot and mounted horizontally.
   Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
   /// Announces a laser before its first scan is added; the lasers of a sensory frame are announced together.
@@ -41,6 +41,9 @@ class ScanGrouper {
   bool isComplete_ = true;
   double firstTime_ = 0;  ///< s, of the current reading
 };
+
+/// m; a sensor pose farther from the robot's centre is taken for an error.
+constexpr double kMaxSensorDistance = 100;
 
 /// Why a laser is not used, for the user.
 std::string reasonOf(ScanGrouper::Use use);

@@ -12,6 +12,7 @@
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "run/MapFiles.h"
+#include "run/ResultFiles.h"
 #include "run/SimpleMapFile.h"
 #include "run/StepsTable.h"
 #include "slam/filter/HybridFilter.h"
@@ -62,6 +63,14 @@ std::string describe(const LoopClosure& loop, const std::vector<double>& times) 
          " % of their walls fit, other places score " + fixedText(100 * loop.second, 0) + " % of theirs";
 }
 
+/// s, between the earliest and the latest pose.
+double durationOf(const files::Trajectory& trajectory) {
+  const auto [first, last] =
+      std::minmax_element(trajectory.begin(), trajectory.end(),
+                          [](const auto& a, const auto& b) { return a.timestamp < b.timestamp; });
+  return first == trajectory.end() ? 0 : last->timestamp - first->timestamp;
+}
+
 nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std::vector<double>& times) {
   auto all = nlohmann::ordered_json::array();
   const auto rounded = [](double metres) { return std::round(100 * metres) / 100; };
@@ -78,7 +87,8 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     : configuration_(configuration),
       start_(start),
-      folder_(configuration.run.output),
+      staged_(configuration.run.output, kResultFiles, configuration.run.overwrite),
+      folder_(staged_.files()),
       steps_(folder_.path("steps.csv")) {
   if (configuration.run.method == Method::stock) {
     filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
@@ -167,6 +177,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
                               const std::string& version, const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
+  const bool isWhole = uses_.size() == log.scans;
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines()};
   result.trajectory = recorder_.trajectory(result.path);
   if (configuration_.run.refine > 0 && configuration_.run.method != Method::stock) {
@@ -199,6 +210,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
 
   const double wall = secondsSince(start_);
+  const double duration = isWhole ? log.duration : durationOf(trajectory);
   const char* const names[] = {"hybrid", "general", "stock"};
   nlohmann::ordered_json metrics{
       {"method", names[static_cast<int>(configuration_.run.method)]},
@@ -209,10 +221,10 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       {"threads", configuration_.filter.filter.threads},
       {"scans", scans_},
       {"updates", path.size()},
-      {"duration_s", log.duration},
+      {"duration_s", duration},
       {"wall_s", wall},
       {"cpu_s", cpuSeconds()},
-      {"realtime_factor", wall > 0 ? log.duration / wall : 0},
+      {"realtime_factor", wall > 0 ? duration / wall : 0},
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings_},
       {"slips", slips_},
@@ -222,13 +234,16 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       {"doubtful_places", json(verdict_.places, updateTimes_)},
       {"lines", lines.size()},
       {"distance_m", recorder_.distance()},
+      {"complete", isWhole && log.defect.empty()},
+      {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   metrics.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << metrics.dump(2) << '\n'; });
+  staged_.publish();
 
   return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
          fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
-         fixedText(wall > 0 ? log.duration / wall : 0, 0) + " x real time): " + folder_.path("map.png");
+         fixedText(wall > 0 ? duration / wall : 0, 0) + " x real time): " + staged_.finalPath("map.png");
 }
 
 }  // namespace hybrid_slam::run

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/OutputFolder.h"
+#include "files/StagedFolder.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
 #include "run/PathCovariance.h"
@@ -22,7 +22,7 @@
 namespace hybrid_slam::run {
 
 /// Writes steps.csv (and particles.csv) during the run, and the other files of doc/results.md at the end.
-/// Without `finish` no results remain.
+/// They appear together (files/StagedFolder.h); without `finish` no results remain.
 class FilterRun {
  public:
   using Clock = std::chrono::steady_clock;
@@ -47,7 +47,10 @@ class FilterRun {
   const FilterView& view() const { return *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
-  const files::OutputFolder& folder() const { return folder_; }
+  /// Where the results will be.
+  const std::string& folder() const { return staged_.folder(); }
+  /// One line if that is not the folder asked for; else empty.
+  std::string folderNote() const { return staged_.note(); }
 
   /// Writes the results.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
@@ -55,7 +58,7 @@ class FilterRun {
   ///                 these end there
   /// @param version  of the program
   /// @param more     further keys of metrics.json
-  /// @return one line: scans, updates, time, real-time factor
+  /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log, const std::string& version,
                      const nlohmann::ordered_json& more);
@@ -75,7 +78,8 @@ class FilterRun {
 
   Configuration& configuration_;
   Clock::time_point start_;
-  files::OutputFolder folder_;
+  files::StagedFolder staged_;
+  const files::OutputFolder& folder_;  ///< of staged_
   std::unique_ptr<Filter> filter_;
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;

@@ -4,32 +4,15 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "base/Errors.h"
 #include "base/Numbers.h"
+#include "readings/LogWarnings.h"
 #include "run/FilterRun.h"
 #include "run/LogSettings.h"
 #include "run/Progress.h"
 
 namespace hybrid_slam::run {
 namespace {
-
-std::vector<std::string> warningsOf(const readings::RawlogSummary& log) {
-  std::vector<std::string> all;
-  const auto add = [&all, &log](const readings::Oddity& odd, const std::string& what,
-                                const std::string& done) {
-    if (odd.count > 0)
-      all.push_back(std::to_string(odd.count) + " " + what + ": first at " + log.unit + " " +
-                    std::to_string(odd.first) + "; " + done);
-  };
-  add(log.brokenLines, "broken lines", "skipped");
-  add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
-  add(log.tilted, "scans of a tilted plane", "skipped");
-  add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
-  add(log.repeatedStamps, "timestamps equal that of the previous scan", "kept");
-  add(log.stepsBack, "timestamps step back", "log order kept");
-  add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
-  all.insert(all.end(), log.ignored.begin(), log.ignored.end());
-  return all;
-}
 
 std::string spreadNote(const FilterStep& step) {
   return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
@@ -54,23 +37,31 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     return source.next();
   };
   Progress progress(log.scans, isQuiet);
-  while (const auto reading = stop ? std::nullopt : nextReading())
-    if (run.process(*reading)) {
-      for (const std::string& note : run.takeLoopNotes()) progress.say(note);
-      progress.update(run.scans(), spreadNote(run.view().lastStep()));
-    }
+  const std::string place = run.folderNote();
+  if (!place.empty()) progress.say(place);
+  ReplayOutcome outcome;
+  const std::string upToHere = "; results cover the log up to this point";
+  try {
+    while (const auto reading = stop ? std::nullopt : nextReading())
+      if (run.process(*reading)) {
+        for (const std::string& note : run.takeLoopNotes()) progress.say(note);
+        progress.update(run.scans(), spreadNote(run.view().lastStep()));
+      }
+  } catch (const std::exception& e) {
+    if (run.scans() == 0) throw;
+    outcome.incomplete = "run failed: " + messageOf(e) + ", " + source.place() + upToHere;
+  }
   progress.finish();
 
-  ReplayOutcome outcome;
-  outcome.warnings = warningsOf(log);
+  outcome.warnings = readings::warningsOf(log, file);
   if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
-  if (stop)
-    outcome.incomplete = "interrupted: " + source.place() + "; results cover the log up to this point";
-  else if (!log.defect.empty())
-    outcome.incomplete =
-        "log " + log.defect + ": " + log.defectPlace(file) + "; results cover the log up to this point";
+  if (outcome.incomplete.empty() && stop)
+    outcome.incomplete = "interrupted: " + source.place() + upToHere;
+  else if (outcome.incomplete.empty() && !log.defect.empty())
+    outcome.incomplete = "log " + log.defect + ": " + log.defectPlace(file) + upToHere;
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
   outcome.verdict = run.verdict();
+  if (run.folderNote() != place) progress.say(run.folderNote());  // another run has finished there
   for (const std::string& note : run.takeLoopNotes()) progress.say(note);
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
   run.profiler().clear(true);  // else MRPT prints it as well

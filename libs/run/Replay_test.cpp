@@ -18,6 +18,7 @@ std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folde
                                              const std::string& log) {
   Configuration c(ini, {"run.rawlog=" + log, "run.output=" + folder.path("out"), "run.particles_every=10",
                         "motion_model.distance_var_d=0.0025"});
+  c.run.overwrite = true;
   const std::atomic<bool> stop{false};
   replay(c, true, stop, "test");
   std::map<std::string, std::string> texts;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/Errors.h"
+#include "files/StagedFolder.h"
 #include "files/TemporaryFolder.h"
 #include "run/FilterRun.h"
 #include "run/LogSettings.h"
@@ -244,16 +245,17 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
-    for (const auto& lane : pass.lanes)  // checks that all are writable
-      files::OutputFolder(folder + "/" + nameOf(lane->configuration.run.method));
+    std::vector<std::string> names;
+    for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
+    files::StagedFolder staged(folder, names, false);
     for (const auto& lane : pass.lanes) {
-      const std::string name = nameOf(lane->configuration.run.method), target = folder + "/" + name;
-      lane->finish(pass.file, pass.log, target);
-      std::filesystem::copy(
-          pass.folder.path(name), target,
-          std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+      const std::string name = nameOf(lane->configuration.run.method);
+      lane->finish(pass.file, pass.log, staged.finalPath(name));
+      std::filesystem::copy(pass.folder.path(name), staged.files().path(name));
     }
-    tell("Results of " + std::to_string(pass.scans) + " scans written: " + folder, false, State::ended);
+    staged.publish();
+    tell("Results of " + std::to_string(pass.scans) + " scans written: " + staged.folder(), false,
+         State::ended);
   } catch (const std::exception& e) {
     tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
   }

@@ -108,6 +108,12 @@ TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
               test::contentOf(folder.path(std::string("offline/") + name)))
         << name;
   EXPECT_THAT(test::contentOf(folder.path("out/general/metrics.json")), HasSubstr("\"general\""));
+
+  const std::string first = test::contentOf(folder.path("out/hybrid/metrics.json"));
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages > 1; }));
+  EXPECT_THAT(session.snapshot()->message, HasSubstr(folder.path("out/20")));
+  EXPECT_EQ(test::contentOf(folder.path("out/hybrid/metrics.json")), first);
 }
 
 TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {

@@ -1,0 +1,22 @@
+#include "files/DatedName.h"
+
+#include <ctime>
+
+namespace hybrid_slam::files {
+
+std::string dateStamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H-%M-%S", &local)};
+}
+
+std::string claimDatedName(const std::function<bool(const std::string& name)>& claim) {
+  const std::string stamp = dateStamp();
+  std::string name = stamp;
+  for (int number = 2; !claim(name); ++number) name = stamp + "-" + std::to_string(number);
+  return name;
+}
+
+}  // namespace hybrid_slam::files

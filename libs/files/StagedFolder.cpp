@@ -1,0 +1,186 @@
+#include "files/StagedFolder.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "base/Errors.h"
+#include "files/DatedName.h"
+
+namespace hybrid_slam::files {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
+
+/// Whether a folder can be renamed within its parent.
+bool isRenamable(const fs::path& folder) {
+  struct stat own {
+  }, parent{};
+  std::error_code ignored;
+  return ::access(folder.parent_path().c_str(), W_OK) == 0 && ::stat(folder.c_str(), &own) == 0 &&
+         ::stat(folder.parent_path().c_str(), &parent) == 0 && own.st_dev == parent.st_dev &&
+         own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
+}
+
+/// To disk, so that a power cut after the renaming leaves no empty files.
+void sync(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    ::fsync(file);
+    ::close(file);
+  }
+}
+
+}  // namespace
+
+StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite)
+    : results_(results), overwrite_(overwrite), asked_(folder), shown_(folder) {
+  std::error_code ignored;
+  const bool isNew = !fs::exists(folder, ignored);
+  const OutputFolder probe(folder);
+  final_ = fs::canonical(folder);
+  if (isNew) created_.push_back(final_);
+  const std::string prefix = "." + final_.filename().string() + ".part-";
+  for (const std::string& name : results_)
+    if (overwrite_ && fs::is_directory(final_ / name))
+      throw InputError("cannot write", finalPath(name), "expected a file name");
+  if (!overwrite_ && holdsResults()) takeDatedSubfolder();
+  isBeside_ = isRenamable(final_);
+  stageIn(isBeside_ ? final_.parent_path() : final_, prefix);
+  files_ = std::make_unique<OutputFolder>(stage_.string());
+}
+
+StagedFolder::~StagedFolder() {
+  std::error_code ignored;
+  if (!isDone_) fs::remove_all(stage_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+  std::reverse(created_.begin(), created_.end());
+  for (const fs::path& folder : created_) fs::remove(folder, ignored);  // only if empty
+}
+
+std::string StagedFolder::note() const {
+  if (shown_ == asked_) return {};
+  return asked_ + " has results of an earlier run; those of this run go to " + shown_ +
+         " (--overwrite replaces them)";
+}
+
+bool StagedFolder::isResult(const std::string& name) const {
+  return std::find(results_.begin(), results_.end(), name) != results_.end();
+}
+
+bool StagedFolder::holdsResults() const {
+  return std::any_of(results_.begin(), results_.end(), [this](const std::string& name) {
+    return fs::exists(fs::symlink_status(final_ / name));
+  });
+}
+
+void StagedFolder::takeDatedSubfolder() {
+  const fs::path folder = final_;
+  const std::string name = claimDatedName([&](const std::string& date) {
+    if (::mkdir((folder / date).c_str(), 0777) == 0) return true;
+    if (errno == EEXIST) return false;
+    throw InputError("output folder not writable", asked_,
+                     std::string("expected a folder that can be written to: ") + std::strerror(errno));
+  });
+  final_ = folder / name;
+  shown_ = (fs::path(asked_) / name).string();
+  created_.push_back(final_);
+}
+
+/// The lock tells the folders of running programs from those of killed ones.
+void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
+  removeDead(place, prefix);
+  for (;;) {
+    std::string name = (place / (prefix + "XXXXXX")).string();
+    if (!::mkdtemp(name.data()))
+      throw InputError("output folder not writable", asked_,
+                       std::string("expected a folder that can be written to: ") + std::strerror(errno));
+    lock_ = openFolder(name);
+    const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (isLocked && fs::exists(name)) {  // else another process has just taken it for a dead one
+      stage_ = name;
+      fs::permissions(stage_, fs::status(final_).permissions());
+      return;
+    }
+    ::close(lock_);
+  }
+}
+
+/// Removes the unfinished results of killed programs, and no other file.
+void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) const {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(place, ignored)) {
+    if (entry.path().filename().string().rfind(prefix, 0) != 0 || !entry.is_directory(ignored)) continue;
+    const int lock = openFolder(entry.path());
+    if (lock < 0) continue;
+    if (::flock(lock, LOCK_EX | LOCK_NB) == 0 && !fs::exists(entry.path() / results_.back(), ignored)) {
+      for (const std::string& name : results_) {
+        fs::remove(entry.path() / name, ignored);
+        fs::remove(entry.path() / (".partial." + name), ignored);
+      }
+      fs::remove(entry.path(), ignored);
+    }
+    ::close(lock);
+  }
+}
+
+void StagedFolder::publish() {
+  sync(stage_);
+  if (!overwrite_ && holdsResults()) takeDatedSubfolder();  // another run has finished here meanwhile
+  isDone_ = true;
+  if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
+  if (isBeside_ && exchange())
+    returnOthers();
+  else
+    moveOneByOne();
+}
+
+/// Swaps both folders in one step. Links other files first, so that they are missing at no time.
+bool StagedFolder::exchange() const {
+  for (const auto& entry : fs::directory_iterator(final_))
+    if (const std::string name = entry.path().filename().string(); !entry.is_directory() && !isResult(name))
+      (void)::linkat(AT_FDCWD, entry.path().c_str(), AT_FDCWD, (stage_ / name).c_str(), 0);
+  return ::renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+/// After the exchange: moves what could not be linked, then removes the rest of the old folder.
+void StagedFolder::returnOthers() const {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(stage_))
+    if (const fs::path name = entry.path().filename();
+        !isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name)))
+      fs::rename(entry.path(), final_ / name, error);
+  if (!error) fs::remove_all(stage_, error);
+}
+
+void StagedFolder::moveOneByOne() const {
+  std::error_code error;
+  const std::string& last = results_.back();
+  fs::remove(final_ / last, error);
+  for (const std::string& name : results_)
+    if (!fs::exists(stage_ / name)) fs::remove(final_ / name, error);
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(stage_)) names.push_back(entry.path().filename());
+  std::stable_partition(names.begin(), names.end(), [&last](const fs::path& name) { return name != last; });
+  for (const fs::path& name : names) {
+    fs::rename(stage_ / name, final_ / name, error);
+    if (error)
+      throw InputError("results cannot be renamed", shown_,
+                       "they are in " + stage_.string() + ": " + error.message());
+  }
+  fs::remove_all(stage_, error);
+}
+
+}  // namespace hybrid_slam::files

@@ -1,0 +1,63 @@
+/// @file StagedFolder.h
+/// @brief Results that appear together or not at all.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "files/OutputFolder.h"
+
+namespace hybrid_slam::files {
+
+/// Files are written to a hidden folder `.NAME.part-XXXXXX` beside the folder NAME. `publish` renames it to
+/// NAME; without `publish` it is removed. Other files in NAME stay. Where NAME cannot be renamed (a mount
+/// point, the working directory), the hidden folder is in it, and the files are renamed one by one, the last
+/// result last.
+class StagedFolder {
+ public:
+  /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
+  /// results and `overwrite` is false.
+  /// @param results  names of all files that a run may write; the last marks a complete run
+  /// @throws InputError if the folder cannot be created or written to
+  StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  /// The hidden folder.
+  const OutputFolder& files() const { return *files_; }
+  /// As the user wrote it, or its dated subfolder.
+  const std::string& folder() const { return shown_; }
+  /// A file's path in the final folder, which may still change in `publish` if another run has finished
+  /// there.
+  std::string finalPath(const std::string& name) const { return shown_ + "/" + name; }
+  /// One line if the results do not go to the folder asked for; else empty.
+  std::string note() const;
+
+  /// @throws InputError if the results cannot be renamed; they then stay in the hidden folder, which it names
+  void publish();
+
+ private:
+  bool holdsResults() const;
+  bool isResult(const std::string& name) const;
+  void takeDatedSubfolder();
+  void stageIn(const std::filesystem::path& place, const std::string& prefix);
+  void removeDead(const std::filesystem::path& place, const std::string& prefix) const;
+  bool exchange() const;
+  void moveOneByOne() const;
+  void returnOthers() const;
+
+  std::vector<std::string> results_;
+  bool overwrite_;
+  std::string asked_, shown_;    ///< as the user writes them
+  std::filesystem::path final_;  ///< absolute, without symbolic links
+  std::filesystem::path stage_;
+  std::vector<std::filesystem::path> created_;  ///< removed again if they stay empty
+  bool isBeside_ = false, isDone_ = false;
+  int lock_ = -1;  ///< held while this process lives
+  std::unique_ptr<OutputFolder> files_;
+};
+
+}  // namespace hybrid_slam::files

@@ -1,0 +1,186 @@
+#include "files/StagedFolder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "base/Errors.h"
+#include "files/DatedName.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contentOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::UnorderedElementsAre;
+
+const std::vector<std::string> kNames{"map", "extra", "metrics"};
+constexpr const char* kDate = "[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}-[0-9]{2}-[0-9]{2}";
+
+class StagedFolderTest : public testing::Test {
+ protected:
+  void write(const StagedFolder& staged, const std::string& content, bool withExtra = false) {
+    for (const std::string& name : kNames)
+      if (withExtra || name != "extra")
+        staged.files().write(name, [&](std::ostream& stream) { stream << content; });
+  }
+  void run(const std::string& content, bool overwrite = false, bool withExtra = false) {
+    StagedFolder staged(out, kNames, overwrite);
+    write(staged, content, withExtra);
+    staged.publish();
+  }
+  static std::vector<std::string> namesIn(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+  std::string inOut(const std::string& name) const { return contentOf(out + "/" + name); }
+
+  TemporaryFolder root;
+  std::string out = root.path("out");
+};
+
+TEST_F(StagedFolderTest, ResultsAppearTogether) {
+  {
+    StagedFolder staged(out, kNames, false);
+    write(staged, "1");
+    EXPECT_THAT(namesIn(out), IsEmpty());
+    staged.publish();
+    EXPECT_EQ(staged.note(), "");
+    EXPECT_EQ(staged.finalPath("map"), out + "/map");
+  }
+  EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics"));
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("out"));
+}
+
+TEST_F(StagedFolderTest, WithoutPublishNothingIsLeft) {
+  {
+    StagedFolder(out, kNames, false).files().write("map", [](std::ostream&) {});
+  }
+  EXPECT_THAT(namesIn(root.path("")), IsEmpty());
+  run("1");
+  {
+    StagedFolder(out, kNames, false).files().write("map", [](std::ostream&) {});
+  }
+  {
+    StagedFolder(out, kNames, true).files().write("map", [](std::ostream&) {});
+  }
+  EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics"));
+  EXPECT_EQ(inOut("map"), "1");
+}
+
+TEST_F(StagedFolderTest, AnEarlierRunIsNotTouched) {
+  run("1");
+  StagedFolder staged(out, kNames, false), twin(out, kNames, false);  // within a second
+  EXPECT_THAT(staged.note(), MatchesRegex(out + " has results of an earlier run.* go to " + out + "/" +
+                                          kDate + " \\(--overwrite.*\\)"));
+  write(staged, "2");
+  write(twin, "3");
+  staged.publish();
+  twin.publish();
+  EXPECT_EQ(inOut("map"), "1");
+  EXPECT_EQ(contentOf(staged.finalPath("map")), "2");
+  EXPECT_EQ(contentOf(twin.finalPath("map")), "3");
+  EXPECT_EQ(namesIn(out).size(), 4u);
+}
+
+TEST_F(StagedFolderTest, OverwriteReplacesTheEarlierResultsAndNothingElse) {
+  run("1", false, true);
+  std::ofstream(out + "/notes") << "mine";
+  fs::create_directory(out + "/folder");
+  std::ofstream(out + "/folder/map") << "mine too";
+  fs::create_symlink("/nowhere", out + "/link");
+  fs::permissions(out, fs::perms::owner_all);
+  run("2", true);
+  EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics", "notes", "folder", "link"));
+  EXPECT_EQ(inOut("map"), "2");
+  EXPECT_EQ(inOut("notes"), "mine");
+  EXPECT_EQ(inOut("folder/map"), "mine too");
+  EXPECT_EQ(fs::status(out).permissions(), fs::perms::owner_all);
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("out"));
+}
+
+TEST_F(StagedFolderTest, OtherFilesStayWithoutOverwrite) {
+  fs::create_directory(out);
+  std::ofstream(out + "/robot.rawlog") << "log";
+  run("1");
+  EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics", "robot.rawlog"));
+  EXPECT_EQ(inOut("robot.rawlog"), "log");
+}
+
+TEST_F(StagedFolderTest, ARunThatFinishesFirstIsNotReplaced) {
+  StagedFolder slow(out, kNames, false);
+  write(slow, "slow");
+  run("fast");
+  slow.publish();
+  EXPECT_EQ(inOut("map"), "fast");
+  EXPECT_EQ(contentOf(slow.finalPath("map")), "slow");
+  EXPECT_THAT(slow.note(), HasSubstr(out + "/20"));
+}
+
+TEST_F(StagedFolderTest, ASymbolicLinkToAFolderStays) {
+  fs::create_directory(root.path("target"));
+  fs::create_directory_symlink("target", out);
+  run("1");
+  run("2", true);
+  EXPECT_TRUE(fs::is_symlink(out));
+  EXPECT_EQ(contentOf(root.path("target/map")), "2");
+}
+
+TEST_F(StagedFolderTest, TheWorkingFolderIsNotReplaced) {
+  const fs::path before = fs::current_path();
+  fs::create_directory(out);
+  fs::current_path(out);
+  out = ".";
+  run("1", false, true);
+  std::ofstream("notes") << "mine";
+  run("2", true);
+  const auto names = namesIn(".");
+  const std::string map = contentOf("map");
+  fs::current_path(before);
+  EXPECT_THAT(names, UnorderedElementsAre("map", "metrics", "notes"));
+  EXPECT_EQ(map, "2");
+}
+
+TEST_F(StagedFolderTest, AFolderInPlaceOfAResultIsAnError) {
+  fs::create_directories(out + "/map");
+  EXPECT_THROW(StagedFolder(out, kNames, true), InputError);
+  run("1");
+  EXPECT_THAT(namesIn(out + "/map"), IsEmpty());
+}
+
+TEST_F(StagedFolderTest, AKilledRunIsClearedAwayAndARunningOneIsNot) {
+  const pid_t child = fork();
+  if (child == 0) {
+    StagedFolder killed(out, kNames, false);
+    killed.files().write("map", [](std::ostream&) {});
+    std::raise(SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the hidden folder";
+  StagedFolder running(out, kNames, false);
+  write(running, "1");
+  const StagedFolder next(out, kNames, false);
+  EXPECT_EQ(namesIn(root.path("")).size(), 3u);
+  running.publish();
+  EXPECT_EQ(inOut("map"), "1");
+}
+
+TEST(DatedName, IsTheFirstThatIsFree) {
+  int calls = 0;
+  EXPECT_THAT(claimDatedName([&](const std::string&) { return ++calls == 3; }),
+              MatchesRegex(std::string(kDate) + "-3"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files

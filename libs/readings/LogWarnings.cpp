@@ -1,0 +1,26 @@
+#include "readings/LogWarnings.h"
+
+namespace hybrid_slam::readings {
+
+std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string& file) {
+  std::vector<std::string> all;
+  const auto add = [&](const Oddity& odd, const std::string& what, const std::string& done) {
+    if (odd.count > 0)
+      all.push_back(std::to_string(odd.count) + " " + what + ": first at " + log.unit + " " +
+                    std::to_string(odd.first) + " of " + file + "; " + done);
+  };
+  add(log.brokenLines, "broken lines", "skipped");
+  add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
+  add(log.misplaced, "scans with a sensor pose over 100 m from the robot", "skipped");
+  add(log.tilted, "scans of a tilted plane", "skipped");
+  add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
+  add(log.repeatedStamps, "timestamps equal that of the previous scan", "kept");
+  add(log.stepsBack, "timestamps step back", "log order kept");
+  add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
+  add(log.noOdometry, "actions without odometry", "taken as no motion");
+  add(log.jumps, "odometry jumps of over 100 m", "taken as no motion");
+  all.insert(all.end(), log.ignored.begin(), log.ignored.end());
+  return all;
+}
+
+}  // namespace hybrid_slam::readings
