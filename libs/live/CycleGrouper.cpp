@@ -47,7 +47,8 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
     }
     return give(end);
   }
-  if (*newest_ - waiting_.front().time > kLongestWait) give(waiting_.size());
+  if (*newest_ - waiting_.front().time > kLongestWait || waiting_.size() >= kMostWaiting)
+    give(waiting_.size());
 }
 
 /// Scans at about the cycle rate all pass despite jitter; faster ones are thinned out.

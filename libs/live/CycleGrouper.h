@@ -47,5 +47,8 @@ class CycleGrouper {
 /// s; the longest time an observation waits for others. An observation older than the newest by more than
 /// this means that the clock was set back or another log begins.
 constexpr double kLongestWait = 1;
+/// Observations that wait for others, far more than sensors give in kLongestWait: their stamps do not
+/// advance.
+constexpr size_t kMostWaiting = 1000;
 
 }  // namespace hybrid_slam::live

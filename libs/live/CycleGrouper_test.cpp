@@ -39,6 +39,17 @@ struct Cycles {
   void laser(double time, const std::string& label = "LASER") { grouper.add(scan(time, {}, 3, label)); }
 };
 
+TEST(CycleGrouper, StampsThatDoNotAdvanceFillNoMemory) {
+  size_t most = 0, all = 0;
+  CycleGrouper grouper(5, [&](const mrpt::obs::CSensoryFrame::Ptr& cycle) {
+    most = std::max(most, cycle->size());
+    all += cycle->size();
+  });
+  for (int i = 0; i < 100000; ++i) grouper.add(odometry(10, {}));
+  EXPECT_EQ(all, 100000u);
+  EXPECT_LE(most, kMostWaiting);
+}
+
 TEST(CycleGrouper, ACycleEndsWithTheFirstOdometryAfterItsScan) {
   Cycles c(5);
   c.odo(10.03), c.laser(10.1);

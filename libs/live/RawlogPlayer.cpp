@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "live/CycleGrouper.h"
-#include "readings/RawlogSource.h"
+#include "readings/LogWarnings.h"
 
 namespace hybrid_slam::live {
 namespace {
@@ -58,7 +58,10 @@ class Pace {
 
 RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate)
     : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
-  readings::summarise(file, {});
+  const readings::RawlogSummary log = readings::summarise(file, {});
+  warnings_ = readings::warningsOf(log, file);
+  if (!log.defect.empty())
+    warnings_.push_back("log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point");
 }
 
 void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
@@ -72,7 +75,8 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
   bool hasActions = false;
   while (const auto object = stop() ? nullptr : reader.next()) {
     if (const auto increment = readings::incrementOf(object)) {
-      if (readings::isFinite(*increment)) travelled = travelled + *increment;
+      if (readings::isFinite(*increment) && !readings::isJump({}, *increment))
+        travelled = travelled + *increment;
       hasActions = true;
     }
     readings::forEachObservation(object, [&](const CObservation::Ptr& observation) {

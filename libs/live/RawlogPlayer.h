@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "live/CycleSource.h"
 
@@ -15,11 +16,15 @@ class RawlogPlayer : public CycleSource {
   /// @throws InputError if the log is missing or has no scan
   RawlogPlayer(const std::string& file, double cycleRate, double replayRate);
 
+  /// What is wrong with the log, a line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// Ends with the log. Converts the odometry of action-observation pairs to CObservationOdometry.
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
  private:
   std::string file_;
+  std::vector<std::string> warnings_;
   double cycleRate_, replayRate_;
 };
 

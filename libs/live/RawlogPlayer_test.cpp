@@ -46,6 +46,19 @@ TEST(RawlogPlayer, DeliversEveryScanOfALogWithItsMotion) {
     EXPECT_LT((p.readings[i].motion - (test::poseOnLap(i, 80) - test::poseOnLap(i - 1, 80))).norm(), 1e-6);
 }
 
+TEST(RawlogPlayer, SaysWhatIsWrongWithTheLog) {
+  const files::TemporaryFolder folder;
+  test::Log log = test::laps(20);
+  std::dynamic_pointer_cast<mrpt::obs::CObservation>(log[11])->timestamp =
+      std::dynamic_pointer_cast<mrpt::obs::CObservation>(log[9])->timestamp;
+  const std::string file = test::writeGzipped(folder.path("log"), log);
+  EXPECT_THAT(RawlogPlayer(file, 5, kFast).warnings(),
+              testing::ElementsAre("1 timestamps equal that of the previous scan: first at entry 12 of " +
+                                   file + "; kept"));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THAT(RawlogPlayer(file, 5, kFast).warnings().back(), testing::HasSubstr("served up to this point"));
+}
+
 TEST(RawlogPlayer, ThinsAFastLog) {
   test::Log log;
   for (int i = 0; i < 100; ++i) {  // 50 scans/s for 2 s

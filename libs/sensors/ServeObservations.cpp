@@ -15,10 +15,13 @@ std::string serveObservations(const live::ServerOptions& options,
                               const std::function<void(uint16_t)>& isReady) {
   const bool isReplay = !options.rawlog.empty();
   std::unique_ptr<live::CycleSource> source;
-  if (isReplay)
-    source = std::make_unique<live::RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
-  else
+  if (isReplay) {
+    auto player = std::make_unique<live::RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
+    for (const std::string& warning : player->warnings()) log->report("rawlog", warning);
+    source = std::move(player);
+  } else {
     source = std::make_unique<SensorSource>(config, options.cycleRate, options.sensorTimeout, log);
+  }
 
   const live::ObservationServer::Limits limits{static_cast<size_t>(options.queue),
                                                static_cast<size_t>(options.maxClients)};
