@@ -26,6 +26,10 @@ std::string scanRow(const std::string& time, const std::string& range = "2.5") {
   return row + " 0 0 0 " + time + " 0 0 " + time + " host 0\n";
 }
 
+std::string odometryRow(const std::string& time, const std::string& x) {
+  return "ODOM " + x + " 0 0 0 0 0 " + time + " host " + time + "\n";
+}
+
 class Log2Rawlog : public testing::Test {
  protected:
   /// Runs the program; `before` is shell code that runs first.
@@ -53,6 +57,17 @@ class Log2Rawlog : public testing::Test {
   std::string rawlog = folder.path("out.rawlog");
   std::string out, err;
 };
+
+TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
+  const std::string log =
+      folder.write("in.clf", odometryRow("10", "1") + scanRow("10") + odometryRow("11", "1e30") +
+                                 odometryRow("12", "1.1") + odometryRow("100000012", "1.2"));
+  EXPECT_EQ(convert(log), 0);
+  EXPECT_EQ(err, "log2rawlog: warning: 2 odometry jumps of over 100 m: first in " + log +
+                     ", line 3; kept as logged\n"
+                     "log2rawlog: warning: 1 time jumps of over a day: first in " +
+                     log + ", line 5; kept as logged\n");
+}
 
 TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5") + "SYNC tag\n");

@@ -50,6 +50,16 @@ void warnOfShortMode(const std::string& input, float longestRange) {
             << "; --max-range 8.18 drops them\n";
 }
 
+void warnOfJumps(const std::string& input, const readings::LogSummary& s) {
+  const auto warnOf = [&input](size_t count, const std::string& what, size_t line) {
+    if (count > 0)
+      warn({std::to_string(count) + " " + what + ": first in " + input + ", line " + std::to_string(line) +
+            "; kept as logged"});
+  };
+  warnOf(s.odometryJumps, "odometry jumps of over 100 m", s.firstOdometryJump);
+  warnOf(s.timeJumps, "time jumps of over a day", s.firstTimeJump);
+}
+
 int convert(int argc, char** argv) {
   std::string input, output;
   readings::LogConversionOptions options;
@@ -104,6 +114,7 @@ int convert(int argc, char** argv) {
                   << '\n';
       });
   warnOfShortMode(input, summary.longestRange);
+  warnOfJumps(input, summary);
   printSummary(output, summary);
   return 0;
 }

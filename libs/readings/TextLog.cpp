@@ -13,6 +13,7 @@
 
 #include "base/Errors.h"
 #include "readings/LogFields.h"
+#include "readings/ReadingAssembler.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -74,7 +75,10 @@ class TextLog::Conversion {
   void operator()(const OtherRecord& record) { ++summary.otherRecords[record.name]; }
 
   void operator()(const OdometryRecord& record) {
-    if (last_) summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
+    if (last_ && isJump(last_->pose, record.pose))
+      ++summary.odometryJumps;
+    else if (last_)
+      summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
     last_ = record;
     ++summary.odometryReadings;
     seenAt(record.time);
@@ -124,6 +128,9 @@ class TextLog::Conversion {
 
   void seenAt(double time) {
     const bool first = summary.scans + summary.odometryReadings == 1;
+    constexpr double kDay = 86400;  // s
+    if (!first && std::abs(time - lastTime_) > kDay) ++summary.timeJumps;
+    lastTime_ = time;
     summary.earliest = first ? time : std::min(summary.earliest, time);
     summary.latest = first ? time : std::max(summary.latest, time);
   }
@@ -132,6 +139,7 @@ class TextLog::Conversion {
   double maxRange_;
   bool actionObservation_;
   std::optional<OdometryRecord> last_;
+  double lastTime_ = 0;  ///< s, of the row before
   std::optional<mrpt::poses::CPose2D> atLastScan_;
 };
 
@@ -164,6 +172,10 @@ mrpt::serialization::CSerializable::Ptr TextLog::next() {
 void TextLog::convert(const std::string& line) {
   try {
     std::visit(*conversion_, parser_->parse(line));
+    LogSummary& summary = conversion_->summary;
+    if (summary.odometryJumps > 0 && summary.firstOdometryJump == 0)
+      summary.firstOdometryJump = lines_.number();
+    if (summary.timeJumps > 0 && summary.firstTimeJump == 0) summary.firstTimeJump = lines_.number();
   } catch (const BrokenLine& broken) {
     if (strict_)
       throw InputError("broken line", lines_.path() + ", line " + std::to_string(lines_.number()),

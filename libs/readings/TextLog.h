@@ -30,8 +30,10 @@ struct LogSummary {
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
   std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name
   double earliest = 0, latest = 0;             ///< s
-  double pathLength = 0;                       ///< m, along the odometry in log order
+  double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
   float longestRange = 0;                      ///< m, among the valid readings
+  /// Odometry readings over kMaxStep apart, rows over a day apart: how many, and the line of the first.
+  size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
 };
 
 /// Called for each broken line with its number and error.
