@@ -225,6 +225,33 @@ TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
 }
 
+/// Whatever one reading says, there are results, and memory is bounded.
+TEST_F(HybridSlam, OneReadingOfAnyContentEndsNoRun) {
+  using Scan = test::CObservation2DRangeScan;
+  const std::vector<std::function<void(Scan&, mrpt::obs::CObservationOdometry&)>> changes{
+      [](Scan& scan, auto&) { scan.aperture = 1e30f; },
+      [](Scan& scan, auto&) { scan.aperture = -1; },
+      [](Scan& scan, auto&) { scan.maxRange = 1e30f, scan.setScanRange(5, 1e29f); },
+      [](Scan& scan, auto&) { scan.maxRange = kNaN, scan.setScanRange(5, 1e29f); },
+      [](Scan& scan, auto&) { scan.sensorPose.z(1e300); },
+      [](Scan& scan, auto&) { scan.sensorPose.setYawPitchRoll(1e300, 0, 0); },
+      [](Scan& scan, auto&) { scan.sensorPose.setYawPitchRoll(0, kNaN, 0); },
+      [](Scan& scan, auto&) { scan.timestamp = mrpt::Clock::fromDouble(9e9); },
+      [](Scan& scan, auto&) { scan.resizeScan(200000); },
+      [](auto&, auto& odometry) { odometry.odometry.phi(1e300); },
+      [](auto&, auto& odometry) { odometry.odometry.x(-1e300); },
+      [](auto&, auto& odometry) { odometry.odometry.y(kNaN); },
+      [](auto&, auto& odometry) { odometry.timestamp = mrpt::Clock::fromDouble(9e9); }};
+  for (size_t i = 0; i < changes.size(); ++i) {
+    SCOPED_TRACE(i);
+    test::Log log = test::laps(20);
+    changes[i](dynamic_cast<Scan&>(*log[21]), dynamic_cast<mrpt::obs::CObservationOdometry&>(*log[20]));
+    EXPECT_EQ(replay(log), 0) << err;
+    EXPECT_GE(files::loadTum(output + "/trajectory.tum").size(), 19u);
+    EXPECT_LT(nlohmann::json::parse(result("metrics.json"))["peak_rss_mb"], 400);
+  }
+}
+
 TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
   test::Log log;
   for (size_t i = 0; i < 10; ++i) {

@@ -5,11 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "ChildProgram.h"
 #include "HybridSlamProgram.h"
@@ -192,6 +194,30 @@ TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
     EXPECT_NEAR(metrics["duration_s"].get<double>(), 0.2 * static_cast<double>(scans - 1), 1e-3)
         << "of the scans that were replayed";
   }
+}
+
+TEST_F(HybridSlam, KilledAtAnyTimeTheFolderHasTheResultsOfOneRun) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(20));
+  ASSERT_EQ(replay(log), 0);
+  std::ofstream(output + "/notes") << "mine";
+  auto expected = kResults;
+  expected.emplace_back("notes");
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
+    const std::string before = result("metrics.json"), trajectory = result("trajectory.tum");
+    {
+      test::ChildProgram program(
+          folder, "run", {HYBRID_SLAM, "-q", "--overwrite", "-s", std::to_string(i), "-o", output, ini, log});
+      std::this_thread::sleep_for(std::chrono::milliseconds(20 * i));
+    }  // killed
+    EXPECT_THAT(results(), UnorderedElementsAreArray(expected));
+    const auto metrics = nlohmann::json::parse(result("metrics.json"), nullptr, false);
+    EXPECT_EQ(metrics["complete"], true);
+    EXPECT_EQ(result("metrics.json") == before, result("trajectory.tum") == trajectory);
+  }
+  ASSERT_EQ(replay(log), 0);
+  for (const std::string& left : test::filesIn(folder.path(""), ".out.part-"))
+    EXPECT_TRUE(fs::exists(left + "/metrics.json")) << "unfinished results are cleared away by the last run";
 }
 
 TEST_F(HybridSlam, ARunUnderNohupOutlivesItsTerminal) {

@@ -118,7 +118,8 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   }
 }
 
-/// Removes the unfinished results of killed programs, and no other file.
+/// Removes the unfinished results of killed programs, and no other file. Complete results that could not be
+/// renamed stay.
 void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) const {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
@@ -158,11 +159,16 @@ bool StagedFolder::exchange() const {
 /// After the exchange: moves what could not be linked, then removes the rest of the old folder.
 void StagedFolder::returnOthers() const {
   std::error_code error;
+  bool hasOthers = false;
   for (const auto& entry : fs::directory_iterator(stage_))
     if (const fs::path name = entry.path().filename();
-        !isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name)))
+        !isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name))) {
       fs::rename(entry.path(), final_ / name, error);
-  if (!error) fs::remove_all(stage_, error);
+      hasOthers |= static_cast<bool>(error);
+    }
+  if (hasOthers) return;
+  fs::remove(stage_ / results_.back(), error);  // first, so that removeDead ends what a kill interrupts
+  fs::remove_all(stage_, error);
 }
 
 void StagedFolder::moveOneByOne() const {
