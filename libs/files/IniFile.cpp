@@ -19,19 +19,19 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr size_t kLongestLine = 10000,
-                 kLargestFile = 10000000;  // bytes: MRPT's parser is slow on longer ones
+constexpr size_t kLongestIniLine = 10000,
+                 kLargestIniFile = 1000000;  // bytes: MRPT's parser is slow on longer ones
 
 void checkLengths(const std::string& text, const std::string& file) {
-  if (text.size() > kLargestFile)
+  if (text.size() > kLargestIniFile)
     throw InputError("too large for an INI file", file,
-                     "expected at most " + std::to_string(kLargestFile) + " bytes");
+                     "expected at most " + std::to_string(kLargestIniFile) + " bytes");
   size_t number = 1;
   for (size_t begin = 0; begin < text.size(); ++number) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine)
+    if (end - begin > kLongestIniLine)
       throw InputError("line too long", file + ", line " + std::to_string(number),
-                       "expected at most " + std::to_string(kLongestLine) + " characters");
+                       "expected at most " + std::to_string(kLongestIniLine) + " characters");
     begin = end + 1;
   }
 }
@@ -41,7 +41,7 @@ std::string readText(const std::string& file) {
   if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
   if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
   std::ifstream in(file, std::ios::binary);
-  std::string text(kLargestFile + 1, '\0');
+  std::string text(kLargestIniFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad() || !in.is_open()) throw InputError("cannot read", file, expected);
   text.resize(static_cast<size_t>(in.gcount()));
