@@ -145,6 +145,7 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
                                 {"max", quantile(latencies_, 1)}}}};
   if (failure_) more["complete"] = false;
   const std::string summary = run_.finish(recording_.path(), recorded, version, more);
+  if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);
   if (failure_) {
     log_.report("results", "those up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);

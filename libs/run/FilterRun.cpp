@@ -135,6 +135,13 @@ std::string FilterRun::slipNote() const {
          fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
 }
 
+std::string FilterRun::mapNote() const {
+  const double cell = configuration_.filter.grid.resolution;
+  if (configuration_.run.method == Method::stock || savedCell_ < 1.5 * cell) return {};
+  return "the map files have cells of " + fixedText(savedCell_, 2) + " m instead of " + fixedText(cell, 2) +
+         " m: the map is too large for MRPT's grid";
+}
+
 void FilterRun::note(const LoopClosure& loop) {
   ++loops_;
   loopNotes_.push_back(describe(loop, updateTimes_));
@@ -186,6 +193,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   }
   const auto& [trajectory, path, grid, lines] = result;
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
+  savedCell_ = grid.getResolution();
   saveRosMap(folder_, grid);
   saveGridMap(folder_, grid);
   std::vector<bool> isUpdate;

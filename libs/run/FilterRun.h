@@ -42,6 +42,8 @@ class FilterRun {
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
+  /// One line if the map of the finished run has coarser cells than the filter's; else empty.
+  std::string mapNote() const;
   /// A line for each loop closed since the last call: where, by how much, on what evidence.
   std::vector<std::string> takeLoopNotes() { return std::exchange(loopNotes_, {}); }
   const FilterView& view() const { return *filter_; }
@@ -93,6 +95,7 @@ class FilterRun {
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
   double firstSlip_ = 0;  ///< s
+  double savedCell_ = 0;  ///< m, of the map files
   Verdict verdict_;
 };
 

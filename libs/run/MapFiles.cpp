@@ -37,6 +37,23 @@ Window knownWindow(const COccupancyGridMap2D& grid) {
           std::min(known.x1 + kMargin, width - 1), std::min(known.y1 + kMargin, height - 1)};
 }
 
+/// Cells along the side of a pixel, so that a picture has at most 2^26 pixels (RGB: 200 MB), 2^14 on a side.
+int reductionOf(const Window& window) {
+  constexpr double kMostPixels = 1 << 26, kLongestSide = 1 << 14;
+  const double pixels = static_cast<double>(window.width()) * window.height();
+  const double longest = std::max(window.width(), window.height());
+  return static_cast<int>(
+      std::ceil(std::max({1.0, std::sqrt(pixels / kMostPixels), longest / kLongestSide})));
+}
+
+/// Of a square of cells to the right of and below (x, y): thin walls remain visible in a reduced picture.
+float leastFree(const COccupancyGridMap2D& grid, int x, int y, int side) {
+  float least = 1;
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) least = std::min(least, grid.getCell(x + i, y - j));
+  return least;
+}
+
 }  // namespace
 
 void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& grid,
@@ -44,15 +61,20 @@ void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& g
                  const std::vector<DoubtfulPlace>& doubtful) {
   const Window window = knownWindow(grid);
   // Small maps are enlarged, so that path and lines do not hide the walls.
-  const int scale = std::clamp(1600 / std::max(window.width(), window.height()), 1, 4);
-  mrpt::img::CImage image(window.width() * scale, window.height() * scale, mrpt::img::CH_RGB);
-  for (int y = 0; y < window.height() * scale; ++y)
-    for (int x = 0; x < window.width() * scale; ++x) {
-      const float free = grid.getCell(window.x0 + x / scale, window.y1 - y / scale);
+  const int enlarged = std::clamp(1600 / std::max(window.width(), window.height()), 1, 4);
+  const int reduced = reductionOf(window);
+  const int width = (window.width() * enlarged + reduced - 1) / reduced;
+  const int height = (window.height() * enlarged + reduced - 1) / reduced;
+  mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float free =
+          leastFree(grid, window.x0 + x * reduced / enlarged, window.y1 - y * reduced / enlarged, reduced);
       const auto grey = static_cast<uint8_t>(std::lround(255 * free));
       image.setPixel(x, y, TColor(grey, grey, grey));
     }
 
+  const double scale = static_cast<double>(enlarged) / reduced;  // pixels per cell
   const auto column = [&](double x) {
     return static_cast<int>(std::lround(((x - grid.getXMin()) / grid.getResolution() - window.x0) * scale));
   };

@@ -15,7 +15,7 @@
 namespace hybrid_slam::run {
 
 /// `map.png`: the grid, the path (red), the lines (green), the robot at the end (light blue) and
-/// circles around doubtful places (orange).
+/// circles around doubtful places (orange). At most 2^26 pixels, 2^14 on a side: larger maps are reduced.
 void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
                  const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines,
                  const std::vector<DoubtfulPlace>& doubtful = {});

@@ -130,6 +130,23 @@ TEST_F(Picture, OfAnUnknownMap) {
   EXPECT_GT(image.getWidth(), 0u);
 }
 
+TEST_F(Picture, OfALargeMapIsReducedAndKeepsThinWalls) {
+  COccupancyGridMap2D grid;
+  grid.setSize(0, 1200, 0, 600, 0.05f, 0.5f);  // 24,000 x 12,000 cells
+  for (int x = 1; x < 23999; ++x) grid.setCell(x, 6001, 0.03f);
+  grid.setCell(0, 0, 0.9f), grid.setCell(23999, 11999, 0.9f);
+  savePicture(folder, grid, {{0, {300, 100, 0}}, {1, {900, 100, 0}}}, {});
+  load();
+  ASSERT_EQ(image.getWidth(), 8000u);
+  ASSERT_EQ(image.getHeight(), 4000u);
+  const auto pixel = [this](unsigned x, unsigned y) {
+    return static_cast<int>(*image.ptr<uint8_t>(x, y, 0));
+  };
+  for (const unsigned x : {10u, 3333u, 7990u}) EXPECT_LT(pixel(x, 1999), 20) << "the wall";
+  EXPECT_NEAR(pixel(3333, 1000), 127, 2) << "unknown";
+  EXPECT_EQ(pixel(4000, 4000 - 667), 0) << "the path";
+}
+
 TEST_F(MapFiles, LinesAsDocumented) {
   DatabaseLine line;
   line.rho = 1.5, line.theta = 0.25, line.length = 2, line.start = {1, 2}, line.end = {3, 4}, line.count = 7;

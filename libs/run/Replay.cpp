@@ -60,6 +60,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   else if (outcome.incomplete.empty() && !log.defect.empty())
     outcome.incomplete = "log " + log.defect + ": " + log.defectPlace(file) + upToHere;
   outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
   outcome.verdict = run.verdict();
   if (run.folderNote() != place) progress.say(run.folderNote());  // another run has finished there
   for (const std::string& note : run.takeLoopNotes()) progress.say(note);

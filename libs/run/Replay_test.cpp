@@ -1,7 +1,10 @@
 #include "run/Replay.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <regex>
 
@@ -43,6 +46,33 @@ TEST(Replay, TheResultsAreTheSameInEveryLocale) {
     EXPECT_EQ(text, expected.at(name)) << name;
     EXPECT_GT(text.size(), 50u) << name;
   }
+}
+
+/// A straight drive to the north-east, with walls 4 m to both sides: steps of 70 m without overlap.
+test::Log straightDrive(double length) {
+  test::Log log;
+  for (int i = 0; i * 70 < length; ++i) {
+    const mrpt::math::TPose2D pose(49.5 * i, 49.5 * i, 0);
+    const auto scan = test::scan(1000 + 10 * i, {}, 61);
+    for (size_t k = 0; k < 61; ++k) scan->setScanRange(k, k % 2 == 0 ? 4.F : 5.F);
+    log.push_back(test::odometry(1000 + 10 * i, pose));
+    log.push_back(scan);
+  }
+  return log;
+}
+
+TEST(Replay, ADriveOfTenKilometresEndsWithResults) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writeGzipped(folder.path("long.rawlog"), straightDrive(10000));
+  Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"), "particle_filter.particles=2",
+                       "particle_filter.proposal=standard", "motion_model.turn_var_d=0",
+                       "motion_model.turn_mean_std=0", "input.max_odometry_gap=20"});
+  const std::atomic<bool> stop{false};
+  const ReplayOutcome outcome = replay(c, true, stop, "test");
+  EXPECT_THAT(outcome.warnings, testing::Contains(testing::HasSubstr("cells of 0.45 m instead of 0.05 m")));
+  EXPECT_THAT(test::contentOf(folder.path("out/map.yaml")), testing::HasSubstr("resolution: 0.45\n"));
+  for (const char* name : {"map.png", "map.pgm", "map.gridmap.gz", "trajectory.tum", "metrics.json"})
+    EXPECT_GT(std::filesystem::file_size(folder.path(std::string("out/") + name)), 100u) << name;
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& be
   std::vector<Hypothesis> all;
   if (contradicting_.size() < kCarriedScans) return all;
   for (const TPose2D& place :
-       globalSearch(scan.matchedBeams, best.grid, alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
+       globalSearch(scan.matchedBeams, best.grid, mrpt::math::TPoint2D(best.path.back()),
+                    alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
     const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
     if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
   }

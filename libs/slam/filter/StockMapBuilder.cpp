@@ -5,7 +5,10 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
+
+#include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam {
 
@@ -26,6 +29,9 @@ void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
 
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {
+  if (const auto grid = mapPDF.m_particles[0].d->mapTillNow.mapByClass<COccupancyGridMap2D>();
+      grid && size_t{grid->getSizeX()} * grid->getSizeY() > kMostCells)
+    throw std::runtime_error("map too large for MRPT's filter: over 2^28 cells");
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
   oneThread_.execute([&] {
     // MRPT draws from its thread's generator.

@@ -257,6 +257,17 @@ TEST(Tracking, ResidualResamplingOfTheAuxiliaryFiltersIsAnError) {
   }
 }
 
+TEST(Tracking, ARangeOfTooManyCellsIsAnError) {
+  FilterConfiguration c = test::roomConfiguration();
+  c.grid.maxRange = 200, c.grid.resolution = 0.02;
+  EXPECT_NO_THROW(HybridMapBuilder{c});
+  c.grid.resolution = 0.01;
+  EXPECT_THROW(HybridMapBuilder{c}, InputError);
+  c.grid.resolution = 0.02;
+  c.gridWeight.method = GridWeightOptions::Method::likelihoodField;
+  EXPECT_THROW(HybridMapBuilder{c}, InputError);
+}
+
 /// Without resampling every particle must continue from its pose. MRPT's auxiliary filters give a badly
 /// fitting particle the pose of another one, but not its map and path.
 TEST(Tracking, AnAuxiliaryFilterLeavesEachParticleItsOwnPath) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kWall = 0.6, kFree = 0.4;  // occupancy
 constexpr double kStep = 0.2;               // m
+constexpr double kReach = 500;              // m
 constexpr double kStepAngle = 2 * M_PI / 180, kWindow = 6 * M_PI / 180;
 constexpr size_t kMostBeams = 60;
 constexpr double kApart = 0.5, kApartAngle = 10 * M_PI / 180;  // of two poses
@@ -26,10 +27,10 @@ double logOdds(double occupancy) {
 /// The map in cells of kStep: where free, and where there is a wall in the cell (2) or a neighbour (1).
 class CoarseMap {
  public:
-  explicit CoarseMap(const OccupancyGrid& grid)
+  CoarseMap(const OccupancyGrid& grid, const TPoint2D& around)
       : scale_(std::max(1, static_cast<int>(kStep / grid.resolution()))) {
     size_ = scale_ * grid.resolution();
-    const CellBox box = grid.tiles().bounds();
+    const CellBox box = within(grid, around);
     if (box.empty()) return;
     min_ = {coarse(box.min.x) - 2, coarse(box.min.y) - 2};
     width_ = coarse(box.max.x) - min_.x + 3, height_ = coarse(box.max.y) - min_.y + 3;
@@ -61,6 +62,15 @@ class CoarseMap {
   TPoint2D centre(int x, int y) const { return {(min_.x + x + 0.5) * size_, (min_.y + y + 0.5) * size_}; }
 
  private:
+  /// The cells of the map within kReach: a map may be kilometres long.
+  static CellBox within(const OccupancyGrid& grid, const TPoint2D& around) {
+    CellBox box = grid.tiles().bounds();
+    const CellIndex low = grid.cellOf(around.x - kReach, around.y - kReach),
+                    high = grid.cellOf(around.x + kReach, around.y + kReach);
+    box.min = {std::max(box.min.x, low.x), std::max(box.min.y, low.y)};
+    box.max = {std::min(box.max.x, high.x), std::min(box.max.y, high.y)};
+    return box;
+  }
   int coarse(int cell) const { return static_cast<int>(std::floor(static_cast<double>(cell) / scale_)); }
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
@@ -113,9 +123,9 @@ double contradictedShare(const ScanBeams& scan, const TPose2D& robot, const Occu
   return scan.rays.empty() ? 0 : static_cast<double>(contradicted) / static_cast<double>(scan.rays.size());
 }
 
-std::vector<TPose2D> globalSearch(const ScanBeams& scan, const OccupancyGrid& grid,
+std::vector<TPose2D> globalSearch(const ScanBeams& scan, const OccupancyGrid& grid, const TPoint2D& around,
                                   const std::vector<double>& headings, size_t count) {
-  const CoarseMap map(grid);
+  const CoarseMap map(grid, around);
   const size_t every = (scan.rays.size() + kMostBeams - 1) / kMostBeams;
   struct Place {
     int score;

@@ -13,10 +13,13 @@ namespace hybrid_slam {
 double contradictedShare(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid);
 
 /// The poses (map frame, best first) at which most beams end at walls, on a lattice of 0.2 m and 2 deg over
-/// the free cells of the map; at most one within 0.5 m and 10 deg. To be refined by a scan match.
+/// the free cells of the map within 500 m; at most one within 0.5 m and 10 deg. To be refined by a scan
+/// match.
+/// @param around    centre of the search (m, map frame)
 /// @param headings  search only within 6 deg of these (rad); empty: all headings
 /// @param count     maximum number of poses
 std::vector<mrpt::math::TPose2D> globalSearch(const ScanBeams& scan, const OccupancyGrid& grid,
+                                              const mrpt::math::TPoint2D& around,
                                               const std::vector<double>& headings, size_t count);
 
 }  // namespace hybrid_slam

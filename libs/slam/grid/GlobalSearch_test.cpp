@@ -40,22 +40,32 @@ TEST(GlobalSearch, FindsThePoseAmongTheBest) {
   for (int i = 0; i < 20; ++i) {
     const TPose2D robot(uniform(random, -2, 6), uniform(random, -1.5, 4), uniform(random, -M_PI, M_PI));
     const ScanBeams scan(scanAt(robot, random));
-    const auto everywhere = globalSearch(scan, grid, {}, 20);
+    const auto everywhere = globalSearch(scan, grid, {}, {}, 20);
     EXPECT_TRUE(std::any_of(everywhere.begin(), everywhere.end(), [&](const TPose2D& pose) {
       return isNear(pose, robot);
     })) << robot.asString();
     const double heading = robot.phi + 3 * kDegree;
-    const auto aligned = globalSearch(scan, grid, {heading, heading + M_PI / 2}, 20);
+    const auto aligned = globalSearch(scan, grid, {}, {heading, heading + M_PI / 2}, 20);
     EXPECT_TRUE(std::any_of(aligned.begin(), aligned.end(), [&](const TPose2D& pose) {
       return isNear(pose, robot);
     })) << robot.asString();
   }
 }
 
+TEST(GlobalSearch, IsBoundedOnAMapOfKilometres) {
+  OccupancyGrid grid = mappedRoom();
+  grid.tiles().set({400000, 400000}, 77);  // 20 km away
+  RandomStream random(5, 0, 0);
+  const TPose2D robot(1, 2, 0.5);
+  const auto near = globalSearch(ScanBeams(scanAt(robot, random)), grid, {100, 100}, {}, 20);
+  EXPECT_TRUE(std::any_of(near.begin(), near.end(), [&](const TPose2D& p) { return isNear(p, robot); }));
+  EXPECT_TRUE(globalSearch(ScanBeams(scanAt(robot, random)), grid, {600, 0}, {}, 20).empty());
+}
+
 TEST(GlobalSearch, FindsNothingWithoutAMapOrAScan) {
   RandomStream random(3, 0, 0);
-  EXPECT_TRUE(globalSearch(ScanBeams(scanAt({}, random)), OccupancyGrid(), {}, 20).empty());
-  EXPECT_LE(globalSearch(ScanBeams(LaserScan()), mappedRoom(), {}, 20).size(), 20u);
+  EXPECT_TRUE(globalSearch(ScanBeams(scanAt({}, random)), OccupancyGrid(), {}, {}, 20).empty());
+  EXPECT_LE(globalSearch(ScanBeams(LaserScan()), mappedRoom(), {}, {}, 20).size(), 20u);
 }
 
 TEST(ContradictedShare, IsSmallAtTheTruePoseAndLargeElsewhere) {

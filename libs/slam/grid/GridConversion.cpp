@@ -7,25 +7,66 @@
 
 namespace hybrid_slam {
 
-mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox& wanted) {
-  CellBox box = wanted;
-  if (box.empty()) {
-    box = grid.tiles().bounds();
-    if (box.empty()) box = {{0, 0}, {0, 0}};
-    box.min = {box.min.x - 1, box.min.y - 1};
-    box.max = {box.max.x + 1, box.max.y + 1};
-  }
-  const double s = grid.resolution();
+namespace {
+
+/// Index of the merged cell that holds a cell.
+int merged(int cell, int merge) { return (cell < 0 ? cell - merge + 1 : cell) / merge; }
+
+double cellsOf(const CellBox& box) {
+  return (static_cast<double>(box.max.x) - box.min.x + 1) * (static_cast<double>(box.max.y) - box.min.y + 1);
+}
+
+mrpt::maps::COccupancyGridMap2D unknownGrid(const CellBox& box, double s) {
   mrpt::maps::COccupancyGridMap2D out;
   out.setSize(static_cast<float>(box.min.x * s), static_cast<float>((box.max.x + 1) * s),
               static_cast<float>(box.min.y * s), static_cast<float>((box.max.y + 1) * s),
               static_cast<float>(s), 0.5f);
+  return out;
+}
+
+int8_t mrptValue(int8_t value) { return static_cast<int8_t>(-std::max<int>(value, -127)); }
+
+}  // namespace
+
+mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, size_t mostCells) {
+  CellBox known = grid.tiles().bounds();
+  if (known.empty()) known = {{0, 0}, {0, 0}};
+  const auto boxOf = [&known](int merge) {
+    return CellBox{{merged(known.min.x, merge) - 1, merged(known.min.y, merge) - 1},
+                   {merged(known.max.x, merge) + 1, merged(known.max.y, merge) + 1}};
+  };
+  int merge = 1;
+  while (cellsOf(boxOf(merge)) > static_cast<double>(mostCells)) ++merge;
+
+  const CellBox box = boxOf(merge);
+  mrpt::maps::COccupancyGridMap2D out = unknownGrid(box, merge * grid.resolution());
+  const int width = static_cast<int>(out.getSizeX()), height = static_cast<int>(out.getSizeY());
+  grid.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
+    for (int j = 0; j < Tile::kSize; ++j) {
+      const int y = merged(ty * Tile::kSize + j, merge) - box.min.y;
+      if (y >= height) continue;  // MRPT rounds the size in floats
+      auto* row = out.getRow(y);
+      for (int i = 0; i < Tile::kSize; ++i) {
+        const int8_t value = tile.cells()[Tile::index(i, j)];
+        const int x = merged(tx * Tile::kSize + i, merge) - box.min.x;
+        if (value == 0 || x >= width) continue;
+        row[x] = row[x] == 0 ? mrptValue(value) : std::min(row[x], mrptValue(value));
+      }
+    }
+  });
+  return out;
+}
+
+mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox& box) {
+  if (cellsOf(box) > static_cast<double>(kMostCells))
+    throw InputError("scan too long for this cell size", "section [grid], key `max_range`",
+                     "expected less than 2^28 cells around the robot");
+  mrpt::maps::COccupancyGridMap2D out = unknownGrid(box, grid.resolution());
   TileReader cells(grid.tiles());
   const int width = static_cast<int>(out.getSizeX()), height = static_cast<int>(out.getSizeY());
   for (int y = 0; y < height; ++y) {
     auto* row = out.getRow(y);
-    for (int x = 0; x < width; ++x)
-      row[x] = static_cast<int8_t>(-std::max<int>(cells.at(box.min.x + x, box.min.y + y), -127));
+    for (int x = 0; x < width; ++x) row[x] = mrptValue(cells.at(box.min.x + x, box.min.y + y));
   }
   return out;
 }

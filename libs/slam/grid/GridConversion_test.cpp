@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "base/Errors.h"
 #include "base/RandomStream.h"
 
@@ -94,6 +97,45 @@ TEST(GridConversion, ABoxIsCutOut) {
       for (int x = box.min.x; x <= box.max.x; ++x)
         ASSERT_EQ(part.getRow(y - box.min.y)[x - box.min.x], -grid.tiles().at({x, y}));
   }
+}
+
+TEST(GridConversion, ALargerMapGetsTheFinestCellsThatFit) {
+  RandomStream random(4, 0, 0);
+  const OccupancyGrid grid = randomGrid(random, 0.05, 20000, 300);
+  const CellBox box = grid.tiles().bounds();
+  for (const int merge : {2, 3, 7}) {
+    const auto side = static_cast<size_t>((box.max.x - box.min.x + 1) / merge + 5);
+    const COccupancyGridMap2D merged = toMrpt(grid, side * side);
+    ASSERT_NEAR(merged.getResolution(), 0.05 * merge, 1e-6);
+    EXPECT_LE(merged.getSizeX() * merged.getSizeY(), side * side);
+    const OccupancyGrid coarse = fromMrpt(merged);
+    for (int y = -300 / merge * merge; y < 300; y += merge)
+      for (int x = -300 / merge * merge; x < 300; x += merge) {
+        std::vector<int> known;
+        for (int j = 0; j < merge; ++j)
+          for (int i = 0; i < merge; ++i)
+            if (const int value = grid.tiles().at({x + i, y + j}); value != 0) known.push_back(value);
+        const int expected = known.empty() ? 0 : *std::max_element(known.begin(), known.end());
+        ASSERT_EQ(coarse.tiles().at(coarse.cellOf((x + 0.5) * 0.05, (y + 0.5) * 0.05)), expected)
+            << merge << ": " << x << ' ' << y;
+      }
+  }
+}
+
+TEST(GridConversion, AMapOfMoreThan32BitsOfCells) {
+  for (const int far : {70000, 200000, 2000000}) {  // cells: 3.5, 10 and 100 km
+    OccupancyGrid grid(0.05);
+    grid.tiles().set({0, 0}, 77), grid.tiles().set({far, far}, 77), grid.tiles().set({far - 1, far}, -40);
+    const COccupancyGridMap2D merged = toMrpt(grid);
+    EXPECT_LE(merged.getSizeX() * merged.getSizeY(), kMostCells);
+    EXPECT_EQ(merged.getRawMap().size(), size_t{merged.getSizeX()} * merged.getSizeY());
+    EXPECT_LT(merged.getPos(0.02f, 0.02f), 0.1) << "the wall is kept";
+    EXPECT_LT(merged.getPos(static_cast<float>(0.05 * far), static_cast<float>(0.05 * far)), 0.1);
+  }
+}
+
+TEST(GridConversion, ABoxIsNeverMerged) {
+  EXPECT_THROW(toMrpt(OccupancyGrid(0.05), CellBox{{-70000, -70000}, {70000, 70000}}), InputError);
 }
 
 TEST(GridConversion, AnEmptyGridIsAFewUnknownCells) {

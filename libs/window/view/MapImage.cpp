@@ -5,7 +5,7 @@
 namespace hybrid_slam::window {
 
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid) {
-  constexpr int kMargin = 10;
+  constexpr int kMargin = 10, kMostPixels = 8192;
   const int width = static_cast<int>(grid.getSizeX()), height = static_cast<int>(grid.getSizeY());
   int x0 = width, y0 = height, x1 = -1, y1 = -1;  // bounds of the known cells, inclusive
   for (int y = 0; y < height; ++y) {
@@ -25,15 +25,21 @@ MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid) {
   x1 = std::min(x1 + kMargin, width - 1);
   y1 = std::min(y1 + kMargin, height - 1);
 
-  image.width = x1 - x0 + 1;
-  image.height = y1 - y0 + 1;
-  image.resolution = grid.getResolution();
-  image.left = grid.getXMin() + x0 * image.resolution;
-  image.bottom = grid.getYMin() + y0 * image.resolution;
-  image.grey.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
-  for (int y = y1; y >= y0; --y) {
+  const int cells = 1 + std::max(x1 - x0, y1 - y0) / kMostPixels;  // along the side of a pixel
+  image.width = (x1 - x0) / cells + 1;
+  image.height = (y1 - y0) / cells + 1;
+  image.resolution = cells * static_cast<double>(grid.getResolution());
+  image.left = grid.getXMin() + x0 * static_cast<double>(grid.getResolution());
+  image.bottom = grid.getYMin() + y0 * static_cast<double>(grid.getResolution());
+  image.grey.assign(static_cast<size_t>(image.width) * static_cast<size_t>(image.height), 255);
+  for (int y = y0; y <= y1; ++y) {
     const auto* row = grid.getRow(y);
-    for (int x = x0; x <= x1; ++x) image.grey.push_back(mrpt::maps::COccupancyGridMap2D::l2p_255(row[x]));
+    uint8_t* const pixels = &image.grey[static_cast<size_t>(image.height - 1 - (y - y0) / cells) *
+                                        static_cast<size_t>(image.width)];
+    for (int x = x0; x <= x1; ++x) {
+      uint8_t& pixel = pixels[(x - x0) / cells];
+      pixel = std::min(pixel, mrpt::maps::COccupancyGridMap2D::l2p_255(row[x]));
+    }
   }
   return image;
 }

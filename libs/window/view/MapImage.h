@@ -11,8 +11,8 @@ namespace hybrid_slam::window {
 
 /// Grey values row by row, from the largest y, as on screens.
 struct MapImage {
-  int width = 0, height = 0;    ///< pixels, one per cell
-  double resolution = 0;        ///< m, of a cell
+  int width = 0, height = 0;    ///< pixels
+  double resolution = 0;        ///< m, of a pixel
   double left = 0, bottom = 0;  ///< m, map frame: outer edges of the picture
   std::vector<uint8_t> grey;    ///< 0 occupied, 255 free, about 127 unknown
 
@@ -20,7 +20,9 @@ struct MapImage {
   double top() const { return bottom + height * resolution; }
 };
 
-/// The known cells with a margin of 10 cells; an empty picture if there are none.
+/// The known cells with a margin of 10 cells; an empty picture if there are none. A pixel is a cell, or the
+/// most occupied of n x n cells, with the smallest n for at most 8192 pixels on a side, which graphics cards
+/// can show.
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid);
 
 }  // namespace hybrid_slam::window
