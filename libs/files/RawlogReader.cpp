@@ -1,74 +1,73 @@
 #include "files/RawlogReader.h"
 
-#include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/ObjectLayouts.h"
+#include "files/ObjectReader.h"
+#include "files/ObjectWalk.h"
 
 namespace hybrid_slam::files {
 namespace {
 
-/// Input stream for CArchive. Returns all requested bytes or throws: MRPT ignores short reads, even within a
-/// string length. MRPT's own gzip stream does not distinguish a damaged or truncated file from its end.
-struct GzipStream {
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file;
-  bool isAtStart = true;  ///< nothing of the current object has been read
-  bool isAtEnd = false;   ///< the file ended between two objects
-  std::string problem{};  ///< other reason for the end of reading
-
-  size_t Read(void* buffer, size_t count) {
-    const size_t n = gzfread(buffer, 1, count, file.get());
-    if (n == count) {
-      isAtStart = false;
-      return n;
-    }
-    int error = Z_OK;
-    gzerror(file.get(), &error);
-    isAtEnd = isAtStart && n == 0 && error == Z_OK;
-    if (!isAtEnd)
-      problem = error == Z_OK ? "cut off in the middle of an object" : "gzip file damaged or cut off";
-    throw std::runtime_error("end of file");
-  }
-  size_t Write(const void*, size_t) { return 0; }
-  std::string getStreamDescription() const { return "rawlog"; }
-};
+constexpr const char* kExpected = "expected serialised MRPT objects (log2rawlog converts text logs)";
 
 }  // namespace
 
 struct RawlogReader::Stream {
-  GzipStream in;
-  mrpt::serialization::CArchiveStreamBase<GzipStream> archive{in};
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file;
+  ObjectBytes bytes{[this](char* to, size_t count) { return gzfread(to, 1, count, file.get()); }};
+
+  /// MRPT's own gzip stream does not distinguish a damaged or truncated file from its end.
+  bool isDamaged() const {
+    int error = Z_OK;
+    gzerror(file.get(), &error);
+    return error != Z_OK;
+  }
 };
 
 RawlogReader::RawlogReader(const std::string& file) : file_(file) {
   const std::string expected = "expected a readable log";
   if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
   if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
-  stream_.reset(new Stream{{{gzopen(file.c_str(), "rb"), gzclose_r}}});
-  if (!stream_->in.file) throw InputError("cannot open", file, expected);
+  stream_.reset(new Stream{{gzopen(file.c_str(), "rb"), gzclose_r}});
+  if (!stream_->file) throw InputError("cannot open", file, expected);
 }
 
 RawlogReader::~RawlogReader() = default;
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
-  GzipStream& in = stream_->in;
-  while (!in.isAtEnd && defect_.empty()) {
-    in.isAtStart = true;
+  while (!isAtEnd_ && defect_.empty()) {
+    isAtEnd_ = !stream_->bytes.has(1) && !stream_->isDamaged();
+    if (isAtEnd_ && entry_ == 0) throw InputError("empty file", file_, kExpected);
+    if (isAtEnd_) break;
     try {
-      const auto object = stream_->archive.ReadObject();
+      ObjectWalk walk(stream_->bytes, true);
+      walk.entry();
+      const std::string_view bytes = walk.rest();
+      const auto object = bytes.empty() ? nullptr : buildObject(bytes);
+      stream_->bytes.drop(walk.at());
       ++entry_;
-      if (object) return object;  // otherwise an empty entry
+      note(walk.passedOver());
+      if (object) return object;  // otherwise an empty entry, or one that is passed over
     } catch (const std::exception& e) {
-      if (entry_ == 0)
-        throw InputError(in.isAtEnd ? "empty file" : "not a rawlog", file_,
-                         "expected serialised MRPT objects (log2rawlog converts text logs)");
-      if (!in.isAtEnd) defect_ = in.problem.empty() ? "unreadable object (" + messageOf(e) + ")" : in.problem;
+      if (entry_ == 0) throw InputError("not a rawlog", file_, kExpected);
+      const bool isCut = dynamic_cast<const ObjectCut*>(&e) != nullptr;
+      defect_ = !isCut                 ? "unreadable object (" + messageOf(e) + ")"
+                : stream_->isDamaged() ? "gzip file damaged or cut off"
+                                       : "cut off in the middle of an object";
     }
   }
   return nullptr;
+}
+
+void RawlogReader::note(const std::vector<std::string>& classes) {
+  for (const std::string& name : classes) {
+    if (passedOver_++ == 0) firstPassedOver_ = entry_;
+    passedOverClasses_.emplace(baseName(name));
+  }
 }
 
 }  // namespace hybrid_slam::files

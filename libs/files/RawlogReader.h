@@ -5,11 +5,14 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace hybrid_slam::files {
 
-/// Reads a rawlog, plain or gzipped, as a stream with constant memory.
+/// Reads a rawlog, plain or gzipped, as a stream with constant memory. Every object is
+/// checked before it is built.
 class RawlogReader {
  public:
   /// @throws InputError if the file is missing or unreadable
@@ -25,12 +28,22 @@ class RawlogReader {
   size_t entry() const { return entry_; }                ///< objects read so far
   const std::string& defect() const { return defect_; }  ///< empty for an intact log
 
+  /// Observations of classes that are not read (ObjectLayouts.h): they are passed over, also within frames.
+  size_t passedOver() const { return passedOver_; }
+  size_t firstPassedOver() const { return firstPassedOver_; }  ///< entry
+  const std::set<std::string>& passedOverClasses() const { return passedOverClasses_; }
+
  private:
   struct Stream;
+  void note(const std::vector<std::string>& classes);
+
   std::string file_;
   std::unique_ptr<Stream> stream_;
   size_t entry_ = 0;
   std::string defect_;
+  bool isAtEnd_ = false;
+  size_t passedOver_ = 0, firstPassedOver_ = 0;
+  std::set<std::string> passedOverClasses_;
 };
 
 }  // namespace hybrid_slam::files

@@ -120,12 +120,72 @@ TEST(RawlogReader, AnUnknownClassIsADefectInOneLine) {
   const TemporaryFolder folder;
   const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
   std::string other = scan;
-  other.replace(other.find("RangeScan"), 9, "RangeScam");
+  other.replace(other.find("CObservation2DRangeScan"), 23, "CSomething2DRangeScan_x");
   const Read read = readAll(folder.write("log", scan + other + scan));
   EXPECT_EQ(read.entries, 1u);
-  EXPECT_THAT(read.defect, HasSubstr("RangeScam"));
+  EXPECT_THAT(read.defect, HasSubstr("CSomething2DRangeScan_x"));
   EXPECT_THAT(read.defect, testing::Not(HasSubstr("\n")));
   EXPECT_THAT(read.defect, testing::Not(HasSubstr("====")));
+}
+
+/// `object` as one of a class that is not listed.
+std::string ofOtherClass(std::string object) {
+  return object.replace(object.find("RangeScan"), 9, "RangeScam");
+}
+
+TEST(RawlogReader, AnObservationOfAnUnknownClassIsPassedOver) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
+  const std::string other = ofOtherClass(scan);
+  for (const std::string& bytes : {scan + other + other + scan, other + scan + scan + other}) {
+    RawlogReader reader(folder.write("log", bytes));
+    size_t scans = 0;
+    while (reader.next()) ++scans;
+    EXPECT_EQ(scans, 2u);
+    EXPECT_EQ(reader.entry(), 4u);
+    EXPECT_THAT(reader.defect(), IsEmpty());
+    EXPECT_EQ(reader.passedOver(), 2u);
+    EXPECT_EQ(reader.firstPassedOver(), bytes.compare(0, scan.size(), scan) == 0 ? 2u : 1u);
+    EXPECT_THAT(reader.passedOverClasses(), testing::ElementsAre("CObservation2DRangeScam"));
+  }
+}
+
+TEST(RawlogReader, AnObservationOfAnUnknownClassIsPassedOverWithinAFrame) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1, {}, 5)}));
+  const std::string frame = test::contentOf(
+      test::writePlain(folder.path("three"),
+                       {test::frame({test::scan(1, {}, 5), test::scan(2, {}, 5), test::scan(3, {}, 5)})}));
+  const size_t head = frame.size() - 3 * scan.size() - 1;  // before the observations, and the end flag
+  for (const size_t changed : {0, 1, 2, 3, 4, 5, 6, 7}) {  // bits: which of the three
+    std::string bytes = frame;
+    size_t kept = 3;
+    for (size_t i = 0; i < 3; ++i)
+      if ((changed >> i & 1) != 0) {
+        bytes.replace(head + i * scan.size(), scan.size(),
+                      ofOtherClass(frame.substr(head + i * scan.size(), scan.size())));
+        --kept;
+      }
+    for (const std::string& after : {std::string(), scan, frame}) {
+      RawlogReader reader(folder.write("log", bytes + after));
+      const auto read = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(reader.next());
+      ASSERT_TRUE(read);
+      EXPECT_EQ(read->size(), kept);
+      EXPECT_EQ(reader.passedOver(), 3 - kept);
+      EXPECT_EQ(reader.next() != nullptr, !after.empty());
+      EXPECT_EQ(reader.next(), nullptr);
+      EXPECT_THAT(reader.defect(), IsEmpty());
+    }
+  }
+}
+
+TEST(RawlogReader, AnUnknownVersionIsADefectThatNamesClassAndVersion) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
+  std::string newer = scan;
+  newer[1 + std::string("mrpt::obs::CObservation2DRangeScan").size()] = 77;
+  EXPECT_THAT(readAll(folder.write("log", scan + newer)).defect,
+              HasSubstr("CObservation2DRangeScan of unknown version 77"));
 }
 
 TEST(RawlogReader, AFileThatIsNotALogIsAnError) {

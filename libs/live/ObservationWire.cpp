@@ -3,9 +3,9 @@
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
-#include <cstring>
-
 #include "base/Errors.h"
+#include "files/ObjectReader.h"
+#include "files/ObjectWalk.h"
 
 namespace hybrid_slam::live {
 namespace {
@@ -37,20 +37,6 @@ struct StringSink {
     return count;
   }
   size_t Read(void*, size_t) { return 0; }
-  std::string getStreamDescription() const { return "message"; }
-};
-
-/// Returns all requested bytes or throws: MRPT ignores short reads.
-struct StringSource {
-  const std::string& bytes;
-  size_t at = 0;
-  size_t Read(void* data, size_t count) {
-    if (count > bytes.size() - at) throw WireError("a truncated object");
-    std::memcpy(data, bytes.data() + at, count);
-    at += count;
-    return count;
-  }
-  size_t Write(const void*, size_t) { return 0; }
   std::string getStreamDescription() const { return "message"; }
 };
 
@@ -93,21 +79,17 @@ std::string serialise(const mrpt::obs::CSensoryFrame& frame) {
 }
 
 mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload) {
-  StringSource source{payload};
-  mrpt::serialization::CSerializable::Ptr object;
   try {
-    object = mrpt::serialization::archiveFrom(source).ReadObject();
+    files::ObjectBytes bytes(payload);
+    files::ObjectWalk walk(bytes, false);
+    walk.object(files::ObjectKind::frame);
+    if (walk.at() != payload.size()) throw WireError("bytes after the object");
+    return std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(files::buildObject(walk.rest()));
+  } catch (const WireError&) {
+    throw;
   } catch (const std::exception& e) {
     throw WireError("an unreadable object (" + messageOf(e) + ")");
   }
-  const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
-  if (!frame)
-    throw WireError(std::string("an object of class ") +
-                    (object ? object->GetRuntimeClass()->className : "none") + " instead of CSensoryFrame");
-  if (source.at != payload.size()) throw WireError("bytes after the object");
-  for (const auto& observation : *frame)
-    if (!observation) throw WireError("an object that is not an observation");
-  return frame;
 }
 
 }  // namespace hybrid_slam::live

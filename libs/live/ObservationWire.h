@@ -6,7 +6,8 @@
 ///     0  "HSO1"   8  session (8 bytes)          24  bytes of payload (4)
 ///     4  kind     16 number of the cycle (8)    28  CRC-32 of bytes 4 to 27 and the payload (4)
 ///
-/// and the payload: a serialised mrpt::obs::CSensoryFrame for a cycle, empty for the other kinds.
+/// and the payload: a serialised mrpt::obs::CSensoryFrame for a cycle, empty for the other kinds. The frame
+/// holds observations of the classes in files/ObjectLayouts.h only.
 #pragma once
 
 #include <mrpt/obs/CSensoryFrame.h>
@@ -40,7 +41,8 @@ constexpr size_t kMaxPayload = size_t{16} << 20;  ///< bytes
 
 std::string encode(const Message& message);
 std::string serialise(const mrpt::obs::CSensoryFrame& frame);
-/// @throws WireError for anything but one whole CSensoryFrame of observations
+/// @throws WireError for anything but one whole CSensoryFrame of observations; what the bytes claim takes no
+/// memory
 mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload);
 
 /// Splits a byte stream into messages. Unusable after an error: close the connection.

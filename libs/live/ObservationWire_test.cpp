@@ -139,5 +139,22 @@ TEST(ObservationWire, OnlyOneCompleteFrameIsAccepted) {
               HasSubstr("class mrpt::obs::CObservation2DRangeScan instead of"));
 }
 
+/// Messages with a valid checksum, from a server that means harm.
+TEST(ObservationWire, OnlyObservationsOfListedClassesAndWithTheirBytesAreBuilt) {
+  const auto object = [](const std::string& name, char version, const std::string& fields) {
+    return static_cast<char>(0x80 | name.size()) + name + version + fields;
+  };
+  const std::string one("\1\0\0\0", 4), many("\0\0\0\x08", 4);
+  EXPECT_THAT(errorOf(object("CSensoryFrame", 2, many + "few")), HasSubstr("more than 64 MiB"));
+  EXPECT_THAT(
+      errorOf(object("CSensoryFrame", 2, one + object("CObservation3DScene", 0, "scene of any kind"))),
+      HasSubstr("class CObservation3DScene instead of"));
+  std::string nested(20, ' ');
+  for (int i = 0; i < 5000; ++i) nested = object("CSensoryFrame", 2, one) + nested;
+  EXPECT_THAT(errorOf(nested), HasSubstr("class CSensoryFrame instead of"));
+  EXPECT_THAT(errorOf(object("CSensoryFrame", 2, one + "\x87nullptr\x88\x88      ")),
+              HasSubstr("class nullptr"));
+}
+
 }  // namespace
 }  // namespace hybrid_slam::live

@@ -29,9 +29,11 @@ class LogReader {
   /// @throws InputError if the first object is not a rawlog object, or if a text log has no scan
   mrpt::serialization::CSerializable::Ptr next();
 
-  size_t entry() const;                                ///< of the last object: its number, or its line's
-  const char* unit() const;                            ///< of `entry`: "entry" or "line"
-  const std::string& defect() const;                   ///< empty for an intact log
+  size_t entry() const;               ///< of the last object: its number, or its line's
+  const char* unit() const;           ///< of `entry`: "entry" or "line"
+  const std::string& defect() const;  ///< empty for an intact log
+  /// Null for a text log.
+  const files::RawlogReader* rawlog() const { return rawlog_.get(); }
   size_t brokenLines() const { return brokenLines_; }  ///< of a text log, skipped
   size_t firstBroken() const { return firstBroken_; }  ///< line of the first
 

@@ -10,6 +10,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
                     std::to_string(odd.first) + " of " + file + "; " + done);
   };
   add(log.brokenLines, "broken lines", "skipped");
+  add(log.passedOver, "observations of classes that are not read (" + log.passedOverClasses + ")", "skipped");
   add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
   add(log.misplaced, "scans with a sensor pose over 100 m from the robot", "skipped");
   add(log.tilted, "scans of a tilted plane", "skipped");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/RawlogReader.h"
 #include "readings/Timestamps.h"
 
 namespace hybrid_slam::readings {
@@ -123,6 +124,11 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.entries = reader.entry();
   summary.defect = reader.defect();
   summary.brokenLines = {reader.brokenLines(), reader.firstBroken()};
+  if (const files::RawlogReader* const rawlog = reader.rawlog()) {
+    summary.passedOver = {rawlog->passedOver(), rawlog->firstPassedOver()};
+    for (const std::string& name : rawlog->passedOverClasses())
+      summary.passedOverClasses += (summary.passedOverClasses.empty() ? "" : ", ") + name;
+  }
   summary.scans = grouper.readings();
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
   noteIgnored(summary, uses);

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "files/ObjectReader.h"
 #include "live/OdometryContinuity.h"
 #include "sensors/PioneerOdometry.h"
 
@@ -116,13 +119,21 @@ void SensorThread::Work::grab(double& nextPause) {
   const double period = 1 / sensor->getProcessRate();
   auto lastObservation = Clock::now();
   bool isFirst = true;
+  std::set<std::string> unreadable;  // classes
   while (!mustStop()) {
     const auto start = Clock::now();
     sensor->doProcess();
     std::vector<CObservation::Ptr> observations;
     for (const auto& [time, object] : sensor->getObservations()) {
       const auto observation = std::dynamic_pointer_cast<CObservation>(object);
-      if (observation && !isEmptyScan(*observation)) observations.push_back(observation);
+      if (!observation || isEmptyScan(*observation)) continue;
+      if (!files::isReadable(*observation)) {
+        if (unreadable.insert(observation->GetRuntimeClass()->className).second)
+          report(std::string("observations of class ") + observation->GetRuntimeClass()->className +
+                 " are not read");
+        continue;
+      }
+      observations.push_back(observation);
     }
     for (const auto& observation : observations) correct(*observation);
     if (!observations.empty()) {

@@ -1,0 +1,103 @@
+/// @file ObjectWalk.h
+/// @brief Steps over the fields of a serialised MRPT object without building it.
+#pragma once
+
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "files/ObjectBytes.h"
+
+namespace hybrid_slam::files {
+
+/// Where an object may stand. Kinds bound the nesting: no object may hold one of its own kind.
+enum class ObjectKind {
+  frame,
+  actions,
+  observation,
+  action,
+  pdf2D,
+  pdf3D,
+  pose2D,
+  pose3D,
+  matrixF,
+  matrixD,
+};
+
+struct ObjectLayout;
+
+/// Bytes that are not an object which MRPT may read.
+struct ObjectError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The bytes end within an object.
+struct ObjectCut : ObjectError {
+  using ObjectError::ObjectError;
+};
+
+class ObjectWalk {
+ public:
+  static constexpr size_t kMostBytes = size_t{1} << 26;  ///< of an object
+
+  /// @param passesOver  whether observations of classes that are not listed are passed over, or errors
+  ObjectWalk(ObjectBytes& bytes, bool passesOver) : bytes_(bytes), passesOver_(passesOver) {}
+
+  /// Steps over an entry of a log. @throws ObjectError, ObjectCut
+  void entry();
+  /// Steps over one object.
+  void object(ObjectKind kind);
+  /// Steps over a count and as many observations.
+  void observations();
+
+  /// @name Fields
+  /// @{
+  void skip(size_t count);
+  uint8_t byte();
+  uint32_t number();
+  /// A bool. Old logs have other bytes than 0 and 1, whose use in MRPT would be undefined: they become 1.
+  bool flag();
+  /// A number of elements that take at least `size` bytes each; these bytes exist.
+  size_t count(size_t size);
+  /// Steps over a count and as many elements of `size` bytes.
+  void array(size_t size) { skip(size * count(size)); }
+  void text() { array(1); }
+  void flags();
+  /// @}
+
+  size_t at() const { return at_; }
+  /// Classes of the observations that were passed over.
+  const std::vector<std::string>& passedOver() const { return passedOver_; }
+  /// The object without the observations that were passed over; empty if it was itself. Valid until the bytes
+  /// or the walk change.
+  std::string_view rest();
+
+ private:
+  struct Header {
+    std::string_view name;  ///< valid until bytes are read
+    const ObjectLayout* layout = nullptr;
+    int version = 0;
+    bool hasEndFlag = true;
+  };
+  Header header();
+  void contents(const Header& header, std::initializer_list<ObjectKind> kinds);
+  bool mayPassOver(const Header& header, bool isInFrame) const;
+  template <class MayFollow>
+  void passOver(const Header& header, MayFollow mayFollow);
+  bool isStart(size_t at, bool isInFrame);
+  bool isEnd(size_t at) { return !bytes_.has(at + 1); }
+  void need(size_t count);
+
+  ObjectBytes& bytes_;
+  bool passesOver_;
+  size_t at_ = 0;
+  std::vector<std::string> passedOver_;
+  std::vector<std::pair<size_t, size_t>> cuts_;  ///< [first, end)
+  size_t countAt_ = 0;                           ///< of the observations of a frame
+  std::string rest_;
+};
+
+}  // namespace hybrid_slam::files
