@@ -33,13 +33,16 @@ LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, dou
   const double aperture = observation.aperture;
   const double step = n > 1 ? aperture / static_cast<double>(n - 1) : 0;
   const bool reversed = observation.rightToLeft == upsideDown;  // angles decrease with the beam index
-  scan.beams.resize(n);
-  for (size_t i = 0; i < n; ++i) {
-    Beam& beam = scan.beams[reversed ? n - 1 - i : i];
-    const double rise = -0.5 * aperture + static_cast<double>(i) * step;
+  const size_t every = std::max<size_t>(1, (n + kMostScanBeams - 1) / kMostScanBeams),
+               count = (n + every - 1) / every;
+  scan.beams.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    Beam& beam = scan.beams[reversed ? count - 1 - i : i];
+    const size_t logged = i * every;
+    const double rise = -0.5 * aperture + static_cast<double>(logged) * step;
     beam.angle = n == 1 ? 0 : (reversed ? -rise : rise);
-    beam.range = observation.getScanRange(i);
-    beam.valid = observation.getScanRangeValidity(i) && std::isfinite(beam.range) && beam.range > 0 &&
+    beam.range = observation.getScanRange(logged);
+    beam.valid = observation.getScanRangeValidity(logged) && std::isfinite(beam.range) && beam.range > 0 &&
                  beam.range < scan.maxRange;
   }
   return scan;

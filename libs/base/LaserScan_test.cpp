@@ -117,6 +117,28 @@ TEST(LaserScan, EmptyAndSingleBeamScans) {
   EXPECT_EQ(toLaserScan(o, 20).beams.at(0).angle, 0);
 }
 
+TEST(LaserScan, OfTooManyBeamsEveryNthIsKept) {
+  mrpt::obs::CObservation2DRangeScan o;
+  o.aperture = 2;
+  for (const size_t n : {kMostScanBeams, kMostScanBeams + 1, 2 * kMostScanBeams + 1, size_t{1000000}}) {
+    o.resizeScan(n);
+    for (size_t i = 0; i < n; ++i)
+      o.setScanRange(i, static_cast<float>(1 + i)), o.setScanRangeValidity(i, true);
+    for (const bool isRightToLeft : {true, false}) {
+      o.rightToLeft = isRightToLeft;
+      o.maxRange = 1e7F;
+      const LaserScan scan = toLaserScan(o, 1e7);
+      EXPECT_LE(scan.beams.size(), kMostScanBeams);
+      EXPECT_GT(scan.beams.size(), kMostScanBeams / 2);
+      for (const Beam& beam : scan.beams) {
+        const double angle = -1 + 2 * (beam.range - 1) / static_cast<double>(n - 1);
+        ASSERT_NEAR(beam.angle, isRightToLeft ? angle : -angle, 1e-9);
+      }
+      EXPECT_LT(scan.beams.front().angle, scan.beams.back().angle);
+    }
+  }
+}
+
 TEST(LaserScan, TiltedPlaneIsAnError) {
   auto o = threeBeams();
   o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 30 * kDegree, 0);

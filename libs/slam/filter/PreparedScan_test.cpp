@@ -1,0 +1,43 @@
+#include "slam/filter/PreparedScan.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam {
+namespace {
+
+/// Ranges that hold many beams close together, and bends at which lines split beam by beam.
+double hostileRange(int shape, size_t i) {
+  switch (shape) {
+    case 0:
+      return 1e-3;
+    case 1:
+      return 1 + 1e-6 * static_cast<double>(i);
+    case 2:
+      return i % 2 == 0 ? 1 : 1.1;
+    default:
+      return 0.5 + 1e-12 * static_cast<double>(i) * static_cast<double>(i);
+  }
+}
+
+TEST(ScanPreparation, AMillionBeamsTakeSeconds) {
+  const auto scan = test::scan(1, {}, 1000000);
+  for (const LineExtractor* extractor : lineExtractors())
+    for (int shape = 0; shape < 4; ++shape) {
+      for (size_t i = 0; i < scan->getScanSize(); ++i)
+        scan->setScanRange(i, static_cast<float>(hostileRange(shape, i)));
+      FilterConfiguration c;
+      c.lineExtraction.method = extractor;
+      const auto start = std::chrono::steady_clock::now();
+      const PreparedScan prepared = ScanPreparation(c)({scan});
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      EXPECT_LT(seconds, 10) << extractor->name << ", shape " << shape;
+      EXPECT_FALSE(prepared.matchedBeams.rays.empty());
+    }
+}
+
+}  // namespace
+}  // namespace hybrid_slam
