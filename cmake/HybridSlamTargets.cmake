@@ -25,6 +25,9 @@ if(HYBRID_SLAM_SANITIZE)
     target_compile_options(hybrid_slam_flags INTERFACE -fno-sanitize=alignment -fno-sanitize-recover=undefined)
   endif()
 endif()
+if(HYBRID_SLAM_FUZZ)
+  target_compile_options(hybrid_slam_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # hybrid_slam_install_library(NAME): hybrid_slam::NAME of the installed package.
 function(hybrid_slam_install_library name)

@@ -1,0 +1,24 @@
+/// @file floor_plan.cpp
+/// @brief Floor plans and routes of simul-floorplan.
+
+#include "MemoryFile.h"
+#include "base/Errors.h"
+#include "study/simulation/FloorPlan.h"
+#include "study/simulation/Route.h"
+
+using namespace hybrid_slam;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const fuzz::MemoryFile file(data, size);
+  try {
+    const simulation::FloorPlan plan = simulation::FloorPlan::load(file.path());
+    plan.castRay({0.1, 0.2}, 0.3, 20);
+    plan.distanceToNearestWall({1, 2});
+  } catch (const InputError&) {
+  }
+  try {
+    simulation::Route::load(file.path());
+  } catch (const InputError&) {
+  }
+  return 0;
+}
