@@ -35,8 +35,8 @@ struct RawlogSummary {
   Oddity noOdometry;                                                      ///< actions
   Oddity jumps;                                                           ///< of the odometry, over kMaxStep
   Oddity brokenLines;                                                     ///< of a text log
-  Oddity passedOver;                                                      ///< observations of classes that are not read
-  std::string passedOverClasses;                                          ///< a list
+  Oddity passedOver;              ///< observations of classes that are not read
+  std::string passedOverClasses;  ///< a list
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;  ///< the odometry changes
   double duration = 0;     ///< s, from the earliest scan to the latest
