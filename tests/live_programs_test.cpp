@@ -152,6 +152,20 @@ TEST_F(LivePrograms, AServerRestartContinuesTheSameMap) {
   EXPECT_EQ(result("trajectory.tum"), replay(recording(), "again"));
 }
 
+TEST_F(LivePrograms, TheServerSaysThatItsLogIsDamaged) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(100));
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
+  const auto robot = server(folder.write(
+      "server.ini", "[server]\nport = 0\nwait_for_clients = 1\nreplay_rate = 500\nrawlog = " + log + "\n"));
+  EXPECT_THAT(
+      robot->err(),
+      MatchesRegex("observation-server: rawlog: log gzip file (damaged or )?cut off: entry [0-9]+ of " + log +
+                   "; served up to this point\n"));
+  const auto map = live();
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_EQ(robot->wait(), 0);
+}
+
 TEST_F(LivePrograms, WithoutAServerThereAreNoResults) {
   port = "1";
   const auto map = live();
