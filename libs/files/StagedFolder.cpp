@@ -118,8 +118,8 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   }
 }
 
-/// Removes the unfinished results of killed programs, and no other file. Complete results that could not be
-/// renamed stay.
+/// Removes the unfinished results of killed programs, and no other file: one that stands in the folder as
+/// well is a link. Complete results that could not be renamed stay.
 void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) const {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
@@ -131,6 +131,9 @@ void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) 
         fs::remove(entry.path() / name, ignored);
         fs::remove(entry.path() / (".partial." + name), ignored);
       }
+      for (const auto& other : fs::directory_iterator(entry.path(), ignored))  // links to files of the folder
+        if (fs::equivalent(other.path(), final_ / other.path().filename(), ignored))
+          fs::remove(other.path(), ignored);
       fs::remove(entry.path(), ignored);
     }
     ::close(lock);

@@ -176,6 +176,20 @@ TEST_F(StagedFolderTest, AKilledRunIsClearedAwayAndARunningOneIsNot) {
   EXPECT_EQ(inOut("map"), "1");
 }
 
+TEST_F(StagedFolderTest, LinksThatAKilledRunHasLeftAreClearedAwayAndOtherFilesAreNot) {
+  run("one");
+  std::ofstream(out + "/notes") << "mine";
+  const std::string linked = root.path(".out.part-linked"), moved = root.path(".out.part-moved");
+  fs::create_directory(linked);
+  fs::create_hard_link(out + "/notes", linked + "/notes");
+  fs::create_directory(moved);
+  std::ofstream(moved + "/notes") << "other";
+  run("two", true);
+  EXPECT_FALSE(fs::exists(linked));
+  EXPECT_EQ(contentOf(moved + "/notes"), "other");
+  EXPECT_EQ(contentOf(out + "/notes"), "mine");
+}
+
 TEST(DatedName, IsTheFirstThatIsFree) {
   int calls = 0;
   EXPECT_THAT(claimDatedName([&](const std::string&) { return ++calls == 3; }),
