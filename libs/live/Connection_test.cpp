@@ -64,7 +64,7 @@ class Listener {
 };
 
 const std::string kAnywhere = "127.0.0.1";
-ObservationServer::Limits limits(size_t queue = 1000, size_t clients = 250) { return {queue, clients}; }
+ObservationServer::Limits limits(size_t queue = 1000, size_t clients = 250) { return {queue, clients, 30}; }
 
 /// Answers each connection with the bytes of the next script, then closes it or falls silent.
 class FakeServer {
@@ -296,6 +296,34 @@ TEST(Connection, AHalfOpenConnectionIsGivenUp) {
   ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 2));
   EXPECT_EQ(events.count("silent"), 1u) << events.text();
+}
+
+TEST(Connection, AServerThatSendsSingleBytesIsGivenUp) {
+  test::Events events;
+  TcpListener listener(kAnywhere, 0);
+  Listener client(listener.port(), events, 0.3);
+  TcpSocket socket = listener.accept(10);
+  ASSERT_TRUE(socket.isOpen());
+  const std::string bytes = encode({MessageKind::cycle, 7, 1, serialise(cycle(10, 1, 10000))});
+  size_t sent = 0;
+  EXPECT_TRUE(test::happens([&] {
+    if (sent < bytes.size()) socket.sendSome(&bytes[sent++], 1);  // every few ms
+    return events.count("silent") == 1;
+  })) << events.text();
+  EXPECT_LT(sent, bytes.size());
+}
+
+TEST(Connection, AClientThatTakesNothingLeavesItsPlaceToOthers) {
+  test::Events events;
+  ObservationServer server(kAnywhere, 0, {20, 1, 0.3}, events.log());
+  const TcpSocket stuck = TcpSocket::connectTo(kAnywhere, server.port(), 10);
+  ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
+  Listener good(server.port(), events);
+  EXPECT_TRUE(test::happens([&] {
+    server.publish(cycle(10, 1, 10000));
+    return good.count() > 0;
+  })) << events.text();
+  EXPECT_EQ(events.count("takes no data"), 1u) << events.text();
 }
 
 TEST(Connection, AnIdleServerSendsHeartbeats) {

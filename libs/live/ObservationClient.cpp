@@ -46,16 +46,15 @@ void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
   if (!socket.isOpen()) return;
   ++connections_;
   MessageDecoder decoder;
-  auto lastBytes = Clock::now();
+  auto lastMessage = Clock::now();
   bool isFirst = true;
   while (!stop() && !hasEnded_) {
-    const std::string bytes = socket.receive(0.1);
-    if (!bytes.empty())
-      lastBytes = Clock::now();
-    else if (secondsSince(lastBytes) > settings_.timeout)
+    // Whole messages count: single bytes may come forever.
+    if (secondsSince(lastMessage) > settings_.timeout)
       throw std::runtime_error("silent for " + std::to_string(static_cast<int>(settings_.timeout)) + " s");
-    decoder.feed(bytes);
+    decoder.feed(socket.receive(0.1));
     while (const auto message = decoder.next()) {
+      lastMessage = Clock::now();
       take(*message, sink);
       if (isFirst) {
         log_.report("server " + addressText(settings_.host, settings_.port), "connected");

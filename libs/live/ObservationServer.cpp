@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/Clock.h"
 #include "base/Errors.h"
 
 namespace hybrid_slam::live {
@@ -148,6 +149,7 @@ void ObservationServer::accept() {
   Client client;
   client.name = nameOf(socket.descriptor());
   client.socket = std::move(socket);
+  client.lastTaken = Clock::now();
   log_.report(client.name, "connected");
   const std::lock_guard<std::mutex> lock(mutex_);
   clients_.push_back(std::move(client));
@@ -158,13 +160,16 @@ void ObservationServer::read(Client& client) { client.socket.receive(0); }
 
 void ObservationServer::write(Client& client) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (client.queue.empty()) client.lastTaken = Clock::now();
   while (!client.queue.empty()) {
     const std::string& bytes = *client.queue.front();
     client.sent += client.socket.sendSome(bytes.data() + client.sent, bytes.size() - client.sent);
     if (client.sent < bytes.size()) break;
     client.queue.pop_front();
     client.sent = 0;
+    client.lastTaken = Clock::now();
   }
+  if (secondsSince(client.lastTaken) > limits_.patience) throw std::runtime_error("takes no data");
   if (client.dropped == 0) return;
   if (client.queue.empty()) {
     log_.report(client.name, "keeps up again; missed " + std::to_string(client.dropped) + " cycles");

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <atomic>
+#include <chrono>
 #include <deque>
 #include <list>
 #include <memory>
@@ -19,12 +20,14 @@
 namespace hybrid_slam::live {
 
 /// One thread serves all clients without blocking. Each has a queue of unsent cycles; when it is full, the
-/// oldest cycle is dropped.
+/// oldest cycle is dropped. A client that takes nothing for long is disconnected: it keeps a place that
+/// another may need.
 class ObservationServer {
  public:
   struct Limits {
     size_t queue = 50;  ///< cycles queued per client
     size_t clients = 250;
+    double patience = 30;  ///< s for a client to take a message, before it is disconnected
   };
 
   /// @param address  local address to listen on; @param port  0: any free port
@@ -49,9 +52,10 @@ class ObservationServer {
   struct Client {
     TcpSocket socket;
     std::string name;
-    std::deque<Bytes> queue;  ///< the first may be partly sent
-    size_t sent = 0;          ///< bytes of the first
-    size_t dropped = 0;       ///< cycles since the queue was last empty
+    std::deque<Bytes> queue;                            ///< the first may be partly sent
+    size_t sent = 0;                                    ///< bytes of the first
+    size_t dropped = 0;                                 ///< cycles since the queue was last empty
+    std::chrono::steady_clock::time_point lastTaken{};  ///< a message, or the queue was empty
   };
 
   void serve();

@@ -218,6 +218,14 @@ TEST(RawlogSource, MemoryDoesNotGrowWhereOdometryEnds) {
   for (size_t i = 0; i < r.entries.size(); ++i) EXPECT_LE(r.entries[i], i + 14) << "within the gap of 1 s";
 }
 
+TEST(RawlogSource, MemoryDoesNotGrowWhereTimeStandsStill) {
+  test::Log log{test::odometry(0, {0, 0, 0})};
+  for (int i = 0; i < 3000; ++i) log.push_back(scan(0.5));
+  const Replayed r = replayed(log);
+  ASSERT_EQ(r.entries.size(), 3000u);
+  for (size_t i = 0; i < r.entries.size(); ++i) EXPECT_LE(r.entries[i], i + 1010);
+}
+
 /// Two lasers in sensory frames: by default both are used, otherwise the named ones.
 TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {
   const test::Log log{

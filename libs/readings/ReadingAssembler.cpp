@@ -19,6 +19,8 @@ using mrpt::obs::CObservationOdometry;
 
 namespace {
 
+constexpr size_t kMostWaiting = 1000;  ///< scans
+
 /// MRPT's code uses valid beams unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
   for (size_t i = 0; i < scan.getScanSize(); ++i) {
@@ -96,8 +98,10 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
   if (hasOdometryReadings_ && !lastOdometry_) return;
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
-  // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans.
-  if (!mayLieBetween && (waiting_.size() == 1 || age > maxOdometryGap_)) finishWaiting(travelled_);
+  // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
+  // count bounds it where time stands still.
+  const bool isLong = age > maxOdometryGap_ || waiting_.size() >= kMostWaiting;
+  if (isLong || (!mayLieBetween && waiting_.size() == 1)) finishWaiting(travelled_);
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
