@@ -10,6 +10,7 @@
 #include "Settings.h"
 #include "Stop.h"
 #include "live/ObservationClient.h"
+#include "live/Token.h"
 #include "live_run/LiveRun.h"
 #include "sensors/SensorSource.h"
 
@@ -65,7 +66,10 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
   } else {
     const auto [host, port] = live::hostAndPort(options.server, "section [live], key `server`");
     auto owned = std::make_unique<live::ObservationClient>(
-        live::ObservationClient::Settings{host, port, options.timeout}, *log);
+        live::ObservationClient::Settings{
+            host, port, options.timeout,
+            live::readToken(options.tokenFile, "section [live], key `token_file`")},
+        *log);
     client = owned.get();
     source = std::move(owned);
   }

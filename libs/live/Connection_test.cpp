@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
 #include <mutex>
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "live/ObservationClient.h"
 #include "live/ObservationServer.h"
+#include "live/Token.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 
@@ -29,8 +31,8 @@ mrpt::obs::CSensoryFrame cycle(double time, double x = 0, size_t beams = 181) {
 /// A client in a separate thread, with its received cycles.
 class Listener {
  public:
-  Listener(uint16_t port, test::Events& events, double timeout = 30)
-      : client_({"127.0.0.1", port, timeout}, events.log()), thread_([this] {
+  Listener(uint16_t port, test::Events& events, double timeout = 30, const std::string& token = "")
+      : client_({"127.0.0.1", port, timeout, token}, events.log()), thread_([this] {
           client_.run([this](const CSensoryFrame::Ptr& frame) { take(*frame); },
                       [this] { return stop_.load(); });
           hasReturned_ = true;
@@ -64,7 +66,9 @@ class Listener {
 };
 
 const std::string kAnywhere = "127.0.0.1";
-ObservationServer::Limits limits(size_t queue = 1000, size_t clients = 250) { return {queue, clients, 30}; }
+ObservationServer::Limits limits(size_t queue = 1000, size_t clients = 250) {
+  return {queue, clients, 30, ""};
+}
 
 /// Answers each connection with the bytes of the next script, then closes it or falls silent.
 class FakeServer {
@@ -315,7 +319,7 @@ TEST(Connection, AServerThatSendsSingleBytesIsGivenUp) {
 
 TEST(Connection, AClientThatTakesNothingLeavesItsPlaceToOthers) {
   test::Events events;
-  ObservationServer server(kAnywhere, 0, {20, 1, 0.3}, events.log());
+  ObservationServer server(kAnywhere, 0, {20, 1, 0.3, ""}, events.log());
   const TcpSocket stuck = TcpSocket::connectTo(kAnywhere, server.port(), 10);
   ASSERT_TRUE(test::happens([&] { return server.clients() == 1; }));
   Listener good(server.port(), events);
@@ -324,6 +328,47 @@ TEST(Connection, AClientThatTakesNothingLeavesItsPlaceToOthers) {
     return good.count() > 0;
   })) << events.text();
   EXPECT_EQ(events.count("takes no data"), 1u) << events.text();
+}
+
+TEST(Connection, OnlyClientsWithTheTokenGetData) {
+  const std::string token = "0123456789abcdef";
+  test::Events events;
+  ObservationServer server(kAnywhere, 0, {20, 10, 30, token}, events.log());
+  TcpSocket silent = TcpSocket::connectTo(kAnywhere, server.port(), 10);
+  Listener good(server.port(), events, 30, token), wrong(server.port(), events, 30, "0123456789abcdeF");
+  ASSERT_TRUE(test::happens([&] {
+    server.publish(cycle(10));
+    return good.count() > 2 && events.count("wrong token") > 0;
+  })) << events.text();
+  EXPECT_EQ(wrong.count(), 0u);
+  EXPECT_EQ(silent.receive(0.1), "");
+  EXPECT_EQ(server.clients(), 1u);
+}
+
+TEST(Connection, AnotherMachineNeedsAToken) {
+  test::Events events;
+  for (const char* address : {"0.0.0.0", "::", "192.168.0.7"})
+    EXPECT_THROW(ObservationServer(address, 0, limits(), events.log()), InputError) << address;
+  const ObservationServer open("0.0.0.0", 0, {20, 10, 30, "0123456789abcdef"}, events.log());
+  EXPECT_GT(open.port(), 0);
+}
+
+TEST(Token, IsTheFirstLineOfAFile) {
+  const files::TemporaryFolder folder;
+  const std::string file = folder.path("token");
+  const auto read = [&](const std::string& content) {
+    std::ofstream(file) << content;
+    return readToken(file, "key `token_file`");
+  };
+  EXPECT_EQ(readToken("", ""), "");
+  EXPECT_EQ(read("0123456789abcdef\r\nmore"), "0123456789abcdef");
+  EXPECT_EQ(read(std::string(256, 'x')), std::string(256, 'x'));
+  EXPECT_THROW(read("short"), InputError);
+  EXPECT_THROW(read(std::string(257, 'x')), InputError);
+  EXPECT_THROW(readToken(folder.path("missing"), ""), InputError);
+  EXPECT_TRUE(isSameToken("abc", "abc"));
+  for (const char* other : {"", "ab", "abd", "abcd", "abcabc"})
+    EXPECT_FALSE(isSameToken(other, "abc")) << other;
 }
 
 TEST(Connection, AnIdleServerSendsHeartbeats) {
@@ -344,7 +389,7 @@ TEST(Connection, AnAddressItCannotListenOnIsAnError) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   EXPECT_THROW(ObservationServer(kAnywhere, server.port(), limits(), events.log()), InputError);
-  EXPECT_THROW(ObservationServer("203.0.113.1", 0, limits(), events.log()), InputError);
+  EXPECT_THROW(ObservationServer("203.0.113.1", 0, {20, 10, 30, "0123456789abcdef"}, events.log()), InputError);
   EXPECT_THROW(ObservationServer("nowhere", 0, limits(), events.log()), InputError);
 }
 

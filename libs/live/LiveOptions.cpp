@@ -9,6 +9,7 @@ namespace hybrid_slam::live {
 void LiveOptions::describe(OptionTable& t) {
   t.add("server", server,
         "HOST:PORT of an observation-server, IPv6 address in brackets; empty: use the sensors of this file");
+  t.add("token_file", tokenFile, "file whose first line is the token of that server; empty: none");
   t.add("timeout", timeout, 1.5, 3600, "s",
         "reconnect after this long without data; the server sends a heartbeat every second");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "cycle rate of this file's sensors; 0: one cycle per scan");
@@ -23,7 +24,9 @@ void LiveOptions::describe(OptionTable& t) {
 
 void ServerOptions::describe(OptionTable& t) {
   t.add("address", address,
-        "local address to listen on; all interfaces: 0.0.0.0 (IPv4) or :: (there is no password)");
+        "local address to listen on; all interfaces: 0.0.0.0 (IPv4) or ::, with a token only");
+  t.add("token_file", tokenFile,
+        "file whose first line, of 16 to 256 characters, clients must send; empty: none");
   t.add("port", port, 0, 65535, "TCP port; 0: any free port, printed on standard output");
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s",
         "cycle rate; each laser gives at most one scan per cycle; 0: one cycle per scan");

@@ -12,7 +12,7 @@ namespace hybrid_slam::live {
 
 /// Section [live] of hybrid-slam-live.
 struct LiveOptions : Options {
-  std::string server;
+  std::string server, tokenFile;
   double timeout = 5;
   double cycleRate = 5;
   double sensorTimeout = 5;
@@ -23,7 +23,7 @@ struct LiveOptions : Options {
 
 /// Section [server] of observation-server.
 struct ServerOptions : Options {
-  std::string address = "127.0.0.1";
+  std::string address = "127.0.0.1", tokenFile;
   int port = 4550;
   double cycleRate = 5;
   double sensorTimeout = 5;

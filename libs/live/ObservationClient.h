@@ -19,6 +19,7 @@ class ObservationClient : public CycleSource {
     std::string host = "127.0.0.1";
     uint16_t port = 0;
     double timeout = 5;  ///< s without a whole message; an idle server sends a heartbeat every second
+    std::string token{};  ///< sent first; empty: none
   };
 
   ObservationClient(const Settings& settings, EventLog& log) : settings_(settings), log_(log) {}

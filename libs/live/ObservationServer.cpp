@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <stdexcept>
@@ -13,13 +14,23 @@
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "live/Token.h"
 
 namespace hybrid_slam::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeartbeat = 1000;  // ms
+constexpr int kHeartbeat = 1000;      // ms
+constexpr double kTokenPatience = 5;  // s
+
+const std::string& checkedAddress(const std::string& address, const std::string& token) {
+  if (token.empty() && !isLoopback(address))
+    throw InputError("no token", "section [server], key `token_file`",
+                     "expected a token where other machines can connect (address " + address +
+                         "), or address 127.0.0.1 and an SSH tunnel");
+  return address;
+}
 
 uint64_t drawSession() {
   std::random_device device;
@@ -39,9 +50,9 @@ std::string nameOf(int descriptor) {
 }  // namespace
 
 ObservationServer::ObservationServer(const std::string& address, uint16_t port, Limits limits, EventLog& log)
-    : limits_(limits),
+    : limits_(std::move(limits)),
       log_(log),
-      listener_(address, port),
+      listener_(checkedAddress(address, limits_.token), port),
       wakeUp_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
       session_(drawSession()) {
   if (wakeUp_ < 0) throw std::runtime_error("no eventfd");
@@ -74,6 +85,7 @@ void ObservationServer::enqueue(MessageKind kind, std::string payload) {
     const auto bytes =
         std::make_shared<const std::string>(encode({kind, session_, number_, std::move(payload)}));
     for (Client& client : clients_) {
+      if (!client.isKnown) continue;
       // A partly sent message must be finished; drop the next oldest.
       const auto oldest = client.queue.begin() + (client.sent > 0 ? 1 : 0);
       if (client.queue.size() >= limits_.queue && oldest != client.queue.end()) {
@@ -129,7 +141,8 @@ void ObservationServer::serve() {
     }
     isFull_ = clients_.size() >= limits_.clients;
     if (!isFull_ && i < ready.size() && ready[i].revents) accept();
-    clientCount_ = clients_.size();
+    clientCount_ = static_cast<size_t>(
+        std::count_if(clients_.begin(), clients_.end(), [](const Client& client) { return client.isKnown; }));
 
     if (Clock::now() - lastHeartbeat >= std::chrono::milliseconds(kHeartbeat)) {
       if (number_ == lastNumber) enqueue(MessageKind::heartbeat);
@@ -150,15 +163,28 @@ void ObservationServer::accept() {
   client.name = nameOf(socket.descriptor());
   client.socket = std::move(socket);
   client.lastTaken = Clock::now();
+  client.isKnown = limits_.token.empty();
   log_.report(client.name, "connected");
   const std::lock_guard<std::mutex> lock(mutex_);
   clients_.push_back(std::move(client));
 }
 
-/// Data from clients is discarded; reading detects when they leave.
-void ObservationServer::read(Client& client) { client.socket.receive(0); }
+/// Data from known clients is discarded; reading detects when they leave.
+void ObservationServer::read(Client& client) {
+  const std::string bytes = client.socket.receive(0);
+  if (client.isKnown) return;
+  client.shown += bytes.substr(0, kMaxToken + 1);
+  const size_t end = client.shown.find('\n');
+  if (end == std::string::npos && client.shown.size() <= kMaxToken) return;
+  if (!isSameToken(client.shown.substr(0, end), limits_.token)) throw std::runtime_error("wrong token");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  client.isKnown = true;
+}
 
 void ObservationServer::write(Client& client) {
+  if (!client.isKnown && secondsSince(client.lastTaken) > kTokenPatience)
+    throw std::runtime_error("no token");
+  if (!client.isKnown) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (client.queue.empty()) client.lastTaken = Clock::now();
   while (!client.queue.empty()) {

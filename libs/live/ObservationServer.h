@@ -28,10 +28,11 @@ class ObservationServer {
     size_t queue = 50;  ///< cycles queued per client
     size_t clients = 250;
     double patience = 30;  ///< s for a client to take a message, before it is disconnected
+    std::string token{};   ///< a client gets nothing before it has sent this and a line end; empty: no token
   };
 
   /// @param address  local address to listen on; @param port  0: any free port
-  /// @throws InputError if it cannot listen
+  /// @throws InputError if it cannot listen, or other machines could connect without a token
   ObservationServer(const std::string& address, uint16_t port, Limits limits, EventLog& log);
   ~ObservationServer();
   ObservationServer(const ObservationServer&) = delete;
@@ -52,6 +53,8 @@ class ObservationServer {
   struct Client {
     TcpSocket socket;
     std::string name;
+    bool isKnown = false;  ///< no token needed, or it has come
+    std::string shown;     ///< what has come of the token
     std::deque<Bytes> queue;                            ///< the first may be partly sent
     size_t sent = 0;                                    ///< bytes of the first
     size_t dropped = 0;                                 ///< cycles since the queue was last empty

@@ -5,6 +5,7 @@
 
 #include "live/ObservationServer.h"
 #include "live/RawlogPlayer.h"
+#include "live/Token.h"
 #include "sensors/SensorSource.h"
 
 namespace hybrid_slam::sensors {
@@ -23,8 +24,9 @@ std::string serveObservations(const live::ServerOptions& options,
     source = std::make_unique<SensorSource>(config, options.cycleRate, options.sensorTimeout, log);
   }
 
-  const live::ObservationServer::Limits limits{static_cast<size_t>(options.queue),
-                                               static_cast<size_t>(options.maxClients)};
+  live::ObservationServer::Limits limits{static_cast<size_t>(options.queue),
+                                         static_cast<size_t>(options.maxClients)};
+  limits.token = live::readToken(options.tokenFile, "section [server], key `token_file`");
   live::ObservationServer server(options.address, static_cast<uint16_t>(options.port), limits, *log);
   isReady(server.port());
   while (isReplay && !stop() && server.clients() < static_cast<size_t>(options.waitForClients))

@@ -4,6 +4,7 @@
 
 #include "base/Errors.h"
 #include "live/ObservationClient.h"
+#include "live/Token.h"
 #include "live_run/LiveRun.h"
 
 namespace hybrid_slam::window {
@@ -59,7 +60,9 @@ std::string LiveSession::run() {
   FilterWatch watch(configuration_);
   auto lastPicture = std::chrono::steady_clock::time_point{};
   bool isOutdated = false;
-  live::ObservationClient client({server_.first, server_.second, options_.timeout}, log_);
+  live::ObservationClient client({server_.first, server_.second, options_.timeout,
+                                  live::readToken(options_.tokenFile, "section [live], key `token_file`")},
+                                 log_);
   live::LiveRun live(configuration_, options_, log_, true);
   live.setWatcher([&](const FilterView& view, const readings::Reading& reading, bool isUpdate) {
     watch.saw(view, reading, isUpdate);
