@@ -66,13 +66,14 @@ void savePicture(const files::OutputFolder& folder, const COccupancyGridMap2D& g
   const int width = (window.width() * enlarged + reduced - 1) / reduced;
   const int height = (window.height() * enlarged + reduced - 1) / reduced;
   mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < height; ++y) {
+    uint8_t* pixel = image.asCvMatRef().ptr<uint8_t>(y);  // setPixel is much slower
+    for (int x = 0; x < width; ++x, pixel += 3) {
       const float free =
           leastFree(grid, window.x0 + x * reduced / enlarged, window.y1 - y * reduced / enlarged, reduced);
-      const auto grey = static_cast<uint8_t>(std::lround(255 * free));
-      image.setPixel(x, y, TColor(grey, grey, grey));
+      std::fill_n(pixel, 3, static_cast<uint8_t>(std::lround(255 * free)));
     }
+  }
 
   const double scale = static_cast<double>(enlarged) / reduced;  // pixels per cell
   const auto column = [&](double x) {
@@ -117,11 +118,14 @@ void saveRosMap(const files::OutputFolder& folder, const COccupancyGridMap2D& gr
   const Window window = knownWindow(grid);
   folder.write("map.pgm", [&](std::ostream& out) {
     out << "P5\n" << window.width() << " " << window.height() << "\n255\n";
-    for (int y = window.y1; y >= window.y0; --y)
+    std::string row;
+    for (int y = window.y1; y >= window.y0; --y, row.clear()) {
       for (int x = window.x0; x <= window.x1; ++x) {
         const float occupied = 1 - grid.getCell(x, y);
-        out.put(static_cast<char>(occupied > kOccupied ? 0 : occupied < kFree ? 254 : 205));
+        row += static_cast<char>(occupied > kOccupied ? 0 : occupied < kFree ? 254 : 205);
       }
+      out << row;
+    }
   });
   const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT uses floats
   const double cell = grid.getResolution();

@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+"""Kills, full disks and restarts; the counts of doc/reliability.md.
+
+  scripts/fault-campaign.py BIN OUT [--kills 50] [--limits 20] [--restarts 100] [--seed 1]
+
+BIN: a folder of programs (build/release/bin). Kills hybrid-slam, hybrid-slam-live, observation-server and slam-compare at
+random moments, limits the size of the files that each program writes (which ends a write as a full disk does), writes
+where nothing can be written, and restarts the server of a live run. After each, what stands under a final name must be
+complete, and the next run must succeed. Exit status 1 if something is not so.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LOG = ROOT / "datasets/csie/csie-loop.rawlog"
+RESULTS = ("map.png", "map.pgm", "map.yaml", "trajectory.tum", "lines.csv", "steps.csv", "covariance.csv", "config.ini")
+
+
+def start(*command, limit=None, **options):
+    def limited():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    options.setdefault("stdout", subprocess.DEVNULL)
+    return subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                            preexec_fn=limited if limit is not None else None, **options)
+
+
+def run(*command, **options):
+    child = start(*command, **options)
+    _, err = child.communicate(timeout=300)
+    return child.returncode, err
+
+
+def is_complete(folder, files=RESULTS):
+    """Whether a folder of results is complete; a missing or empty one is as well."""
+    if not folder.exists() or not any(folder.iterdir()):
+        return True
+    try:
+        return json.loads((folder / "metrics.json").read_text())["complete"] in (True, False) and all(
+            (folder / name).exists() for name in files)
+    except (OSError, ValueError, KeyError):
+        return False
+
+
+class Campaign:
+    def __init__(self, arguments):
+        self.bin, self.out = arguments.bin.resolve(), arguments.out.resolve()
+        self.rng = random.Random(arguments.seed)
+        self.rows, self.bad = [], []
+        shutil.rmtree(self.out, ignore_errors=True)
+        self.out.mkdir(parents=True)
+        self.short = self.out / "short.rawlog"  # a log of a second's work
+        self.short_log()
+
+    def short_log(self):
+        lines = []
+        for i in range(200):
+            stamp, pose = 100 + 0.2 * i, f"{0.05 * i:.3f} 0 0"
+            ranges = " ".join(f"{2 + 0.01 * ((7 * i + j) % 5):.2f}" for j in range(181))
+            lines.append(f"ODOM {pose} 0.5 0 0 {stamp:.3f} robot {stamp:.3f}")
+            lines.append(f"FLASER 181 {ranges} {pose} {pose} {stamp:.3f} robot {stamp:.3f}")
+        text = self.out / "short.log"
+        text.write_text("\n".join(lines) + "\n")
+        assert run(self.bin / "log2rawlog", text, self.short)[0] == 0
+        self.text = text
+
+    def expect(self, condition, what):
+        if not condition:
+            self.bad.append(what)
+        return condition
+
+    def row(self, fault, count, outcome):
+        self.rows.append((fault, count, outcome))
+        print(f"{fault}: {count}: {outcome}", flush=True)
+
+    def kill_replays(self, count):
+        folder, finished = self.out / "replay", 0
+        command = [self.bin / "hybrid-slam", LOG, "-q", "-n", "5", "--overwrite", "-o", folder]
+        begin = time.monotonic()
+        self.expect(run(*command)[0] == 0, "replay fails")
+        whole = time.monotonic() - begin
+        for i in range(count):
+            child = start(*command, "-s", i)
+            time.sleep(self.rng.uniform(0, 1.2 * whole))
+            child.kill()
+            finished += child.wait() == 0
+            child.communicate()
+            self.expect(is_complete(folder), f"replay {i}: results of a part")
+        self.expect(run(*command)[0] == 0, "no replay after the kills")
+        left = [p for p in self.out.glob(".replay.part-*") if not (p / "metrics.json").exists()]
+        self.expect(not left, f"unfinished folders are left: {left}")
+        self.row("hybrid-slam killed", count, f"{finished} had finished; complete results of one run at all times")
+
+    def kill_comparisons(self, count):
+        folder = self.out / "compare"
+        command = [self.bin / "slam-compare", ROOT / "config-ini/paper.ini", self.short, "--methods", "hybrid,general",
+                   "--seeds", "4", "-n", "5", "-o", folder]
+        begin = time.monotonic()
+        self.expect(run(*command, "-q")[0] == 0, "slam-compare fails")
+        whole, finished = time.monotonic() - begin, 0
+        reference = (folder / "runs/hybrid-5-1/trajectory.tum").read_bytes()
+        shutil.rmtree(folder)
+        for i in range(count):
+            child = start(*command, "-q")
+            time.sleep(self.rng.uniform(0, 0.5 * whole))
+            child.kill()
+            child.communicate()
+            for finished_run in folder.glob("runs/[a-z]*"):
+                self.expect(is_complete(finished_run, ("trajectory.tum",)), f"slam-compare {i}: {finished_run} is a part")
+            if (folder / "report.html").exists():
+                finished += 1
+                shutil.rmtree(folder)
+        self.expect(run(*command, "-q")[0] == 0, "no comparison after the kills")
+        self.expect((folder / "runs/hybrid-5-1/trajectory.tum").read_bytes() == reference, "another trajectory")
+        self.row("slam-compare killed", count, f"resumed each time, {finished} times to the report")
+
+    def server(self, port=0):
+        config = self.out / "server.ini"
+        config.write_text(f"[server]\nport = {port}\nrawlog = {LOG}\nreplay_rate = 40\nwait_for_clients = 1\n")
+        child = start(self.bin / "observation-server", config, stdout=subprocess.PIPE)
+        return child, int(re.search(r"(\d+)\s*$", child.stdout.readline()).group(1))
+
+    def end(self, child, number=signal.SIGKILL):
+        child.send_signal(number)
+        _, err = child.communicate(timeout=120)
+        return child.returncode, err
+
+    def live(self, port, folder):
+        config = self.out / "live.ini"
+        config.write_text("[live]\n")
+        return start(self.bin / "hybrid-slam-live", config, "--server", f"127.0.0.1:{port}", "-q", "-n", "5", "-o", folder)
+
+    def kill_lives(self, count):
+        readable = recorded = 0
+        for i in range(count):
+            server, port = self.server()
+            folder = self.out / f"live-{i}"
+            live = self.live(port, folder)
+            time.sleep(self.rng.uniform(0.2, 7))
+            self.end(live)
+            self.end(server)
+            self.expect(is_complete(folder) or not (folder / "metrics.json").exists(), f"live {i}: results of a part")
+            recordings = [p for p in folder.glob("*") if "recording" in p.name] if folder.exists() else []
+            for recording in recordings:
+                recorded += 1
+                again = self.out / "again"
+                code, err = run(self.bin / "hybrid-slam", recording, "-q", "-n", "5", "--overwrite", "-o", again)
+                readable += (again / "trajectory.tum").exists() and code in (0, 1)
+                self.expect(code in (0, 1, 2), f"live {i}: the replay of its recording: {code} {err}")
+                shutil.rmtree(again, ignore_errors=True)
+            shutil.rmtree(folder, ignore_errors=True)
+        self.row("hybrid-slam-live killed", count, f"{recorded} had begun to record, {readable} of these could be mapped")
+
+    def restart_server(self, count):
+        server, port = self.server()
+        folder = self.out / "restarted"
+        live = self.live(port, folder)
+        for _ in range(count):
+            time.sleep(self.rng.uniform(0.1, 0.6))
+            self.end(server)
+            server, _ = self.server(port)
+        time.sleep(3)
+        code, err = self.end(live, signal.SIGINT)
+        self.end(server)
+        scans = 0
+        if self.expect(code == 0 and is_complete(folder), f"live with restarted servers: {code} {err[-300:]}"):
+            scans = json.loads((folder / "metrics.json").read_text())["scans"]
+        self.expect(scans > 0, "no scans from restarted servers")
+        self.row("observation-server killed and started again in a live run", count, f"{scans} scans mapped, exit {code}")
+
+    def fill_disks(self, count):
+        config = self.out / "simulation.ini"
+        config.write_text((ROOT / "config-ini/simul-csie-loop.ini").read_text().replace("../", f"{ROOT}/"))
+        programs = {
+            "hybrid-slam": (["hybrid-slam", self.short, "-q", "-n", "5", "--overwrite", "-o"], "folder"),
+            "log2rawlog": (["log2rawlog", self.text], "rawlog"),
+            "simul-floorplan": (["simul-floorplan", config, "-q", "-o"], "rawlog"),
+            "motion-model-learn": (["motion-model-learn", ROOT / "config-ini/paper.ini", self.short, "-o"], "ini"),
+            "slam-compare": (["slam-compare", ROOT / "config-ini/paper.ini", self.short, "--seeds", "1", "--methods",
+                              "hybrid", "-n", "5", "-q", "-o"], "folder"),
+        }
+        for name, (command, kind) in programs.items():
+            target, failed = self.out / f"full-{name}{'' if kind == 'folder' else '.' + kind}", 0
+            command = [self.bin / command[0], *command[1:], target]
+            code, err = run(*command)
+            self.expect(code == 0, f"{name} fails: {err}")
+            files = [target] if target.is_file() else [p for p in target.rglob("*") if p.is_file()]
+            largest = max(p.stat().st_size for p in files)
+            reference = target.read_bytes() if target.is_file() else None
+            for i in range(count):
+                for file in self.out.glob(f"full-{name}*"):
+                    shutil.rmtree(file) if file.is_dir() else file.unlink()
+                limit = int(largest * self.rng.random() ** 3)
+                code, err = run(*command, limit=limit)
+                failed += code != 0
+                self.expect(code in (0, 1, 2) and (code == 0 or "error: " in err), f"{name} at {limit} bytes: {code} {err}")
+                if target.is_file():
+                    self.expect(target.read_bytes() == reference, f"{name} at {limit} bytes: a part of a file")
+                elif kind == "folder" and name == "hybrid-slam":
+                    self.expect(code != 0 or is_complete(target), f"{name} at {limit} bytes: results of a part")
+                    self.expect(code == 0 or not (target / "metrics.json").exists(), f"{name} at {limit} bytes: results")
+            self.row(f"{name}, disk full", count, f"{failed} ended with an error line, none left a part under a final name")
+
+    def write_nowhere(self):
+        for command in (["hybrid-slam", self.short, "-q", "-o"], ["log2rawlog", self.text],
+                        ["simul-floorplan", ROOT / "config-ini/simul-csie-loop.ini", "-q", "-o"]):
+            code, err = run(self.bin / command[0], *command[1:], "/proc/nowhere")
+            self.expect(code in (1, 2) and "error: " in err, f"{command[0]} into /proc: {code} {err}")
+        self.row("output that cannot be written", 3, "one error line each")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bin", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--limits", type=int, default=20)
+    parser.add_argument("--restarts", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    campaign = Campaign(arguments)
+    campaign.write_nowhere()
+    campaign.fill_disks(arguments.limits)
+    campaign.kill_replays(arguments.kills)
+    campaign.kill_comparisons(arguments.kills)
+    campaign.kill_lives(arguments.kills)
+    campaign.restart_server(arguments.restarts)
+    print("\n| fault | times | outcome |\n|---|---|---|")
+    for row in campaign.rows:
+        print("| " + " | ".join(map(str, row)) + " |")
+    for what in campaign.bad:
+        print(f"bad: {what}")
+    return 1 if campaign.bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
