@@ -13,8 +13,11 @@ using Walk = ObjectWalk;
 constexpr size_t kTime = 8;
 constexpr size_t kMostThrunParticles = 10000;  // MRPT draws them while it reads
 
-void isZeroOrOne(Walk& in, const char* what) {
-  if (in.number() > 1) throw ObjectError(std::string("unknown ") + what);
+/// An enumerator: any other value would be undefined behaviour.
+uint32_t zeroOrOne(Walk& in, const char* what) {
+  const uint32_t value = in.number();
+  if (value > 1) throw ObjectError(std::string("unknown ") + what);
+  return value;
 }
 
 void matrix(Walk& in, size_t cell) {
@@ -78,7 +81,7 @@ void gaussian3D(Walk& in, int v) {
 void odometryModel(Walk& in, int v) {
   in.object(Kind::pose2D);
   if (v == 2) return in.skip(44);
-  isZeroOrOne(in, "motion model");
+  zeroOrOne(in, "motion model");
   in.skip(v == 3 ? 3 * 4 + 2 * 8 : 6 * 4);
   if (in.number() > kMostThrunParticles) throw ObjectError("a motion model of more than 10000 particles");
   in.skip(v >= 5 ? 6 * 4 : 4 * 4);
@@ -87,10 +90,10 @@ void odometryModel(Walk& in, int v) {
 void movement2D(Walk& in, int v) {
   if (v < 2) {
     in.object(Kind::pdf2D);
-    isZeroOrOne(in, "estimation method");
+    zeroOrOne(in, "estimation method");
     if (v == 0) return;
   } else {
-    const bool isScanMatching = in.number() != 0;
+    const bool isScanMatching = zeroOrOne(in, "estimation method") == 1;
     if (isScanMatching)
       in.object(Kind::pdf2D);
     else
@@ -107,7 +110,7 @@ void movement2D(Walk& in, int v) {
 }
 
 void movement3D(Walk& in, int v) {
-  isZeroOrOne(in, "estimation method");
+  zeroOrOne(in, "estimation method");
   in.object(Kind::pdf3D);
   in.flags();
   in.array(4);

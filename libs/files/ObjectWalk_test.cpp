@@ -285,6 +285,13 @@ TEST(ObjectWalk, OnlyListedClassesAndTheirValues) {
   EXPECT_THAT(walked(wrong), HasSubstr("without its end"));
 }
 
+TEST(ObjectWalk, AnEstimationMethodThatMrptDoesNotKnowIsAnError) {
+  std::string bytes = bytesOf(test::action({1, 0, 0}));
+  const std::string name = "CActionRobotMovement2D";
+  bytes[bytes.find(name) + name.size() + 1 + 1] = '\xfe';
+  EXPECT_THAT(walked(bytes), HasSubstr("unknown estimation method"));
+}
+
 TEST(ObjectWalk, OldLogsHaveFourByteHeadersAndNoEndFlags) {
   const auto old = [](const std::string& name, char version) {
     return std::string(1, static_cast<char>(name.size())) + std::string(3, '\0') + name + version +
