@@ -389,7 +389,8 @@ TEST(Connection, AnAddressItCannotListenOnIsAnError) {
   test::Events events;
   ObservationServer server(kAnywhere, 0, limits(), events.log());
   EXPECT_THROW(ObservationServer(kAnywhere, server.port(), limits(), events.log()), InputError);
-  EXPECT_THROW(ObservationServer("203.0.113.1", 0, {20, 10, 30, "0123456789abcdef"}, events.log()), InputError);
+  EXPECT_THROW(ObservationServer("203.0.113.1", 0, {20, 10, 30, "0123456789abcdef"}, events.log()),
+               InputError);
   EXPECT_THROW(ObservationServer("nowhere", 0, limits(), events.log()), InputError);
 }
 

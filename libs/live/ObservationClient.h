@@ -18,7 +18,7 @@ class ObservationClient : public CycleSource {
   struct Settings {
     std::string host = "127.0.0.1";
     uint16_t port = 0;
-    double timeout = 5;  ///< s without a whole message; an idle server sends a heartbeat every second
+    double timeout = 5;   ///< s without a whole message; an idle server sends a heartbeat every second
     std::string token{};  ///< sent first; empty: none
   };
 

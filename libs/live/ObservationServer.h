@@ -53,8 +53,8 @@ class ObservationServer {
   struct Client {
     TcpSocket socket;
     std::string name;
-    bool isKnown = false;  ///< no token needed, or it has come
-    std::string shown;     ///< what has come of the token
+    bool isKnown = false;                               ///< no token needed, or it has come
+    std::string shown;                                  ///< what has come of the token
     std::deque<Bytes> queue;                            ///< the first may be partly sent
     size_t sent = 0;                                    ///< bytes of the first
     size_t dropped = 0;                                 ///< cycles since the queue was last empty

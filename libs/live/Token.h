@@ -1,5 +1,6 @@
 /// @file Token.h
-/// @brief The secret that a client shows to an observation-server. It travels as plain text (doc/security.md).
+/// @brief The secret that a client shows to an observation-server. It travels as plain text
+/// (doc/security.md).
 #pragma once
 
 #include <string>
