@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables of doc/accuracy.md from the runs of scripts/accuracy.sh: accuracy-table.py OUT [--readme]
+"""Tables of doc/accuracy.md from the runs of scripts/accuracy.sh: accuracy-table.py OUT
 
 A run is lost if its mean translation error (m) is above 0.3, on Killian Court above 0.5, on DP-SLAM's loop if its revisit
 error is above 0.07, or if it failed.
