@@ -11,6 +11,12 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
+double totalEvidenceOf(const std::vector<DatabaseLine>& lines) {
+  double total = 0;
+  for (const DatabaseLine& line : lines) total += evidence(line);
+  return total;
+}
+
 }  // namespace
 
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
@@ -105,7 +111,9 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
 }
 
 LineDatabase::LineDatabase(std::vector<DatabaseLine> lines)
-    : lines_(std::move(lines)), dominatingDirection_(directionModuloRightAngle(lines_)) {}
+    : lines_(std::move(lines)),
+      dominatingDirection_(directionModuloRightAngle(lines_)),
+      totalEvidence_(totalEvidenceOf(lines_)) {}
 
 void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDatabaseOptions& options,
                           const AssociationOptions& association) {
@@ -118,6 +126,7 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
   }
   if (updates_ % options.pruneInterval == 0) prune(options);
   dominatingDirection_ = directionModuloRightAngle(lines_);
+  totalEvidence_ = totalEvidenceOf(lines_);
   setDirections(lines_, options.directionWindow);
 }
 

@@ -90,12 +90,15 @@ class LineDatabase {
 
   /// directionModuloRightAngle of the lines, computed once per update.
   std::optional<double> dominatingDirection() const { return dominatingDirection_; }
+  /// Sum of evidence() over the lines, m.
+  double totalEvidence() const { return totalEvidence_; }
 
  private:
   void prune(const LineDatabaseOptions& options);
 
   std::vector<DatabaseLine> lines_;
   std::optional<double> dominatingDirection_;
+  double totalEvidence_ = 0;
   int updates_ = 0;
 };
 

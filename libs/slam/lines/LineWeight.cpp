@@ -43,8 +43,7 @@ DirectionMatch matchDirection(double theta, const LineDatabase& database, const 
   };
   switch (options.method) {
     case Method::graded: {
-      double total = 0;
-      for (const DatabaseLine& line : database.lines()) total += evidence(line);
+      const double total = database.totalEvidence();
       if (total <= 0) break;
       for (const DatabaseLine& line : database.lines()) add(line.direction, evidence(line) / total);
       break;
