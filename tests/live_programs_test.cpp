@@ -243,7 +243,7 @@ TEST_F(LivePrograms, WrongCommandLinesAndFiles) {
   serverError("[server]\n", "no sensors");
   serverError("[LASER]\ndriver = CLMS100Eth\n", "missing section");
   serverError("[server]\nprot = 1\n", "nearest known key is `port`");
-  serverError("[server]\naddress = 300.0.0.1\nport = 0\nrawlog = " SOURCE_DIR
+  serverError("[server]\naddress = 127.0.0.300\nport = 0\nrawlog = " SOURCE_DIR
               "/datasets/csie/csie-loop.rawlog\n",
               "cannot listen");
 
