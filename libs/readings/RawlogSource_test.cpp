@@ -91,14 +91,6 @@ TEST(RawlogSource, ActionObservationPairsSumUpTheOdometry) {
   }
 }
 
-TEST(RawlogSource, ASummaryCanBeStopped) {
-  const files::TemporaryFolder folder;
-  const std::string log = test::writePlain(folder.path("laps.rawlog"), test::laps(10));
-  int asked = 0;
-  EXPECT_THROW(summarise(log, {}, [&] { return ++asked == 3; }), std::runtime_error);
-  EXPECT_EQ(asked, 3);
-}
-
 TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   const test::Log log{test::odometry(10, {0, 0, 0}),
                       scan(10),
@@ -384,21 +376,6 @@ TEST(RawlogSource, InvalidReadingsAreMarked) {
   for (size_t i = 0; i < 8; ++i) odd->setScanRange(i, values[i]);
   const Replayed r = replayed({test::action({}), test::frame({odd})});
   for (size_t i = 0; i < 8; ++i) EXPECT_EQ(r.scans[0]->getScanRangeValidity(i), i == 7) << i;
-}
-
-TEST(RawlogSource, ATruncatedLogGivesItsReadablePart) {
-  const files::TemporaryFolder folder;
-  std::vector<size_t> ends;
-  const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), test::laps(10), &ends));
-  const std::string path = folder.write("cut", bytes.substr(0, ends[11] + 40));
-  const RawlogSummary summary = summarise(path, {});
-  EXPECT_EQ(summary.entries, 12u);
-  EXPECT_EQ(summary.scans, 6u);
-  EXPECT_THAT(summary.defect, HasSubstr("cut off"));
-  RawlogSource source(path, {}, summary);
-  size_t scans = 0;
-  while (source.next()) ++scans;
-  EXPECT_EQ(scans, 6u);
 }
 
 }  // namespace
