@@ -9,6 +9,7 @@ source "$(dirname "$0")/lib.sh"
 
 threaded=(libs/slam/grid libs/slam/filter libs/live libs/live_run libs/window/view)
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
+export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
 
 # compile PRESET TARGET: each library as one unit, which is faster; file by file if names clash in one.
 compile() {
