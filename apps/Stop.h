@@ -10,15 +10,18 @@ namespace hybrid_slam {
 /// True once the user has asked to stop. Global because a signal handler can reach nothing else.
 inline std::atomic<bool> stop{false};
 
-/// SIGINT, SIGTERM or SIGHUP (a terminal that closes) sets `stop`; that signal then has its default action
-/// again.
+/// Calls `handle` at SIGINT, SIGTERM and SIGHUP (a terminal that closes; not under nohup).
+inline void onStopSignals(void (*handle)(int)) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, handle) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
+}
+
+/// A stop signal sets `stop`, then has its default action again.
 inline void stopOnSignals() {
-  const auto onSignal = [](int signal) {
+  onStopSignals([](int signal) {
     stop = true;
     std::signal(signal, SIG_DFL);
-  };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(signal, onSignal) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);  // nohup
+  });
 }
 
 }  // namespace hybrid_slam

@@ -123,7 +123,7 @@ class Campaign:
                 shutil.rmtree(folder)
         self.expect(run(*command, "-q")[0] == 0, "no comparison after the kills")
         self.expect((folder / "runs/hybrid-5-1/trajectory.tum").read_bytes() == reference, "another trajectory")
-        self.row("slam-compare killed", count, f"resumed each time, {finished} times to the report")
+        self.row("slam-compare killed", count, f"no part of a run was kept; {finished} reached the report, as did the last")
 
     def server(self, port=0):
         config = self.out / "server.ini"
@@ -207,7 +207,11 @@ class Campaign:
                 self.expect(code in (0, 1, 2) and (code == 0 or "error: " in err), f"{name} at {limit} bytes: {code} {err}")
                 if target.is_file():
                     self.expect(target.read_bytes() == reference, f"{name} at {limit} bytes: a part of a file")
-                elif kind == "folder" and name == "hybrid-slam":
+                elif name == "slam-compare":
+                    self.expect(code == 0 or not (target / "report.html").exists(), f"{name} at {limit} bytes: a report")
+                    for done in target.glob("runs/[a-z]*"):
+                        self.expect(is_complete(done, ("trajectory.tum",)), f"{name} at {limit} bytes: {done} is a part")
+                elif name == "hybrid-slam":
                     self.expect(code != 0 or is_complete(target), f"{name} at {limit} bytes: results of a part")
                     self.expect(code == 0 or not (target / "metrics.json").exists(), f"{name} at {limit} bytes: results")
             self.row(f"{name}, disk full", count, f"{failed} ended with an error line, none left a part under a final name")

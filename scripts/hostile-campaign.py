@@ -131,7 +131,8 @@ def damaged_text(data, rng):
         elif kind == 4:
             lines[at:at + 1] = [lines[at]] * rng.choice([0, 2, 50])
         else:
-            lines[at] = lines[at] * rng.choice([2, 100]) + rng.choice([b"", b"\x00", b"\xff\xfe", b"A" * 100000])
+            times = rng.choice([2, 100])
+            lines[at] = lines[at] * (times if len(lines[at]) < 100000 else 1) + rng.choice([b"", b"\x00", b"\xff\xfe", b"A" * 100000])
         data = b"\n".join(lines)
     return data
 
@@ -275,7 +276,7 @@ class Campaign:
         config.write_text("[live]\n")
         folder = self.out / f"{name}-out"
         self.run("servers", name, [self.binary / "hybrid-slam-live", config, "--server",
-                                   f"127.0.0.1:{listener.getsockname()[1]}", "-n", "5", "-o", folder], None, [file], 3)
+                                   f"127.0.0.1:{listener.getsockname()[1]}", "-n", "5", "-o", folder], folder, [file], 3)
         stop.set()
         thread.join()
         listener.close()

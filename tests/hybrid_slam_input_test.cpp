@@ -225,7 +225,7 @@ TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
 }
 
-/// Whatever one reading says, there are results, and memory is bounded.
+/// One reading, with any content, leaves results and bounded memory.
 TEST_F(HybridSlam, OneReadingOfAnyContentEndsNoRun) {
   using Scan = test::CObservation2DRangeScan;
   const std::vector<std::function<void(Scan&, mrpt::obs::CObservationOdometry&)>> changes{

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "InputFiles.h"
 #include "Program.h"
 #include "Settings.h"
+#include "Stop.h"
 #include "files/OutputFolder.h"
 #include "readings/EndPointReader.h"
 #include "readings/RawlogSource.h"
@@ -29,8 +29,6 @@ namespace {
 
 using namespace hybrid_slam;
 namespace fs = std::filesystem;
-
-std::atomic<bool> stop{false};
 
 struct CommandLine {
   InputFiles files;
@@ -363,9 +361,6 @@ int execute(const CommandLine& line, const std::string& command) {
   return 0;
 }
 
-/// Unlike Stop.h, a second signal does not kill: running children must be ended first.
-void onSignal(int) { stop = true; }
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -375,9 +370,8 @@ int main(int argc, char** argv) {
   describe(app, line);
   return exitCodeOf([&] {
     if (const auto code = parse(app, argc, argv)) return *code;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-      if (std::signal(signal, onSignal) == SIG_IGN && signal == SIGHUP)
-        std::signal(signal, SIG_IGN);  // nohup
+    // Unlike stopOnSignals, a second signal does not kill: running children must be ended first.
+    onStopSignals([](int) { stop = true; });
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     line.files.sort();

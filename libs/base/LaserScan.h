@@ -35,8 +35,8 @@ struct LaserScan {
 /// The scans of a robot's lasers at one time.
 using LaserScans = std::vector<LaserScan>;
 constexpr size_t kMaxLasers = 8;
-constexpr size_t kMostScanBeams =
-    10000;  ///< of a scan: more than lasers have, few enough for line extraction
+/// Of a scan: more than lasers have, few enough for line extraction.
+constexpr size_t kMostScanBeams = 10000;
 
 /// The same as MRPT's observations, as logs and robots provide them. The sensor pose is relative to the robot
 /// pose of the latest scan.

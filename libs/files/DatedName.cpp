@@ -4,6 +4,8 @@
 
 namespace hybrid_slam::files {
 
+namespace {
+
 std::string dateStamp() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -11,6 +13,8 @@ std::string dateStamp() {
   char text[32];
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H-%M-%S", &local)};
 }
+
+}  // namespace
 
 std::string claimDatedName(const std::function<bool(const std::string& name)>& claim) {
   const std::string stamp = dateStamp();

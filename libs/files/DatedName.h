@@ -7,11 +7,8 @@
 
 namespace hybrid_slam::files {
 
-/// Local time as YYYY-MM-DDTHH-MM-SS.
-std::string dateStamp();
-
-/// The first of DATE, DATE-2, DATE-3, ... that `claim` accepts. It must create what it accepts, so that
-/// another process of the same second gets the next.
+/// The first of DATE, DATE-2, DATE-3, ..., with DATE the local time as YYYY-MM-DDTHH-MM-SS, that `claim`
+/// accepts. It must create what it accepts, so that another process of the same second gets the next.
 std::string claimDatedName(const std::function<bool(const std::string& name)>& claim);
 
 }  // namespace hybrid_slam::files

@@ -26,20 +26,10 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::serialization::CSerializable;
 using testing::HasSubstr;
 
-struct StringSink {
-  std::string bytes{};
-  size_t Write(const void* data, size_t count) {
-    bytes.append(static_cast<const char*>(data), count);
-    return count;
-  }
-  size_t Read(void*, size_t) { return 0; }
-  std::string getStreamDescription() const { return "object"; }
-};
-
 std::string bytesOf(const CSerializable::Ptr& object) {
-  StringSink sink;
-  mrpt::serialization::archiveFrom(sink) << *object;
-  return sink.bytes;
+  std::vector<uint8_t> bytes;
+  mrpt::serialization::ObjectToOctetVector(object.get(), bytes);
+  return {bytes.begin(), bytes.end()};
 }
 
 /// Random objects of the listed classes.

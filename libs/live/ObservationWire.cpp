@@ -1,7 +1,8 @@
 #include "live/ObservationWire.h"
 
-#include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
+
+#include <vector>
 
 #include "base/Errors.h"
 #include "files/ObjectReader.h"
@@ -29,16 +30,6 @@ uint32_t checksumOf(const std::string& bytes, size_t size) {
   const uLong header = ::crc32(0, data + kKind, kChecksum - kKind);
   return static_cast<uint32_t>(::crc32(header, data + kHeader, static_cast<uInt>(size - kHeader)));
 }
-
-struct StringSink {
-  std::string bytes{};
-  size_t Write(const void* data, size_t count) {
-    bytes.append(static_cast<const char*>(data), count);
-    return count;
-  }
-  size_t Read(void*, size_t) { return 0; }
-  std::string getStreamDescription() const { return "message"; }
-};
 
 }  // namespace
 
@@ -73,9 +64,9 @@ std::optional<Message> MessageDecoder::next() {
 }
 
 std::string serialise(const mrpt::obs::CSensoryFrame& frame) {
-  StringSink sink;
-  mrpt::serialization::archiveFrom(sink) << frame;
-  return sink.bytes;
+  std::vector<uint8_t> bytes;
+  mrpt::serialization::ObjectToOctetVector(&frame, bytes);
+  return {bytes.begin(), bytes.end()};
 }
 
 mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload) {

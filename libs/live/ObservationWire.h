@@ -41,8 +41,8 @@ constexpr size_t kMaxPayload = size_t{16} << 20;  ///< bytes
 
 std::string encode(const Message& message);
 std::string serialise(const mrpt::obs::CSensoryFrame& frame);
-/// @throws WireError for anything but one whole CSensoryFrame of observations; what the bytes claim takes no
-/// memory
+/// @throws WireError for anything but one whole CSensoryFrame of observations; no memory is
+/// taken for lengths that the bytes only claim
 mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload);
 
 /// Splits a byte stream into messages. Unusable after an error: close the connection.

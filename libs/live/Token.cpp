@@ -24,9 +24,9 @@ std::string readToken(const std::string& file, const std::string& where) {
 }
 
 bool isSameToken(const std::string& shown, const std::string& expected) {
-  unsigned difference = shown.size() == expected.size() ? 0 : 1;
-  for (size_t i = 0; i < shown.size(); ++i)
-    difference |= static_cast<unsigned>(shown[i] ^ expected[i % expected.size()]);
+  if (shown.size() != expected.size()) return false;
+  int difference = 0;
+  for (size_t i = 0; i < shown.size(); ++i) difference |= shown[i] ^ expected[i];
   return difference == 0;
 }
 

@@ -13,7 +13,7 @@ constexpr size_t kMinToken = 16, kMaxToken = 256;  ///< characters
 /// @throws InputError if it cannot be read, or is not of kMinToken to kMaxToken characters
 std::string readToken(const std::string& file, const std::string& where);
 
-/// Takes the same time wherever the two differ.
+/// Takes the same time wherever two tokens of one length differ.
 bool isSameToken(const std::string& shown, const std::string& expected);
 
 /// Whether only this machine can reach the address.

@@ -48,9 +48,8 @@ class LiveRun {
   /// Filters the waiting readings, then writes all results.
   /// @param lost  number of lost cycles, for metrics.json
   /// @return the summary and the verdict, a line each
-  /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results up to
-  /// it
-  ///         have been written; the recording is kept
+  /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results
+  ///         up to it have been written; the recording is kept
   std::string finish(const std::string& version, size_t lost);
 
   size_t skipped() const { return skipped_; }
@@ -72,7 +71,6 @@ class LiveRun {
   EventLog& log_;
   bool isQuiet_;
   Watcher watcher_;
-  std::string recordingName_;
   run::FilterRun run_;
   Recording recording_;
   std::set<std::string> ignored_;  ///< labels of lasers whose scans are not used

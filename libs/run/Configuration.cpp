@@ -14,8 +14,7 @@ void RunOptions::describe(OptionTable& t) {
         "updates between snapshots of all particles in particles.csv; 0: no particles.csv");
   t.add("refine", refine, 0, 100,
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
-        "not "
-        "for stock");
+        "not for stock");
 }
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings,

@@ -13,9 +13,8 @@ constexpr size_t kMostCells = size_t{1} << 28;
 
 /// All cells ever written, plus a margin of one cell. The cell values are the same log-odds with MRPT's sign
 /// (positive is free).
-/// @param mostCells  a larger map gets coarser cells: n x n become one with the highest occupancy of the
-/// known
-///                   ones, with the smallest n that suffices
+/// @param mostCells  a larger map gets coarser cells: n x n become one with the highest occupancy of those
+///                   known, with the smallest n that suffices
 mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, size_t mostCells = kMostCells);
 
 /// Likewise the cells of `box`.
