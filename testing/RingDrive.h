@@ -2,6 +2,9 @@
 /// @brief For the tests: a robot that drives through corridors, and a path whose heading drifts.
 #pragma once
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <memory>
 #include <vector>
 
 #include "testing/TestScans.h"
@@ -62,6 +65,21 @@ inline std::vector<DrivenPose> driveAlong(const Walls& walls, const std::vector<
 /// Once around the ring and on to the next corner.
 inline std::vector<DrivenPose> ringDrive(double turnPerMetre) {
   return driveAlong(ring(), {{0, 0}, {31.5, 0}, {31.5, 21}, {-1.5, 21}, {-1.5, 0}, {31.5, 0}}, turnPerMetre);
+}
+
+/// The scan as a log holds it.
+inline Scans observed(const LaserScan& seen) {
+  auto scan = std::make_shared<mrpt::obs::CObservation2DRangeScan>();
+  scan->aperture = static_cast<float>(M_PI);
+  scan->timestamp = seen.timestamp;  // MRPT's default is now
+  scan->maxRange = 80;
+  scan->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(seen.sensorPose));
+  scan->resizeScan(seen.beams.size());
+  for (size_t i = 0; i < seen.beams.size(); ++i) {
+    scan->setScanRange(i, static_cast<float>(seen.beams[i].range));
+    scan->setScanRangeValidity(i, seen.beams[i].valid);
+  }
+  return {scan};
 }
 
 }  // namespace hybrid_slam::test

@@ -74,7 +74,7 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
     source = std::move(owned);
   }
   live::LiveRun run(configuration, options, *log, isQuiet);
-  const auto finish = [&] { return run.finish(HYBRID_SLAM_VERSION, client ? client->lost() : 0); };
+  const auto finish = [&] { return run.finish(client ? client->lost() : 0); };
   try {
     source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
                 [&] { return stop || run.hasFailed(); });

@@ -7,6 +7,7 @@
 #include "FilterArguments.h"
 #include "InputFiles.h"
 #include "Program.h"
+#include "SessionArguments.h"
 #include "Settings.h"
 #include "Stop.h"
 #include "run/Replay.h"
@@ -19,6 +20,7 @@ struct CommandLine {
   InputFiles files;
   std::string output;
   FilterArguments filter;
+  SessionArguments session;
   std::vector<std::string> settings;
   int refine = 0;
   bool isQuiet = false, isStrict = false, overwrites = false, wantsProfile = false, wantsManual = false;
@@ -35,6 +37,8 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--refine", line.refine,
                  "after the run, match every scan to the final map and rebuild the map, N times")
       ->type_name("N");
+  line.session.addResume(app);
+  line.session.addMap(app);
   addSettings(app, line.settings);
   app.add_flag("--strict", line.isStrict, "exit 1 if the verdict on the map is `lost`");
   app.add_flag("-q,--quiet", line.isQuiet, "no progress, no summary");
@@ -45,7 +49,8 @@ void describe(CLI::App& app, CommandLine& line) {
       "override "
       "them.\n"
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
-      "steps.csv, metrics.json, config.ini (doc/results.md). Ctrl-C ends the run and writes the results.\n"
+      "steps.csv, metrics.json, config.ini, session.hslam (doc/results.md). Ctrl-C ends the run and writes "
+      "the results.\n"
       "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost, 2 wrong command "
       "line or input.");
 }
@@ -68,10 +73,11 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   stopOnSignals();
   run::Configuration configuration(line.files.config, settings);
   configuration.run.overwrite = line.overwrites;
-  if (configuration.run.rawlog.empty())
+  line.session.addTo(configuration.run);
+  if (configuration.run.rawlog.empty() && line.session.resume.empty())
     return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
   warn(configuration.warnings);
-  const auto outcome = run::replay(configuration, line.isQuiet, stop, HYBRID_SLAM_VERSION, line.wantsProfile);
+  const auto outcome = run::replay(configuration, line.isQuiet, stop, line.wantsProfile);
   warn(outcome.warnings);
   if (!line.isQuiet) std::cout << outcome.summary << "\n" << outcome.verdict.line() << "\n";
   std::cout << outcome.profile;

@@ -104,9 +104,16 @@ void load(const Sections& sections, const mrpt::config::CConfigFileBase& source,
 std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
                                  const std::vector<std::string>& settings, const Sections& sections,
                                  const std::string& otherwise, const std::string& expected) {
+  const std::string text = file.empty() ? "" : parsed(readText(file), file);
+  return loadIniText(source, text, file, settings, sections, otherwise, expected);
+}
+
+std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, const std::string& text,
+                                     const std::string& file, const std::vector<std::string>& settings,
+                                     const Sections& sections, const std::string& otherwise,
+                                     const std::string& expected) {
   std::vector<std::string> present, ours, warnings;
   for (const auto& [name, options] : sections) ours.push_back(name);
-  const std::string text = file.empty() ? "" : parsed(readText(file), file);
   checkLines(text, file, ours);
   source.setContent(text);
   source.getAllSections(present);

@@ -29,6 +29,12 @@ std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const 
                                  const std::vector<std::string>& settings, const Sections& sections,
                                  const std::string& otherwise, const std::string& expected);
 
+/// The same for the text of a file, as MRPT's parser leaves it.
+std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, const std::string& text,
+                                     const std::string& file, const std::vector<std::string>& settings,
+                                     const Sections& sections, const std::string& otherwise,
+                                     const std::string& expected);
+
 /// Whether a file is an INI file rather than a log: its name ends in .ini, or its first line that is not
 /// blank or a comment is a section's.
 bool isIni(const std::string& path);

@@ -31,6 +31,18 @@ GrowingFile::GrowingFile(const std::string& path) : file_(path) {
   if (!out_) file_.fail(errno);
 }
 
+std::string GrowingFile::content() {
+  out_.flush();
+  std::ifstream in(file_.path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void GrowingFile::restart(const std::string& content) {
+  out_.close();
+  out_.open(file_.path(), std::ios::binary | std::ios::trunc);
+  out_ << content;
+}
+
 void GrowingFile::finish() {
   errno = 0;
   out_.close();

@@ -35,6 +35,10 @@ class GrowingFile {
   explicit GrowingFile(const std::string& path);
 
   std::ostream& stream() { return out_; }
+  /// What it holds so far.
+  std::string content();
+  /// Replaces it.
+  void restart(const std::string& content);
   /// @throws InputError if it could not be written completely
   void finish();
 

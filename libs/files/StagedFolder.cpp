@@ -45,8 +45,9 @@ void sync(const fs::path& folder) {
 
 }  // namespace
 
-StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite)
-    : results_(results), overwrite_(overwrite), asked_(folder), shown_(folder) {
+StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite,
+                           const std::string& own)
+    : results_(results), overwrite_(overwrite), own_(own), asked_(folder), shown_(folder) {
   std::error_code ignored;
   const bool isNew = !fs::exists(folder, ignored);
   const OutputFolder probe(folder);
@@ -82,7 +83,7 @@ bool StagedFolder::isResult(const std::string& name) const {
 
 bool StagedFolder::holdsResults() const {
   return std::any_of(results_.begin(), results_.end(), [this](const std::string& name) {
-    return fs::exists(fs::symlink_status(final_ / name));
+    return name != own_ && fs::exists(fs::symlink_status(final_ / name));
   });
 }
 

@@ -20,12 +20,16 @@ class StagedFolder {
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
   /// results and `overwrite` is false.
   /// @param results  names of all files that a run may write; the last marks a complete run
+  /// @param own        a result that may already be there: the run goes on from it
   /// @throws InputError if the folder cannot be created or written to
-  StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite);
+  StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite,
+               const std::string& own = {});
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
+  /// A result that this run has written to the final folder already.
+  void setOwn(const std::string& name) { own_ = name; }
   /// The hidden folder.
   const OutputFolder& files() const { return *files_; }
   /// As the user wrote it, or its dated subfolder.
@@ -51,6 +55,7 @@ class StagedFolder {
 
   std::vector<std::string> results_;
   bool overwrite_;
+  std::string own_;
   std::string asked_, shown_;    ///< as the user writes them
   std::filesystem::path final_;  ///< absolute, without symbolic links
   std::filesystem::path stage_;

@@ -101,6 +101,7 @@ void LiveRun::filter() {
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
       for (const std::string& note : run_.takeLoopNotes()) log_.report("filter", note);
+      for (const std::string& note : run_.takeSaveNotes()) log_.report("results", note);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
       if (!isQuiet_ && secondsSince(lastState_) >= 10) tellState();
@@ -126,7 +127,7 @@ void LiveRun::stopFilter() {
   thread_.join();
 }
 
-std::string LiveRun::finish(const std::string& version, size_t lost) {
+std::string LiveRun::finish(size_t lost) {
   assembler_.finish();
   while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
   stopFilter();
@@ -143,7 +144,7 @@ std::string LiveRun::finish(const std::string& version, size_t lost) {
                                 {"p99", quantile(latencies_, 0.99)},
                                 {"max", quantile(latencies_, 1)}}}};
   if (failure_) more["complete"] = false;
-  const std::string summary = run_.finish(recording_.path(), recorded, version, more);
+  const std::string summary = run_.finish(recording_.path(), recorded, more);
   if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);
   if (failure_) {
     log_.report("results", "those up to the failure: " + run_.folder());

@@ -42,6 +42,8 @@ class LiveRun {
   /// Processes one cycle. Odometry that is not finite is dropped, also from the recording. If odometry is
   /// required, only the last few observations before the first odometry are kept.
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
+  /// Saves map and session to a dated subfolder after the next scan.
+  void requestSave() { run_.requestSave(); }
   /// The filter has failed; further cycles are useless.
   bool hasFailed() const { return hasFailed_; }
 
@@ -50,7 +52,7 @@ class LiveRun {
   /// @return the summary and the verdict, a line each
   /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results
   ///         up to it have been written; the recording is kept
-  std::string finish(const std::string& version, size_t lost);
+  std::string finish(size_t lost);
 
   size_t skipped() const { return skipped_; }
 

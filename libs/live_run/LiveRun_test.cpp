@@ -43,14 +43,14 @@ class LiveRunTest : public testing::Test {
     CycleGrouper grouper(0, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
     for (const auto& object : log) grouper.add(std::dynamic_pointer_cast<CObservation>(object));
     grouper.finish();
-    return run.finish("test", 3);
+    return run.finish(3);
   }
   void replayRecording(const std::string& more = "") {
     run::Configuration c = configuration("offline", more);
     c.run.rawlog = recording();
     c.run.overwrite = true;
     const std::atomic<bool> stop{false};
-    run::replay(c, true, stop, "test");
+    run::replay(c, true, stop);
   }
   /// The newest; empty if there is none.
   std::string recording() const {
@@ -164,7 +164,7 @@ TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecordingAndTheResultsSoFar) {
     run.take(cycle);
   }
   EXPECT_TRUE(test::happens([&] { return run.hasFailed(); }));
-  EXPECT_THROW(run.finish("test", 0), InputError);
+  EXPECT_THROW(run.finish(0), InputError);
   files::RawlogReader reader(recording());
   size_t objects = 0;
   while (reader.next()) ++objects;
@@ -196,7 +196,7 @@ TEST_F(LiveRunTest, AnotherRunInTheSameFolderTouchesNothing) {
   {
     run::Configuration c = configuration("live");
     LiveRun run(c, options, events.log(), true);  // without data
-    EXPECT_THROW(run.finish("test", 0), std::runtime_error);
+    EXPECT_THROW(run.finish(0), std::runtime_error);
   }
   EXPECT_EQ(test::filesIn(folder.path("live"), ""), before);
   EXPECT_THAT(runLive(test::laps(20)), HasSubstr("20 scans"));
@@ -234,7 +234,7 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
   }
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   ::setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_THAT(run.finish("test", 0), HasSubstr("300 scans"));
+  EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
   files::RawlogReader reader(recording());
   size_t objects = 0;
   while (reader.next()) ++objects;

@@ -17,12 +17,20 @@ void RunOptions::describe(OptionTable& t) {
         "not for stock");
 }
 
+namespace {
+const std::string kExpected =
+    "expected at least one of the sections in doc/configuration.md, such as [run] or [particle_filter]";
+}
+
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings,
                              const files::Sections& more)
     : more_(more) {
-  warnings = files::loadIni(
-      source, file, settings, sections(), kStockSection,
-      "expected at least one of the sections in doc/configuration.md, such as [run] or [particle_filter]");
+  warnings = files::loadIni(source, file, settings, sections(), kStockSection, kExpected);
+  filter.useLines = run.method == RunOptions::Method::hybrid;
+}
+
+void Configuration::load(const std::string& text, const std::string& file) {
+  files::loadIniText(source, text, file, {}, sections(), kStockSection, kExpected);
   filter.useLines = run.method == RunOptions::Method::hybrid;
 }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/math/TPose2D.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,14 @@ struct RunOptions : Options {
   std::string output = "out";
   int particlesEvery = 0;
   int refine = 1;
-  bool overwrite = false;  ///< of the command line alone: a configuration must not delete results
+
+  /// @name Of the command line alone
+  /// @{
+  bool overwrite = false;                        ///< a configuration must not delete results
+  std::string resume, continueFrom, localizeIn;  ///< session files (or maps); empty: a new run
+  std::optional<mrpt::math::TPose2D> start;      ///< in that map (m, rad); empty: to be found
+  double checkpointEvery = 0;                    ///< s of work between checkpoints; 0: none
+  /// @}
   void describe(OptionTable& table) override;
 };
 
@@ -44,6 +53,8 @@ struct Configuration {
   Configuration(const std::string& file, const std::vector<std::string>& settings,
                 const files::Sections& more = {});
   Configuration() = default;
+  /// Loads what `text()` of an earlier run returned. @param file  that holds it
+  void load(const std::string& text, const std::string& file);
 
   files::Sections sections();
   /// Sets a key of ours unless the file or the command line sets it. @return whether it did

@@ -11,11 +11,11 @@
 #include "base/Clock.h"
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "run/Fingerprint.h"
 #include "run/MapFiles.h"
 #include "run/ResultFiles.h"
 #include "run/SimpleMapFile.h"
 #include "run/StepsTable.h"
-#include "slam/filter/HybridFilter.h"
 #include "slam/filter/Refinement.h"
 #include "slam/filter/StockMapBuilder.h"
 #include "slam/grid/GridConversion.h"
@@ -87,14 +87,17 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     : configuration_(configuration),
       start_(start),
-      staged_(configuration.run.output, kResultFiles, configuration.run.overwrite),
+      staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
+              configuration.run.resume.empty() ? "" : kSessionName),
       folder_(staged_.files()),
       steps_(folder_.path("steps.csv")) {
   if (configuration.run.method == Method::stock) {
     filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
                                                 static_cast<uint32_t>(configuration.filter.filter.seed));
   } else {
-    filter_ = std::make_unique<HybridFilter>(configuration.filter);
+    auto ours = std::make_unique<HybridFilter>(configuration.filter);
+    hybrid_ = ours.get();
+    filter_ = std::move(ours);
   }
   if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
   writeStepsHeader(steps_.stream());
@@ -112,21 +115,27 @@ bool FilterRun::process(const readings::Reading& reading) {
   filter_->process(motion, reading.scans);
 
   ++scans_;
+  fingerprint_ = fingerprintAfter(fingerprint_, reading);
   recorder_.add(reading.timestamp, motion, filter_->updates());
   uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
-  if (uses_.back() != Use::update) return false;
-  updateTimes_.push_back(reading.timestamp);
+  const bool isUpdate = uses_.back() == Use::update;
+  if (isUpdate) record(reading.timestamp, stepStart);
+  checkpointIfDue();
+  return isUpdate;
+}
+
+void FilterRun::record(double timestamp, Clock::time_point stepStart) {
+  updateTimes_.push_back(timestamp);
   const FilterStep& step = filter_->lastStep();
   particlesMin_ = particlesMin_ == 0 ? step.particles : std::min(particlesMin_, step.particles);
   particlesMax_ = std::max(particlesMax_, step.particles);
   particleCovariances_.push_back(covarianceOf(step.poses));
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
-  if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = reading.timestamp;
+  if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = timestamp;
   if (step.loop) note(*step.loop);
-  writeStep(steps_.stream(), reading.timestamp, step, 1000 * secondsSince(stepStart));
+  writeStep(steps_.stream(), timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
-    writeParticles(particles_->stream(), reading.timestamp, step);
-  return true;
+    writeParticles(particles_->stream(), timestamp, step);
 }
 
 std::string FilterRun::slipNote() const {
@@ -175,23 +184,24 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
-  const ScanMap map = mapOf(scans, configuration_.filter);
-  result.grid = toMrpt(map.grid);
-  result.lines = map.lines.lines();
+  result.map = mapOf(scans, configuration_.filter);
+  result.grid = toMrpt(result.map.grid);
+  result.lines = result.map.lines.lines();
 }
 
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
-                              const std::string& version, const nlohmann::ordered_json& more) {
+                              const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   const bool isWhole = uses_.size() == log.scans;
-  Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines()};
+  Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
+  if (hybrid_) result.map = hybrid_->bestMap();
   result.trajectory = recorder_.trajectory(result.path);
   if (configuration_.run.refine > 0 && configuration_.run.method != Method::stock) {
     readings::RawlogSource scans(file, configuration_.input, log);
     refineResult(result, scans);
   }
-  const auto& [trajectory, path, grid, lines] = result;
+  const auto& [trajectory, path, grid, lines, map] = result;
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
   savedCell_ = grid.getResolution();
   saveRosMap(folder_, grid);
@@ -217,7 +227,9 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   if (particles_) particles_->finish();
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
 
-  const double wall = secondsSince(start_);
+  if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
+
+  const double wall = secondsBefore_ + secondsSince(start_);
   const double duration = isWhole ? log.duration : durationOf(trajectory);
   const char* const names[] = {"hybrid", "general", "stock"};
   nlohmann::ordered_json metrics{
@@ -244,7 +256,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       {"distance_m", recorder_.distance()},
       {"complete", isWhole && log.defect.empty()},
       {"skipped_readings", log.skippedReadings()},
-      {"versions", {{"hybrid_slam", version}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
+      {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   metrics.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << metrics.dump(2) << '\n'; });
   staged_.publish();

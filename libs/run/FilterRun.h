@@ -2,6 +2,7 @@
 /// @brief A filter and its result files, for a log or a live robot.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -14,15 +15,16 @@
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
 #include "run/PathCovariance.h"
+#include "run/SessionFile.h"
 #include "run/TrajectoryRecorder.h"
 #include "run/Verdict.h"
-#include "slam/filter/Filter.h"
+#include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
 
 namespace hybrid_slam::run {
 
 /// Writes steps.csv (and particles.csv) during the run, and the other files of doc/results.md at the end.
-/// They appear together (files/StagedFolder.h); without `finish` no results remain.
+/// They appear together (files/StagedFolder.h); without `finish` no results remain but the last checkpoint.
 class FilterRun {
  public:
   using Clock = std::chrono::steady_clock;
@@ -36,8 +38,19 @@ class FilterRun {
   /// Passes one reading to the filter.
   /// @return true for a filter update, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
+  /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
+  /// @throws InputError for a session of another method, or not of this program
+  void resume(SessionReader& session);
+  /// Passes over the readings that the session has processed.
+  /// @throws InputError if the log does not begin with them
+  void passOver(readings::RawlogSource& source, const std::string& log);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
   void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
+
+  /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread.
+  void requestSave() { isSaveRequested_ = true; }
+  /// A line for each of these saved since the last call: where.
+  std::vector<std::string> takeSaveNotes() { return std::exchange(saveNotes_, {}); }
 
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
@@ -58,11 +71,10 @@ class FilterRun {
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
   ///                 these end there
-  /// @param version  of the program
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written
-  std::string finish(const std::string& file, const readings::RawlogSummary& log, const std::string& version,
+  std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
   /// Of the finished run.
   const Verdict& verdict() const { return verdict_; }
@@ -73,7 +85,16 @@ class FilterRun {
     std::vector<mrpt::math::TPose2D> path;
     mrpt::maps::COccupancyGridMap2D grid;
     std::vector<DatabaseLine> lines;
+    ScanMap map;  ///< of our filter: the same grid and lines
   };
+  template <class State>
+  void visit(State& state);
+  void saveSessionTo(const std::string& path, const ScanMap& map,
+                     const std::vector<mrpt::math::TPose2D>& path_);
+  void saveNow();
+  void checkpointIfDue();
+  /// The row of steps.csv and the counters of an update.
+  void record(double timestamp, Clock::time_point stepStart);
   void note(const LoopClosure& loop);
   /// Closes the loops that are left open, matches the scans of the log to the map and rebuilds it.
   void refineResult(Result& result, readings::RawlogSource& source);
@@ -83,6 +104,7 @@ class FilterRun {
   files::StagedFolder staged_;
   const files::OutputFolder& folder_;  ///< of staged_
   std::unique_ptr<Filter> filter_;
+  HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
@@ -91,7 +113,11 @@ class FilterRun {
   std::vector<Use> uses_;                            ///< per reading of the log
   std::vector<double> updateTimes_;                  ///< s
   std::vector<PoseCovariance> particleCovariances_;  ///< of each update
-  std::vector<std::string> loopNotes_;
+  std::vector<std::string> loopNotes_, saveNotes_;
+  std::atomic<bool> isSaveRequested_{false};
+  Clock::time_point lastCheckpoint_ = Clock::now();
+  uint32_t fingerprint_ = 0;  ///< of the processed readings
+  double secondsBefore_ = 0;  ///< wall time of the run that is resumed
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
   double firstSlip_ = 0;  ///< s

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
@@ -10,6 +11,7 @@
 #include "run/FilterRun.h"
 #include "run/LogSettings.h"
 #include "run/Progress.h"
+#include "run/Resume.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -21,8 +23,10 @@ std::string spreadNote(const FilterStep& step) {
 }  // namespace
 
 ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
-                     const std::string& version, bool wantsProfile) {
+                     bool wantsProfile) {
   const auto start = FilterRun::Clock::now();
+  std::optional<SessionReader> session;
+  if (!configuration.run.resume.empty()) adopt(configuration, session.emplace(configuration.run.resume));
   const std::string& file = configuration.run.rawlog;
   const readings::RawlogSummary log = summarise(file, configuration.input);
   const std::vector<std::string> ofLog =
@@ -36,6 +40,11 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     const mrpt::system::CTimeLoggerEntry reading(run.profiler(), "1 read log");
     return source.next();
   };
+  if (session) {
+    run.resume(*session);
+    run.passOver(source, file);
+    session.reset();
+  }
   Progress progress(log.scans, isQuiet);
   const std::string place = run.folderNote();
   if (!place.empty()) progress.say(place);
@@ -59,7 +68,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete = "interrupted: " + source.place() + upToHere;
   else if (outcome.incomplete.empty() && !log.defect.empty())
     outcome.incomplete = "log " + log.defect + ": " + log.defectPlace(file) + upToHere;
-  outcome.summary = run.finish(file, log, version, nlohmann::ordered_json::object());
+  outcome.summary = run.finish(file, log, nlohmann::ordered_json::object());
   if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
   outcome.verdict = run.verdict();
   if (run.folderNote() != place) progress.say(run.folderNote());  // another run has finished there

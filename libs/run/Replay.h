@@ -22,11 +22,11 @@ struct ReplayOutcome {
 
 /// Completes the configuration with the settings read off the log (LogSettings.h) and prints them on standard
 /// output unless quiet. Replays configuration.run.rawlog and writes the result files of doc/results.md to
-/// configuration.run.output.
+/// configuration.run.output. A resumed run takes configuration, log and output from the session (Resume.h).
 /// @param stop  set externally (Ctrl-C): the run ends after the current scan and writes its results
 /// @param wantsProfile  measure stage times
 /// @throws InputError for a wrong log or output folder, std::runtime_error if a result cannot be written
 ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
-                     const std::string& version, bool wantsProfile = false);
+                     bool wantsProfile = false);
 
 }  // namespace hybrid_slam::run

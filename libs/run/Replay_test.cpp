@@ -23,7 +23,7 @@ std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folde
                         "motion_model.distance_var_d=0.0025"});
   c.run.overwrite = true;
   const std::atomic<bool> stop{false};
-  replay(c, true, stop, "test");
+  replay(c, true, stop);
   std::map<std::string, std::string> texts;
   for (const char* name : {"trajectory.tum", "map.yaml", "lines.csv", "particles.csv", "config.ini"})
     texts[name] = test::contentOf(folder.path(std::string("out/") + name));
@@ -68,7 +68,7 @@ TEST(Replay, ADriveOfTenKilometresEndsWithResults) {
                        "particle_filter.proposal=standard", "motion_model.turn_var_d=0",
                        "motion_model.turn_mean_std=0", "input.max_odometry_gap=20"});
   const std::atomic<bool> stop{false};
-  const ReplayOutcome outcome = replay(c, true, stop, "test");
+  const ReplayOutcome outcome = replay(c, true, stop);
   EXPECT_THAT(outcome.warnings, testing::Contains(testing::HasSubstr("cells of 0.45 m instead of 0.05 m")));
   EXPECT_THAT(test::contentOf(folder.path("out/map.yaml")), testing::HasSubstr("resolution: 0.45\n"));
   for (const char* name : {"map.png", "map.pgm", "map.gridmap.gz", "trajectory.tum", "metrics.json"})

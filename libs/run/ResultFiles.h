@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "run/SessionFile.h"
+
 namespace hybrid_slam::run {
 
 /// All files that a run may write (doc/results.md). metrics.json is last: it says that the run is complete.
 inline const std::vector<std::string> kResultFiles{
-    "trajectory.tum",   "covariance.csv", "map.png",   "map.pgm",       "map.yaml",   "map.gridmap.gz",
-    "map.simplemap.gz", "lines.csv",      "steps.csv", "particles.csv", "config.ini", "metrics.json"};
+    "trajectory.tum", "covariance.csv",   "map.png",     "map.pgm",   "map.yaml",
+    "map.gridmap.gz", "map.simplemap.gz", "lines.csv",   "steps.csv", "particles.csv",
+    "config.ini",     kSessionName,       "metrics.json"};
 
 }  // namespace hybrid_slam::run

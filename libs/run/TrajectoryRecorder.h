@@ -28,11 +28,27 @@ class TrajectoryRecorder {
 
   double distance() const { return distance_; }  ///< m, along the odometry
 
+  template <class State>
+  void visit(State& state) {
+    state(scans_, distance_);
+    size_t before = 0;
+    for (const Scan& scan : scans_) {
+      state.check(scan.updates == before || scan.updates == before + 1,
+                  "the scans do not belong to the path");
+      before = scan.updates;
+    }
+  }
+
  private:
   struct Scan {
     double timestamp;
     mrpt::math::TPose2D odometry;
     size_t updates;
+
+    template <class State>
+    void visit(State& state) {
+      state(timestamp, odometry, updates);
+    }
   };
   std::vector<Scan> scans_;
   double distance_ = 0;

@@ -18,6 +18,11 @@ namespace hybrid_slam {
 struct WeightedPose {
   mrpt::math::TPose2D pose;
   double logWeight;
+
+  template <class State>
+  void visit(State& state) {
+    state(pose, logWeight);
+  }
 };
 
 /// Statistics of one filter update: a row of steps.csv. Spreads are weighted standard deviations of the
@@ -45,6 +50,13 @@ struct FilterStep {
   /// incremental weights. Not valid for MRPT's auxiliary filters, which weight differently.
   double logLikelihood = 0;
   /// @}
+
+  /// Without `loop`, `odometry` and `motions`, which the next step replaces.
+  template <class State>
+  void visit(State& state) {
+    state(particles, ess, resampled, stdX, stdY, stdPhi, stdAlong, stdAcross, gridWeight, lineWeight,
+          linesSeen, linesMatched, matched, slipped, degeneracy, poses);
+  }
 };
 
 /// Stores the weighted poses and their spreads, with axes along and across `heading`.

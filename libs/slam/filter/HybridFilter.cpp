@@ -75,18 +75,26 @@ void HybridFilter::closeLoops(const Scans& scans, const PreparedScan& scan) {
   if (!closure) return;
   std::vector<PosedScans> all = known_;
   for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], closure->path[i], true});
-  const ScanMap map = mapOf(all, configuration_);
+  const ScanMap map = mapOf(all, configuration_, base_);
   particles_.continueFrom(*closure, map.grid, map.lines);
 }
 
 void HybridFilter::reset() {
   loopCloser_ = LoopCloser(configuration_.loopClosing, configuration_.grid);
+  base_.reset();
   known_.clear();
   updateScans_.clear();
   odometry_ = TPose2D();
   updates_ = 0;
   hasMap_ = false;
   particles_.reset(TPose2D());
+}
+
+void HybridFilter::continueIn(const ScanMap& map, const TPose2D& start) {
+  reset();
+  particles_.reset(start, map.grid, map.lines);
+  if (configuration_.loopClosing.enabled) base_ = map;
+  hasMap_ = true;
 }
 
 void HybridFilter::insertAt(const TPose2D& pose, const Scans& scans) {

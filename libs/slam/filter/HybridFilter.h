@@ -10,6 +10,9 @@
 
 namespace hybrid_slam {
 
+class StateReader;
+class StateWriter;
+
 class HybridFilter : public Filter {
  public:
   /// @throws InputError for incompatible settings
@@ -26,6 +29,19 @@ class HybridFilter : public Filter {
   std::vector<WeightedPose> particlePoses() const override { return particles_.poses(); }
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
+  /// Of the best particle.
+  ScanMap bestMap() const { return {particles_.best().grid, *particles_.best().lines}; }
+
+  /// Maps on in a map of an earlier run, before the first scan: the robot stands at `start` (map frame). Loop
+  /// closures leave that map as it is.
+  void continueIn(const ScanMap& map, const mrpt::math::TPose2D& start);
+
+  /// @name The whole state (base/State.h). A filter that reads it goes on to the same bytes.
+  /// @{
+  void save(StateWriter& out);
+  /// @throws StateError; the filter is then unusable
+  void load(StateReader& in);
+  /// @}
 
  protected:
   /// Discards the maps: all particles at the origin.
@@ -36,6 +52,8 @@ class HybridFilter : public Filter {
   void startPathAt(const mrpt::math::TPose2D& start) { particles_.startPathAt(start); }
 
  private:
+  template <class State>
+  void visit(State& state);
   void update(const Scans& scans);
   void closeLoops(const Scans& scans, const PreparedScan& scan);
 
@@ -47,6 +65,7 @@ class HybridFilter : public Filter {
   size_t updates_ = 0;
   bool hasMap_ = false;
   LoopCloser loopCloser_;
+  std::optional<ScanMap> base_;    ///< of an earlier run
   std::vector<PosedScans> known_;  ///< in the map before the first update
   std::vector<Scans> updateScans_;
 };

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include "slam/filter/HybridFilter.h"
 #include "testing/RingDrive.h"
@@ -8,19 +7,6 @@ namespace hybrid_slam {
 namespace {
 
 using namespace test;
-
-Scans observed(const LaserScan& seen) {
-  auto scan = std::make_shared<mrpt::obs::CObservation2DRangeScan>();
-  scan->aperture = static_cast<float>(M_PI);
-  scan->maxRange = 80;
-  scan->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(seen.sensorPose));
-  scan->resizeScan(seen.beams.size());
-  for (size_t i = 0; i < seen.beams.size(); ++i) {
-    scan->setScanRange(i, static_cast<float>(seen.beams[i].range));
-    scan->setScanRangeValidity(i, seen.beams[i].valid);
-  }
-  return {scan};
-}
 
 /// The motion model trusts an odometry whose heading drifts: no particle closes the loop.
 FilterConfiguration trustingConfiguration() {

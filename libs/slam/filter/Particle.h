@@ -22,6 +22,12 @@ struct Particle {
   double gridWeight = 1;  ///< w_grid before tempering, in [0, 1]
   LineWeight lineWeight;  ///< w_line
   bool isMatched = true;  ///< improved proposal: from a scan match, not odometry alone
+
+  template <class State>
+  void visit(State& state) {
+    state(path, grid, lines, motion, logWeight, gridWeight, lineWeight, isMatched);
+    state.check(!path.empty() && lines, "a particle is not complete");
+  }
 };
 
 }  // namespace hybrid_slam

@@ -53,9 +53,14 @@ void ParticleSet::forEachParticle(const Body& body) {
 }
 
 void ParticleSet::reset(const TPose2D& start) {
+  reset(start, OccupancyGrid(grid_.resolution), LineDatabase());
+}
+
+void ParticleSet::reset(const TPose2D& start, const OccupancyGrid& grid, const LineDatabase& lines) {
   m_particles.clear();
   Particle particle;
-  particle.grid = OccupancyGrid(grid_.resolution);
+  particle.grid = grid;
+  particle.lines = CowPtr<LineDatabase>(lines);
   particle.path.push(start);
   const int number =
       filter_.isAdaptive() && !filter_.isAuxiliary() ? filter_.minParticles : filter_.fixedParticles();

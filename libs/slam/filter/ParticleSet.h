@@ -5,6 +5,7 @@
 #include <mrpt/system/CTimeLogger.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 
 #include "slam/filter/FilterOptions.h"
@@ -25,6 +26,8 @@ class ParticleSet : public MrptParticles {
 
   /// All particles at `start` with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
+  /// Likewise with this map.
+  void reset(const mrpt::math::TPose2D& start, const OccupancyGrid& grid, const LineDatabase& lines);
   /// Starts the next step: new random streams, and a new record in lastStep.
   void beginStep();
   /// Moves every particle by `motion` without sampling or weighing: while there is no map.
@@ -46,6 +49,25 @@ class ParticleSet : public MrptParticles {
   const Particle& best() const;  ///< argmax of the weight before resampling
   const FilterStep& lastStep() const { return step_; }
   std::vector<WeightedPose> poses() const;
+  /// Whether every particle's path has this many poses.
+  bool arePathsOf(size_t length) const {
+    return std::all_of(m_particles.begin(), m_particles.end(),
+                       [length](const auto& particle) { return particle.d->path.size() == length; });
+  }
+
+  template <class State>
+  void visit(State& state) {
+    size_t count = m_particles.size();
+    state(count);
+    if constexpr (State::kIsReading) m_particles.clear();
+    for (size_t i = 0; i < count; ++i) {
+      if constexpr (State::kIsReading) m_particles.emplace_back().d.reset(new Particle());
+      state(*m_particles[i].d, m_particles[i].log_w);
+      state.check(m_particles[i].d->grid.resolution() == grid_.resolution, "a grid has other cells");
+    }
+    state.check(count > 0, "there is no particle");
+    state(stepNumber_, slipRecovery_, step_);
+  }
 
  private:
   using Proposal = ParticleFilterOptions::Proposal;

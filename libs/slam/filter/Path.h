@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,6 +37,34 @@ class Path {
     for (const Node* node = last_.get(); node; node = node->parent.get()) all.push_back(node->pose);
     std::reverse(all.begin(), all.end());
     return all;
+  }
+
+  /// Nodes that several paths share are written once.
+  template <class State>
+  void visit(State& state) {
+    uint32_t shared = 0;
+    size_t count = 0;
+    if constexpr (State::kIsReading) {
+      state(shared, count);
+      last_ = shared > 0 ? state.template at<Node>(shared) : nullptr;
+      for (size_t i = 0; i < count; ++i) {
+        mrpt::math::TPose2D pose;
+        state(pose);
+        push(pose);
+        state.add(last_);
+      }
+    } else {
+      std::vector<Node*> own;
+      Node* node = last_.get();
+      for (; node && !state.numberOf(node); node = node->parent.get()) own.push_back(node);
+      shared = node ? state.numberOf(node) : 0;
+      count = own.size();
+      state(shared, count);
+      for (auto at = own.rbegin(); at != own.rend(); ++at) {
+        state((*at)->pose);
+        state.add(*at);
+      }
+    }
   }
 
  private:

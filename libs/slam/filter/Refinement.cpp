@@ -15,8 +15,9 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& options) {
-  OccupancyGrid grid(options.resolution);
+OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& options,
+                     const std::optional<ScanMap>& base) {
+  OccupancyGrid grid = base ? base->grid : OccupancyGrid(options.resolution);
   for (const PosedScans& posed : scans)
     if (posed.isMapped)
       grid.insert(ScanBeams(toLaserScans(posed.scans, options.maxRange)), posed.pose, options);
@@ -25,9 +26,10 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
 
 }  // namespace
 
-ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration) {
+ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
+              const std::optional<ScanMap>& base) {
   const ScanPreparation prepare(configuration);
-  ScanMap map{gridOf(scans, configuration.grid), {}};
+  ScanMap map{gridOf(scans, configuration.grid, base), base ? base->lines : LineDatabase()};
   for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
     std::vector<LineSegment> lines = prepare.lines(toLaserScans(posed.scans, configuration.grid.maxRange));
@@ -55,14 +57,15 @@ std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vecto
   return closures;
 }
 
-void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes) {
+void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes,
+            const std::optional<ScanMap>& base) {
   const Eigen::Vector3d deviations(0.05, 0.05, mrpt::DEG2RAD(1.0));
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher matcher(configuration.matcher);
   tbb::task_arena arena(arenaThreads(configuration.filter.threads));
   for (int pass = 0; pass < passes; ++pass) {
-    const OccupancyGrid grid = gridOf(scans, configuration.grid);
-    parallelFor(arena, 1, scans.size(), [&](size_t i) {
+    const OccupancyGrid grid = gridOf(scans, configuration.grid, base);
+    parallelFor(arena, base ? 0 : 1, scans.size(), [&](size_t i) {
       TPose2D& pose = scans[i].pose;
       const LaserScans seen = toLaserScans(scans[i].scans, configuration.grid.maxRange);
       const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));

@@ -18,14 +18,27 @@ struct PosedScans {
   Scans scans;
   mrpt::math::TPose2D pose;  ///< map frame
   bool isMapped = false;     ///< used in an update: its beams and lines are in the map
+
+  template <class State>
+  void visit(State& state) {
+    state(scans, pose, isMapped);
+  }
 };
 
-/// Builds the map from scans at their poses.
+/// A map: of scans at their poses, or of an earlier run.
 struct ScanMap {
   OccupancyGrid grid;
   LineDatabase lines;
+
+  template <class State>
+  void visit(State& state) {
+    state(grid, lines);
+  }
 };
-ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration);
+/// Builds the map from scans at their poses.
+/// @param base  to insert them into; empty: an empty map
+ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
+              const std::optional<ScanMap>& base = {});
 
 /// Closes the loops that a finished path leaves open, from its first update to its last.
 /// @param path       a pose for each update (map frame); corrected
@@ -35,9 +48,11 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
                                     const std::optional<double>& direction,
                                     const FilterConfiguration& configuration);
 
-/// Matches every scan, also those between two updates, against the map that all of them make, `passes` times.
-/// A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that fits less than
-/// min_fit leaves it unchanged. The first pose is fixed, since it defines the map frame.
-void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes);
+/// Matches every scan, also those between two updates, against the map that all of them and `base` make,
+/// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
+/// fits less than min_fit leaves it unchanged. Without `base` the first pose is fixed, since it defines the
+/// map frame.
+void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes,
+            const std::optional<ScanMap>& base = {});
 
 }  // namespace hybrid_slam

@@ -79,6 +79,10 @@ ScanMatch ScanOdometry::match(const ScanBeams& beams, const TPose2D& expected) c
 void ScanOdometry::addKeyframe(const ScanBeams& beams) {
   keyframes_.push_back({beams, pose_});
   if (keyframes_.size() > kKeyframes) keyframes_.pop_front();
+  makeMap();
+}
+
+void ScanOdometry::makeMap() {
   map_ = OccupancyGrid(grid_.resolution);
   for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, grid_);
 }

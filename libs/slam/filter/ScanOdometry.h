@@ -23,14 +23,26 @@ class ScanOdometry {
   /// @param timestamp  s; a shorter step than the last is predicted to be shorter in proportion
   mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp);
 
+  template <class State>
+  void visit(State& state) {
+    state(keyframes_, pose_, lastMotion_, lastDuration_, lastTime_);
+    if constexpr (State::kIsReading) makeMap();
+  }
+
  private:
   mrpt::math::TPose2D predicted(double duration) const;
   struct Keyframe {
     ScanBeams beams;
     mrpt::math::TPose2D pose;
+
+    template <class State>
+    void visit(State& state) {
+      state(beams, pose);
+    }
   };
   ScanMatch match(const ScanBeams& beams, const mrpt::math::TPose2D& expected) const;
   void addKeyframe(const ScanBeams& beams);
+  void makeMap();
 
   GridOptions grid_;
   ScanPreparation prepare_;

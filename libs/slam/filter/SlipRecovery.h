@@ -36,6 +36,11 @@ class SlipRecovery {
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
                                     const PreparedScan& scan);
 
+  template <class State>
+  void visit(State& state) {
+    state(contradicting_, usualFit_);
+  }
+
  private:
   struct Hypothesis {
     ScanMatch match;
@@ -59,6 +64,11 @@ class SlipRecovery {
   struct TakenScan {
     mrpt::math::TPose2D odometry;  ///< since the one before
     ScanBeams beams;
+
+    template <class State>
+    void visit(State& state) {
+      state(odometry, beams);
+    }
   };
   std::deque<TakenScan> contradicting_;  ///< the newest successive scans that contradict the map
   double usualFit_ = 0;                  ///< running mean of the fit, recent scans weighted most

@@ -22,6 +22,10 @@ class CowPtr {
   const T* operator->() const { return shared_.get(); }
   /// Whether both share one value in memory.
   bool sharesWith(const CowPtr& other) const { return shared_ == other.shared_; }
+  template <class State>
+  void visit(State& state) {
+    state(shared_);
+  }
 
   /// The value for writing, unshared; default-constructed if there was none.
   T& write() {

@@ -39,6 +39,11 @@ class OccupancyGrid {
 
   const TileGrid& tiles() const { return tiles_; }
   TileGrid& tiles() { return tiles_; }
+  template <class State>
+  void visit(State& state) {
+    state(resolution_, tiles_);
+    state.check(resolution_ > 0, "a cell has no size");
+  }
 
  private:
   double resolution_;

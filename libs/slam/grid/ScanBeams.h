@@ -20,10 +20,17 @@ struct ScanBeams {
     double dirX, dirY;  ///< unit vector, robot frame
     double range;       ///< m
     size_t laser;       ///< index in `origins`
+    template <class State>
+    void visit(State& state) {
+      state(dirX, dirY, range, laser);
+      state.check(std::abs(dirX) <= 1.001 && std::abs(dirY) <= 1.001 && range > 0 && range <= 1e4,
+                  "a beam is impossible");
+    }
   };
   std::vector<mrpt::math::TPoint2D> origins;  ///< of each laser, robot frame, m
   std::vector<Ray> rays;
 
+  ScanBeams() = default;
   /// All beams.
   explicit ScanBeams(const LaserScan& scan) { addAll(scan); }
   explicit ScanBeams(const LaserScans& scans) {
@@ -40,6 +47,13 @@ struct ScanBeams {
         add(scan, scan.beams[*next - first]);
       first += scan.beams.size();
     }
+  }
+
+  template <class State>
+  void visit(State& state) {
+    state(origins, rays);
+    state.check(origins.size() <= kMaxLasers, "too many lasers");
+    for (const Ray& ray : rays) state.check(ray.laser < origins.size(), "a beam of no laser");
   }
 
  private:

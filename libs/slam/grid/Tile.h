@@ -36,6 +36,11 @@ class Tile {
     cells_[index(x, y)] = value;
     lookForFree(x >> kSquareBits, y >> kSquareBits);
   }
+  template <class State>
+  void visit(State& state) {
+    state.bytes(cells_.data(), cells_.size());
+    if constexpr (State::kIsReading) assign(Cells(cells_));
+  }
   void assign(const Cells& cells) {
     cells_ = cells;
     for (int y = 0; y < kSize / kSquareSize; ++y)

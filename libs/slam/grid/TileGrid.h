@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -55,9 +56,23 @@ class TileGrid {
   /// Calls visit(tx, ty, tile) for each tile that exists, in a fixed order.
   void forEachTile(const std::function<void(int, int, const Tile&)>& visit) const;
 
+  template <class State>
+  void visit(State& state) {
+    state(firstX_, firstY_, columns_, rows_, blocks_);
+    constexpr int kMost = 1 << 20;  // blocks, so that cells fit into an int
+    state.check(std::abs(firstX_) <= kMost && std::abs(firstY_) <= kMost && columns_ >= 0 &&
+                    columns_ <= kMost && rows_ >= 0 && rows_ <= kMost &&
+                    static_cast<int64_t>(columns_) * rows_ == static_cast<int64_t>(blocks_.size()),
+                "a grid has the wrong size");
+  }
+
  private:
   struct Block {
     std::array<CowPtr<Tile>, kBlockSize * kBlockSize> tiles;
+    template <class State>
+    void visit(State& state) {
+      state(tiles);
+    }
   };
   static size_t inBlock(int tx, int ty) {
     return static_cast<size_t>(((ty & (kBlockSize - 1)) << kBlockBits) | (tx & (kBlockSize - 1)));

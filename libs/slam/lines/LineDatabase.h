@@ -32,6 +32,13 @@ struct DatabaseLine : LineSegment {
   /// more precise than the line's theta, and a line newly inserted by a drifting particle takes the direction
   /// of the walls it should be parallel or perpendicular to.
   double direction = 0;
+
+  template <class State>
+  void visit(State& state) {
+    LineSegment::visit(state);
+    state(count, inserted, direction);
+    state.check(count >= 1 && std::abs(direction) < 4, "a line is impossible");
+  }
 };
 
 /// eq. (7) and (8): the running mean of a line's observations. The ends are the two farthest of the four
@@ -92,6 +99,11 @@ class LineDatabase {
   std::optional<double> dominatingDirection() const { return dominatingDirection_; }
   /// Sum of evidence() over the lines, m.
   double totalEvidence() const { return totalEvidence_; }
+
+  template <class State>
+  void visit(State& state) {
+    state(lines_, dominatingDirection_, totalEvidence_, updates_);
+  }
 
  private:
   void prune(const LineDatabaseOptions& options);

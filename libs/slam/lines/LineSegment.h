@@ -20,6 +20,13 @@ struct LineSegment {
   double theta = 0;                 ///< rad, in (-pi, pi]
   double length = 0;                ///< m
   mrpt::math::TPoint2D start, end;  ///< m, on the line, in the line's frame
+
+  template <class State>
+  void visit(State& state) {
+    state(rho, theta, length, start, end);
+    state.check(rho >= 0 && rho < 1e7 && std::abs(theta) < 4 && length >= 0 && length < 1e7,
+                "a line is impossible");
+  }
 };
 
 /// Computes rho, theta and length from the two ends. Two equal ends give a line parallel to the x axis.

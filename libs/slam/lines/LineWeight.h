@@ -50,6 +50,11 @@ struct LineWeight {
   double slope = 0;  ///< derivative of value with respect to the heading, 1/rad; 0 at the floor
   int seen = 0;      ///< observed lines
   int matched = 0;   ///< of these, parallel or perpendicular to lines of the database
+
+  template <class State>
+  void visit(State& state) {
+    state(value, slope, seen, matched);
+  }
 };
 
 /// w_line of a particle, eq. (9): total length of matched lines / total length of detected lines, each

@@ -12,6 +12,11 @@ namespace hybrid_slam {
 struct Keyframe {
   size_t update = 0;  ///< index of the path
   ScanBeams beams;
+
+  template <class State>
+  void visit(State& state) {
+    state(update, beams);
+  }
 };
 
 /// The map of some keyframes, in the frame of one of them.

@@ -39,11 +39,35 @@ class LoopCloser {
   std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
                                    const std::optional<double>& direction);
 
+  template <class State>
+  void visit(State& state) {
+    state(keyframes_, variances_, wallDirections_, loops_, known_, candidates_, updates_, motion_, variance_,
+          toAttempt_);
+    const size_t count = keyframes_.size();
+    bool isWhole =
+        variances_.size() == count && wallDirections_.size() == count && known_.size() == loops_.size();
+    for (size_t i = 0; i < count && isWhole; ++i)
+      isWhole =
+          keyframes_[i].update < updates_ && (i == 0 || keyframes_[i - 1].update < keyframes_[i].update);
+    const auto isEdge = [count](size_t from, size_t to) { return from < to && to < count; };
+    for (const PoseEdge& edge : loops_) isWhole = isWhole && isEdge(edge.from, edge.to);
+    for (const KnownPair& pair : known_) isWhole = isWhole && isEdge(pair.earlier, pair.later);
+    for (const Candidate& candidate : candidates_)
+      isWhole = isWhole && isEdge(candidate.edge.from, candidate.edge.to);
+    state.check(isWhole, "the loops do not belong to the path");
+  }
+  size_t updates() const { return updates_; }
+
  private:
   struct Candidate {
     PoseEdge edge;
     Agreement agreement;
     double second;
+
+    template <class State>
+    void visit(State& state) {
+      state(edge, agreement, second);
+    }
   };
   struct Visit {
     std::vector<mrpt::math::TPose2D> poses;  ///< of the keyframes, map frame

@@ -13,6 +13,12 @@ namespace hybrid_slam {
 struct StepVariance {
   double position = 0;  ///< m^2, in x and in y
   double heading = 0;   ///< rad^2
+
+  template <class State>
+  void visit(State& state) {
+    state(position, heading);
+    state.check(position >= 0 && heading >= 0, "a variance is negative");
+  }
 };
 
 /// The error model: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a rotation. Where the odometry
@@ -23,6 +29,11 @@ StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 struct KnownPair {
   size_t earlier = 0, later = 0;                         ///< indices of the path
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the later one, map frame
+
+  template <class State>
+  void visit(State& state) {
+    state(earlier, later, covariance);
+  }
 };
 
 /// Accumulates the errors of a path's motions. A heading error moves all that follows about the place where

@@ -14,6 +14,11 @@ struct PoseEdge {
   size_t from = 0, to = 0;
   mrpt::math::TPose2D relative;
   Eigen::Matrix3d information;
+
+  template <class State>
+  void visit(State& state) {
+    state(from, to, relative, information);
+  }
 };
 
 struct PoseGraph {

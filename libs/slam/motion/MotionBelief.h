@@ -21,12 +21,22 @@ class MotionBelief {
   void learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
              const MotionModelOptions& options);
 
+  template <class State>
+  void visit(State& state) {
+    state(distance_, drift_, turn_);
+  }
+
  private:
   struct Term {
     MotionTerm model(MotionTerm prior) const;
     void learn(const MotionStep& odometry, double value, const MotionTerm& prior, double minStd);
     double dd = 0, dt = 0, tt = 0;  ///< information of the motions so far
     double d = 0, t = 0;            ///< sum
+
+    template <class State>
+    void visit(State& state) {
+      state(dd, dt, tt, d, t);
+    }
   };
   Term distance_, drift_, turn_;
 };

@@ -82,7 +82,7 @@ std::string LiveSession::run() {
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
              [&] { return isStopping_ || live.hasFailed(); });
   publish([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
-  return live.finish(HYBRID_SLAM_VERSION, client.lost());
+  return live.finish(client.lost());
 }
 
 }  // namespace hybrid_slam::window

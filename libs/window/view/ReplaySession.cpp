@@ -41,7 +41,7 @@ struct Lane {
     if (!std::exchange(isFinished, true)) {
       configuration.run.output = target;
       try {
-        run.finish(file, log, HYBRID_SLAM_VERSION, nlohmann::ordered_json::object());
+        run.finish(file, log, nlohmann::ordered_json::object());
       } catch (...) {
         failure = std::current_exception();
       }

@@ -88,7 +88,7 @@ TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
   run::Configuration offline = c;
   offline.run.output = folder.path("offline");
   const std::atomic<bool> stop{false};
-  run::replay(offline, true, stop, "test");
+  run::replay(offline, true, stop);
 
   ReplaySession session(c, {Method::hybrid, Method::general});
   session.seek(20);

@@ -1,0 +1,70 @@
+/// @file SessionArguments.h
+/// @brief Command-line options for sessions and maps of earlier runs.
+#pragma once
+
+#include <mrpt/core/bits_math.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "base/Errors.h"
+#include "run/Configuration.h"
+
+namespace hybrid_slam {
+
+struct SessionArguments {
+  std::string resume, continueFrom, localizeIn;
+  std::vector<double> start;
+  double checkpointEvery = 0;
+
+  /// --checkpoint-every
+  void addCheckpoints(CLI::App& app) {
+    app.add_option("--checkpoint-every", checkpointEvery,
+                   "save session.hslam to the output folder every so many seconds")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.001, 1e9));
+  }
+  /// --checkpoint-every, --resume
+  void addResume(CLI::App& app) {
+    addCheckpoints(app);
+    app.add_option(
+           "--resume", resume,
+           "go on with the run that saved this session, with its configuration, log and output folder")
+        ->type_name("FILE");
+  }
+  /// --continue, --localize, --start
+  void addMap(CLI::App& app) {
+    const std::string maps = " this session, map.yaml or gridmap";
+    app.add_option("--continue", continueFrom, "map on in" + maps)->type_name("FILE");
+    app.add_option("--localize", localizeIn, "localise in" + maps + ", which stays as it is")
+        ->type_name("FILE");
+    app.add_option("--start", start,
+                   "pose in this map at the start of the log (m, deg); else it is searched for")
+        ->type_name("X,Y,DEG")
+        ->delimiter(',')
+        ->expected(3);
+  }
+  /// @throws InputError for options that exclude each other
+  void addTo(run::RunOptions& run) const {
+    const int modes = !resume.empty() + !continueFrom.empty() + !localizeIn.empty();
+    if (modes > 1)
+      throw InputError("--resume, --continue and --localize exclude each other", "command line",
+                       "expected one");
+    if (!start.empty() && continueFrom.empty() && localizeIn.empty())
+      throw InputError("--start without a map", "command line", "expected --continue or --localize as well");
+    if (!localizeIn.empty() && checkpointEvery > 0)
+      throw InputError("--checkpoint-every with --localize", "command line",
+                       "expected one: localisation leaves the map as it is");
+    run.resume = resume, run.continueFrom = continueFrom, run.localizeIn = localizeIn;
+    run.checkpointEvery = checkpointEvery;
+    if (start.empty()) return;
+    run.start.emplace(start[0], start[1], mrpt::DEG2RAD(start[2]));
+    for (const double value : start)
+      if (!(std::abs(value) <= 1e6))
+        throw InputError("start too far away", "command line, option --start",
+                         "expected at most 1e6 m and deg");
+  }
+};
+
+}  // namespace hybrid_slam

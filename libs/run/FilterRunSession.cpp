@@ -1,0 +1,112 @@
+// Saving a run and going on with it.
+#include <filesystem>
+
+#include "base/Clock.h"
+#include "base/Errors.h"
+#include "files/DatedName.h"
+#include "run/FilterRun.h"
+#include "run/Fingerprint.h"
+#include "run/MapFiles.h"
+#include "slam/grid/GridConversion.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+/// A table of a session goes on in a file.
+template <class State>
+void visitTable(State& state, files::GrowingFile& file) {
+  std::string text;
+  if constexpr (!State::kIsReading) text = file.content();
+  state(text);
+  if constexpr (State::kIsReading) file.restart(text);
+}
+
+InputError otherLog(const std::string& log) {
+  return {"another log than the session's", log, "expected one that begins with the readings of the session"};
+}
+
+}  // namespace
+
+template <class State>
+void FilterRun::visit(State& state) {
+  state(fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_, particlesMax_,
+        firstSlip_, recorder_, uses_, updateTimes_, particleCovariances_);
+  visitTable(state, steps_);
+  bool hasParticles = particles_.has_value(), hasScanOdometry = scanOdometry_.has_value();
+  state(hasParticles, hasScanOdometry);
+  state.check(hasParticles == particles_.has_value() && hasScanOdometry == scanOdometry_.has_value(),
+              "it does not belong to its configuration");
+  if (particles_) visitTable(state, *particles_);
+  if (scanOdometry_) state(*scanOdometry_);
+  if constexpr (State::kIsReading) {
+    hybrid_->load(state);
+    size_t processed = 0, updates = 0;
+    for (const Use use : uses_) {
+      state.check(use == Use::skipped || use == Use::carried || use == Use::update, "a reading has no use");
+      processed += use != Use::skipped;
+      updates += use == Use::update;
+    }
+    state.check(processed == scans_ && recorder_.updates().size() == scans_ &&
+                    updates == hybrid_->updates() && (scans_ == 0 || recorder_.updates().back() == updates) &&
+                    updateTimes_.size() == updates && particleCovariances_.size() == updates,
+                "its readings do not belong to its path");
+  } else {
+    hybrid_->save(state);
+  }
+}
+
+void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
+                              const std::vector<mrpt::math::TPose2D>& poses) {
+  std::string bytes;
+  StateWriter out(bytes);
+  SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses};
+  writeHeader(out, header);
+  const double before = secondsBefore_;
+  secondsBefore_ += secondsSince(start_);
+  visit(out);
+  secondsBefore_ = before;
+  saveSession(path, bytes);
+}
+
+void FilterRun::checkpointIfDue() {
+  if (isSaveRequested_.exchange(false)) saveNow();
+  const double every = configuration_.run.checkpointEvery;
+  if (every <= 0 || !hybrid_ || secondsSince(lastCheckpoint_) < every) return;
+  staged_.setOwn(kSessionName);
+  saveSessionTo(staged_.finalPath(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  lastCheckpoint_ = Clock::now();
+}
+
+void FilterRun::saveNow() {
+  const std::string name = files::claimDatedName([this](const std::string& date) {
+    return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
+  });
+  const files::OutputFolder folder(staged_.finalPath("saved-" + name));
+  const auto grid = filter_->bestGrid();
+  const auto trajectory = recorder_.trajectory(filter_->bestPath());
+  const auto lines = filter_->bestLines();
+  folder.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(trajectory, out); });
+  savePicture(folder, grid, trajectory, lines);
+  saveRosMap(folder, grid);
+  saveLines(folder, lines);
+  if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  saveNotes_.push_back("map saved: " + staged_.finalPath("saved-" + name));
+}
+
+void FilterRun::resume(SessionReader& session) {
+  if (!hybrid_)
+    throw InputError("MRPT's filter has no sessions", session.file(), "expected method hybrid or general");
+  session.readRest([this](StateReader& in) { visit(in); });
+}
+
+void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {
+  uint32_t found = 0;
+  for (const Use use : uses_) {
+    const auto reading = source.next();
+    if (!reading) throw otherLog(log);
+    if (use != Use::skipped) found = fingerprintAfter(found, *reading);
+  }
+  if (found != fingerprint_) throw otherLog(log);
+}
+
+}  // namespace hybrid_slam::run

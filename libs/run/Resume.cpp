@@ -1,0 +1,40 @@
+#include "run/Resume.h"
+
+#include "base/Errors.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+bool mayDiffer(const std::string& section, const std::string& key) {
+  return (section == "run" && (key == "output" || key == "rawlog")) ||
+         (section == "particle_filter" && key == "threads");
+}
+
+}  // namespace
+
+void adopt(Configuration& configuration, const SessionReader& session) {
+  if (session.header().version != HYBRID_SLAM_VERSION)
+    throw InputError("session of version " + session.header().version, session.file(),
+                     "expected version " HYBRID_SLAM_VERSION " to resume; --continue maps on in its map");
+  Configuration earlier;
+  earlier.load(session.header().configuration, session.file());
+  const files::Sections given = configuration.sections();
+  for (const auto& [section, options] : earlier.sections()) {
+    const auto ours =
+        std::find_if(given.begin(), given.end(), [&](const auto& s) { return s.first == section; });
+    const std::vector<Option> now = ours->second->table(), then = options->table();
+    for (size_t i = 0; i < then.size(); ++i) {
+      const std::string& key = then[i].key;
+      if (!configuration.source.keyExists(section, key) || now[i].get() == then[i].get()) continue;
+      if (mayDiffer(section, key))
+        then[i].set(now[i].get());
+      else
+        throw InputError("another configuration than the session's",
+                         "section [" + section + "], key `" + key + "` = " + now[i].get(),
+                         "expected " + then[i].get() + " as in " + session.file());
+    }
+  }
+  configuration.load(earlier.text(), session.file());
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,80 @@
+#include "run/SessionFile.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "base/Errors.h"
+#include "files/Gzip.h"
+#include "files/PartialFile.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+constexpr uint64_t kMagic = 0x6d616c532d627948;  // "Hyb-Slam"
+constexpr uint32_t kFormat = 1;
+constexpr size_t kMostBytes = size_t{1} << 33;
+const char* const kWhat = "session file (session.hslam) of hybrid-slam";
+
+/// Writes everything, to disk.
+bool writeAll(int file, const std::string& bytes) {
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno != EINTR) return false;
+    done += static_cast<size_t>(std::max<ssize_t>(count, 0));
+  }
+  return ::fsync(file) == 0;
+}
+
+}  // namespace
+
+void writeHeader(StateWriter& out, SessionHeader& header) {
+  auto magic = kMagic;
+  auto format = kFormat;
+  out(magic, format, header);
+}
+
+void saveSession(const std::string& path, const std::string& bytes) {
+  files::PartialFile partial(path);
+  const int file = ::open(partial.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) partial.fail(errno);
+  errno = 0;
+  const bool isWritten = writeAll(file, files::gzipped(bytes));
+  const int error = errno;
+  ::close(file);
+  if (!isWritten) partial.fail(error);
+  partial.commit();
+}
+
+SessionReader::SessionReader(const std::string& file)
+    : file_(file), bytes_(files::readGzip(file, kWhat, kMostBytes)), in_(bytes_) {
+  uint64_t magic = 0;
+  uint32_t format = 0;
+  guarded([&] { in_(magic); });
+  if (magic != kMagic) throw InputError("not a session file", file_, std::string("expected a ") + kWhat);
+  guarded([&] { in_(format); });
+  if (format != kFormat)
+    throw InputError(
+        "session of format " + std::to_string(format), file_,
+        "expected format " + std::to_string(kFormat) + ", which this version of hybrid-slam writes");
+  guarded([&] { in_(header_); });
+}
+
+void SessionReader::readRest(const std::function<void(StateReader&)>& read) {
+  guarded([&] {
+    read(in_);
+    StateReader::check(in_.isAtEnd(), "it has more bytes than it should");
+  });
+}
+
+void SessionReader::guarded(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const StateError& error) {
+    throw InputError(std::string("damaged session, ") + error.what(), file_,
+                     std::string("expected a ") + kWhat);
+  }
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,60 @@
+/// @file SessionFile.h
+/// @brief `session.hslam`: a run with its map, to resume, continue, localise in or merge.
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/State.h"
+#include "slam/filter/Refinement.h"
+
+namespace hybrid_slam::run {
+
+inline const char* const kSessionName = "session.hslam";
+
+/// What every use of a session needs. The state of the run follows in the file (FilterRun).
+struct SessionHeader {
+  std::string version;                    ///< of the program that wrote it
+  std::string configuration;              ///< Configuration::text()
+  ScanMap map;                            ///< the best so far; of a finished run, the refined one
+  std::vector<mrpt::math::TPose2D> path;  ///< a pose for each update (m, rad), in this map
+
+  template <class State>
+  void visit(State& state) {
+    state(version, configuration, map, path);
+  }
+};
+
+/// Writes what a session file starts with.
+void writeHeader(StateWriter& out, SessionHeader& header);
+
+/// Writes the bytes compressed, to disk before the name changes: a reader finds the former file or this one.
+/// @throws InputError if the file cannot be written
+void saveSession(const std::string& path, const std::string& bytes);
+
+/// Reads a session file.
+class SessionReader {
+ public:
+  /// @throws InputError for a file that is missing, foreign, cut, damaged or of another format
+  explicit SessionReader(const std::string& file);
+  SessionReader(const SessionReader&) = delete;
+  SessionReader& operator=(const SessionReader&) = delete;
+
+  const std::string& file() const { return file_; }
+  const SessionHeader& header() const { return header_; }
+  /// Reads what follows the header, to the end.
+  /// @throws InputError likewise
+  void readRest(const std::function<void(StateReader&)>& read);
+
+ private:
+  void guarded(const std::function<void()>& read);
+
+  std::string file_, bytes_;
+  StateReader in_;
+  SessionHeader header_;
+};
+
+}  // namespace hybrid_slam::run
