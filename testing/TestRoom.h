@@ -21,19 +21,24 @@ inline Walls room() {
 }
 
 /// 181 beams over 180 deg, 80 m, 1 cm of noise, 0.2 m ahead of the robot's centre.
-inline mrpt::obs::CObservation2DRangeScan roomScan(const TPose2D& robot, RandomStream& random) {
+inline mrpt::obs::CObservation2DRangeScan observationOf(const Walls& walls, const TPose2D& robot,
+                                                        RandomStream& random) {
   const TPose2D sensor(0.2, 0, 0);
-  const LaserScan seen = scanOf(room(), robot, sensor, 181, M_PI, 0.01, random);
+  const LaserScan seen = scanOf(walls, robot, sensor, 181, M_PI, 0.01, random);
   mrpt::obs::CObservation2DRangeScan out;
   out.aperture = static_cast<float>(M_PI);
   out.maxRange = 80;
   out.sensorPose = mrpt::poses::CPose3D(sensor);
   out.resizeScan(seen.beams.size());
   for (size_t i = 0; i < seen.beams.size(); ++i) {
-    out.setScanRange(i, static_cast<float>(seen.beams[i].range));
-    out.setScanRangeValidity(i, true);
+    out.setScanRange(i, static_cast<float>(std::min(seen.beams[i].range, 80.0)));
+    out.setScanRangeValidity(i, seen.beams[i].range < 80);
   }
   return out;
+}
+
+inline mrpt::obs::CObservation2DRangeScan roomScan(const TPose2D& robot, RandomStream& random) {
+  return observationOf(room(), robot, random);
 }
 
 struct DriveStep {

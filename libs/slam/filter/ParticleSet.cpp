@@ -73,6 +73,22 @@ void ParticleSet::reset(const TPose2D& start, const OccupancyGrid& grid, const L
   slipRecovery_ = newSlipRecovery_;  // the usual fit belongs to the old map
 }
 
+void ParticleSet::place(const std::vector<TPose2D>& poses, const OccupancyGrid& grid,
+                        const LineDatabase& lines) {
+  m_particles.clear();
+  Particle particle;
+  particle.grid = grid;
+  particle.lines = CowPtr<LineDatabase>(lines);
+  for (const TPose2D& pose : poses) {
+    m_particles.emplace_back();
+    m_particles.back().d.reset(new Particle(particle));
+    m_particles.back().d->path.push(pose);
+    m_particles.back().log_w = 0;
+  }
+  slipRecovery_ = newSlipRecovery_;
+  slipRecovery_.searchOnlyNearby();
+}
+
 void ParticleSet::beginStep() {
   ++stepNumber_;
   step_ = FilterStep();

@@ -28,6 +28,10 @@ class ParticleSet : public MrptParticles {
   void reset(const mrpt::math::TPose2D& start);
   /// Likewise with this map.
   void reset(const mrpt::math::TPose2D& start, const OccupancyGrid& grid, const LineDatabase& lines);
+  /// Replaces the particles by one at each pose, with equal weights and this map, in which they are to be
+  /// localised: a robot that was carried is not searched for in the whole map.
+  void place(const std::vector<mrpt::math::TPose2D>& poses, const OccupancyGrid& grid,
+             const LineDatabase& lines);
   /// Starts the next step: new random streams, and a new record in lastStep.
   void beginStep();
   /// Moves every particle by `motion` without sampling or weighing: while there is no map.

@@ -26,14 +26,6 @@ constexpr size_t kHypotheses = 6;
 
 const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 
-/// The headings at which the walls in the scan are parallel or perpendicular to those of the map; empty if
-/// either has no dominating direction.
-std::vector<double> alignedHeadings(const std::vector<LineSegment>& seen, const LineDatabase& database) {
-  const auto scan = directionModuloRightAngle(seen), map = database.dominatingDirection();
-  if (!scan || !map) return {};
-  return {*map - *scan, *map - *scan + M_PI / 2, *map - *scan + M_PI, *map - *scan - M_PI / 2};
-}
-
 }  // namespace
 
 SlipRecovery::SlipRecovery(const FilterConfiguration& c)
@@ -64,7 +56,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
     hypotheses = searchWindow({options_.slipDistance, options_.slipAngle}, best, expected, usual, scan);
     const auto isContradicted = [&] {
-      return contradictedShare(scan.matchedBeams, hypotheses[0].match.pose, best.grid) > kContradicted;
+      return beamShares(scan.matchedBeams, hypotheses[0].match.pose, best.grid).contradicted > kContradicted;
     };
     if (isContradicted())
       hypotheses = searchWindow({options_.slipDistance, M_PI}, best, expected, usual, scan);
@@ -134,11 +126,10 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const SearchWin
 std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& best,
                                                               const PreparedScan& scan) const {
   std::vector<Hypothesis> all;
-  if (contradicting_.size() < kCarriedScans) return all;
-  for (const TPose2D& place :
-       globalSearch(scan.matchedBeams, best.grid, mrpt::math::TPoint2D(best.path.back()),
-                    alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
-    const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
+  if (!searchesMap_ || contradicting_.size() < kCarriedScans) return all;
+  const GlobalSearch search(best.grid, mrpt::math::TPoint2D(best.path.back()));
+  for (const auto& place : search(scan.matchedBeams, alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
+    const ScanMatch match = matcher_.match(scan.matchedBeams, place.pose, best.grid, kAnywhere);
     if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
   }
   return rivals(std::move(all));
@@ -150,7 +141,7 @@ bool SlipRecovery::fitsAll(TPose2D pose, const Particle& best) const {
     const TPose2D offset = match.pose - pose;
     if (match.fit < kPoorFit * usualFit_ || offset.norm() > 0.3 ||
         std::abs(offset.phi) > mrpt::DEG2RAD(10.0) ||
-        contradictedShare(scan->beams, match.pose, best.grid) > kUncontradicted)
+        beamShares(scan->beams, match.pose, best.grid).contradicted > kUncontradicted)
       return false;
     pose = match.pose + (TPose2D() - scan->odometry);
   }

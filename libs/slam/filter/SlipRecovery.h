@@ -32,6 +32,8 @@ struct StepMotion {
 class SlipRecovery {
  public:
   explicit SlipRecovery(const FilterConfiguration& configuration);
+  /// From now on, a robot that was carried is not searched for in the whole map.
+  void searchOnlyNearby() { searchesMap_ = false; }
   /// At least one, the most likely first.
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
                                     const PreparedScan& scan);
@@ -59,6 +61,7 @@ class SlipRecovery {
   ImprovedProposalOptions options_;
   MotionModelOptions motion_;
   double exponent_;  ///< of w_grid
+  bool searchesMap_ = true;
   ScanMatcher matcher_;
   GridWeight gridWeight_;
   struct TakenScan {

@@ -8,18 +8,52 @@
 
 namespace hybrid_slam {
 
-/// Share of the beams that contradict the map at a pose: they end where it is free, or pass through a wall.
-/// Beams through unknown cells contradict nothing. In [0, 1]; 0 without beams.
-double contradictedShare(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid);
+/// How the beams of a scan agree with a map, each a share in [0, 1]; 0 without beams. Beams through unknown
+/// cells do neither.
+struct BeamShares {
+  double explained = 0;     ///< end at a wall and pass through none
+  double contradicted = 0;  ///< end where the map is free, or pass through a wall
+};
+BeamShares beamShares(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid);
 
-/// The poses (map frame, best first) at which most beams end at walls, on a lattice of 0.2 m and 2 deg over
-/// the free cells of the map within 500 m; at most one within 0.5 m and 10 deg. To be refined by a scan
-/// match.
-/// @param around    centre of the search (m, map frame)
-/// @param headings  search only within 6 deg of these (rad); empty: all headings
-/// @param count     maximum number of poses
-std::vector<mrpt::math::TPose2D> globalSearch(const ScanBeams& scan, const OccupancyGrid& grid,
-                                              const mrpt::math::TPoint2D& around,
-                                              const std::vector<double>& headings, size_t count);
+/// Searches a map that does not change for a scan. The constructor costs a pass over the map.
+class GlobalSearch {
+ public:
+  /// @param around  centre of the search (m, map frame): cells within 500 m are searched
+  GlobalSearch(const OccupancyGrid& grid, const mrpt::math::TPoint2D& around);
+
+  struct Place {
+    mrpt::math::TPose2D pose;  ///< map frame
+    double score;              ///< share of the beams that end at walls, those near a wall count half
+  };
+  /// The poses at which most beams end at walls, best first, on a lattice of 0.2 m and 2 deg over the free
+  /// cells of the map; at most one within 0.5 m and 10 deg. To be refined by a scan match.
+  /// @param headings  search only within 6 deg of these (rad); empty: all headings
+  /// @param count     maximum number of poses
+  std::vector<Place> operator()(const ScanBeams& scan, const std::vector<double>& headings,
+                                size_t count) const;
+
+  /// Free places (m, map frame), at most one in a square of `spacing` (m).
+  std::vector<mrpt::math::TPoint2D> freePlaces(double spacing) const;
+
+ private:
+  /// The map in cells of `size_`: where free, and where there is a wall in the cell (2) or a neighbour (1).
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+  }
+  /// Cells outside the map hold no wall.
+  int wall(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width_ && y < height_ ? wall_[index(x, y)] : 0;
+  }
+  mrpt::math::TPoint2D centre(const CellIndex& cell) const {
+    return {(min_.x + cell.x + 0.5) * size_, (min_.y + cell.y + 0.5) * size_};
+  }
+
+  double size_;  ///< m
+  CellIndex min_{0, 0};
+  int width_ = 0, height_ = 0;
+  std::vector<char> wall_;
+  std::vector<CellIndex> free_;
+};
 
 }  // namespace hybrid_slam

@@ -34,21 +34,20 @@ bool isNear(const TPose2D& a, const TPose2D& b) {
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) < 4 * kDegree;
 }
 
+bool contains(const std::vector<GlobalSearch::Place>& places, const TPose2D& robot) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const auto& place) { return isNear(place.pose, robot); });
+}
+
 TEST(GlobalSearch, FindsThePoseAmongTheBest) {
-  const OccupancyGrid grid = mappedRoom();
+  const GlobalSearch search(mappedRoom(), {});
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 20; ++i) {
     const TPose2D robot(uniform(random, -2, 6), uniform(random, -1.5, 4), uniform(random, -M_PI, M_PI));
     const ScanBeams scan(scanAt(robot, random));
-    const auto everywhere = globalSearch(scan, grid, {}, {}, 20);
-    EXPECT_TRUE(std::any_of(everywhere.begin(), everywhere.end(), [&](const TPose2D& pose) {
-      return isNear(pose, robot);
-    })) << robot.asString();
+    EXPECT_TRUE(contains(search(scan, {}, 20), robot)) << robot.asString();
     const double heading = robot.phi + 3 * kDegree;
-    const auto aligned = globalSearch(scan, grid, {}, {heading, heading + M_PI / 2}, 20);
-    EXPECT_TRUE(std::any_of(aligned.begin(), aligned.end(), [&](const TPose2D& pose) {
-      return isNear(pose, robot);
-    })) << robot.asString();
+    EXPECT_TRUE(contains(search(scan, {heading, heading + M_PI / 2}, 20), robot)) << robot.asString();
   }
 }
 
@@ -57,26 +56,29 @@ TEST(GlobalSearch, IsBoundedOnAMapOfKilometres) {
   grid.tiles().set({400000, 400000}, 77);  // 20 km away
   RandomStream random(5, 0, 0);
   const TPose2D robot(1, 2, 0.5);
-  const auto near = globalSearch(ScanBeams(scanAt(robot, random)), grid, {100, 100}, {}, 20);
-  EXPECT_TRUE(std::any_of(near.begin(), near.end(), [&](const TPose2D& p) { return isNear(p, robot); }));
-  EXPECT_TRUE(globalSearch(ScanBeams(scanAt(robot, random)), grid, {600, 0}, {}, 20).empty());
+  const ScanBeams scan(scanAt(robot, random));
+  EXPECT_TRUE(contains(GlobalSearch(grid, {100, 100})(scan, {}, 20), robot));
+  EXPECT_TRUE(GlobalSearch(grid, {600, 0})(scan, {}, 20).empty());
 }
 
 TEST(GlobalSearch, FindsNothingWithoutAMapOrAScan) {
   RandomStream random(3, 0, 0);
-  EXPECT_TRUE(globalSearch(ScanBeams(scanAt({}, random)), OccupancyGrid(), {}, {}, 20).empty());
-  EXPECT_LE(globalSearch(ScanBeams(LaserScan()), mappedRoom(), {}, {}, 20).size(), 20u);
+  EXPECT_TRUE(GlobalSearch(OccupancyGrid(), {})(ScanBeams(scanAt({}, random)), {}, 20).empty());
+  EXPECT_TRUE(GlobalSearch(mappedRoom(), {})(ScanBeams(LaserScan()), {}, 20).empty());
 }
 
-TEST(ContradictedShare, IsSmallAtTheTruePoseAndLargeElsewhere) {
+TEST(BeamShares, AgreeAtTheTruePoseAndContradictElsewhere) {
   const OccupancyGrid grid = mappedRoom();
   RandomStream random(4, 0, 0);
   for (int i = 0; i < 20; ++i) {
     const TPose2D robot(uniform(random, -2, 6), uniform(random, -1.5, 4), uniform(random, -M_PI, M_PI));
     const ScanBeams scan(scanAt(robot, random));
-    EXPECT_LT(contradictedShare(scan, robot, grid), 0.05) << robot.asString();
-    EXPECT_GT(contradictedShare(scan, robot + TPose2D(0, 0, 100 * kDegree), grid), 0.3) << robot.asString();
-    EXPECT_EQ(contradictedShare(scan, robot, OccupancyGrid()), 0);
+    EXPECT_LT(beamShares(scan, robot, grid).contradicted, 0.05) << robot.asString();
+    EXPECT_GT(beamShares(scan, robot + TPose2D(0, 0, 100 * kDegree), grid).contradicted, 0.3)
+        << robot.asString();
+    EXPECT_GT(beamShares(scan, robot, grid).explained, 0.9) << robot.asString();
+    EXPECT_EQ(beamShares(scan, robot, OccupancyGrid()).contradicted, 0);
+    EXPECT_EQ(beamShares(scan, robot, OccupancyGrid()).explained, 0);
   }
 }
 

@@ -151,4 +151,10 @@ void LineDatabase::prune(const LineDatabaseOptions& options) {
   lines_.erase(std::remove_if(lines_.begin(), lines_.end(), hopeless), lines_.end());
 }
 
+std::vector<double> alignedHeadings(const std::vector<LineSegment>& seen, const LineDatabase& map) {
+  const auto scan = directionModuloRightAngle(seen), walls = map.dominatingDirection();
+  if (!scan || !walls) return {};
+  return {*walls - *scan, *walls - *scan + M_PI / 2, *walls - *scan + M_PI, *walls - *scan - M_PI / 2};
+}
+
 }  // namespace hybrid_slam

@@ -114,4 +114,9 @@ class LineDatabase {
   int updates_ = 0;
 };
 
+/// The headings (rad) of a robot at which the walls it sees are parallel or perpendicular to those of the
+/// map; empty if either has no dominating direction.
+/// @param seen  robot frame
+std::vector<double> alignedHeadings(const std::vector<LineSegment>& seen, const LineDatabase& map);
+
 }  // namespace hybrid_slam

@@ -1,0 +1,168 @@
+#include "slam/localization/GlobalLocalization.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/filter/Threads.h"
+#include "slam/grid/CorrelativeSearch.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr size_t kPlaces = 200;        // found by a search
+constexpr size_t kHypotheses = 200;    // followed
+constexpr size_t kNear = 8;            // starting points of the local optimisation around a given pose
+constexpr double kIndependent = 0.25;  // scans half a metre apart that count as much as independent ones
+constexpr double kUnexplained = -1.2;  // ln w_grid of a scan of a place that is not in the map
+constexpr double kElsewhere = 0.1;     // least belief that no hypothesis is right, until one is declared
+constexpr double kSpacing = 5;         // m, of the places that stand for it
+constexpr double kHopeless = 40;       // ln of the ratio of weights to the best, to be dropped
+constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hypotheses of one place
+constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
+
+// One place is declared if
+constexpr size_t kScans = 5;           // so many scans
+constexpr double kExplained = 0.7;     // are explained by it in this share of their beams on average,
+constexpr double kContradicted = 0.1;  // contradicted in no more than this,
+constexpr double kMargin = 10;         // and other places are less likely by this ln of the ratio
+constexpr double kSearched = 0.1;      // among all with a score within this of the best.
+
+TPoint2D centreOf(const OccupancyGrid& grid) {
+  const CellBox box = grid.tiles().bounds();
+  return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
+          0.5 * (box.min.y + box.max.y) * grid.resolution()};
+}
+
+bool isSamePlace(const TPose2D& a, const TPose2D& b) {
+  return std::hypot(a.x - b.x, a.y - b.y) < kSame &&
+         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) < kSameAngle;
+}
+
+}  // namespace
+
+GlobalLocalization::GlobalLocalization(const FilterConfiguration& c, OccupancyGrid grid, LineDatabase lines)
+    : grid_(std::move(grid)),
+      lines_(std::move(lines)),
+      exponent_(c.gridWeight.exponent * kIndependent),
+      matcher_(c.matcher),
+      gridWeight_(c.gridWeight, grid_.resolution()),
+      search_(grid_, centreOf(grid_)) {
+  for (const TPoint2D& at : search_.freePlaces(kSpacing))
+    for (const double heading : {0.0, M_PI / 2, M_PI, -M_PI / 2})
+      anywhere_.push_back({{at.x, at.y, heading}, 0});
+}
+
+/// Corrects the pose and weighs the scan there.
+ScanEvidence GlobalLocalization::match(const PreparedScan& scan, TPose2D& pose) const {
+  const Eigen::Matrix3d information =
+      Eigen::Vector3d(kStdXY, kStdXY, kStdPhi).cwiseAbs2().cwiseInverse().asDiagonal();
+  const auto prior = [&, expected = pose](const TPose2D& at) {
+    return gaussianLogDensity(at, expected, information);
+  };
+  pose = matcher_.match(scan.matchedBeams, pose, grid_, prior).pose;
+  return {gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, grid_),
+          beamShares(scan.matchedBeams, pose, grid_)};
+}
+
+void GlobalLocalization::follow(Hypothesis& hypothesis, const RecentScans& recent) const {
+  const size_t newest = recent.scans().size() - 1;
+  hypothesis.pose = hypothesis.pose + recent.motion(newest - 1, newest);
+  hypothesis.evidence.push_back(match(recent.scans()[newest].scan, hypothesis.pose));
+  while (hypothesis.evidence.size() > recent.scans().size())
+    hypothesis.evidence.erase(hypothesis.evidence.begin());
+  weigh(hypothesis);
+}
+
+// From the newest scan backwards.
+Hypothesis GlobalLocalization::judged(const TPose2D& pose, const RecentScans& recent) const {
+  Hypothesis hypothesis;
+  TPose2D at = pose;
+  for (size_t i = recent.scans().size(); i-- > 0;) {
+    hypothesis.evidence.push_back(match(recent.scans()[i].scan, at));
+    if (hypothesis.evidence.size() == 1) hypothesis.pose = at;
+    if (i > 0) at = at + recent.motion(i, i - 1);
+  }
+  std::reverse(hypothesis.evidence.begin(), hypothesis.evidence.end());
+  weigh(hypothesis);
+  return hypothesis;
+}
+
+void GlobalLocalization::weigh(Hypothesis& hypothesis) const {
+  hypothesis.logWeight = 0;
+  for (const ScanEvidence& scan : hypothesis.evidence) hypothesis.logWeight += exponent_ * scan.logGrid;
+}
+
+void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& arena) {
+  parallelFor(arena, 0, hypotheses_.size(), [&](size_t i) { follow(hypotheses_[i], recent); });
+  const ScanBeams joined = recent.joined();
+  const auto places = search_(joined, alignedHeadings(recent.lines(), lines_), kPlaces);
+  std::vector<Hypothesis> found(places.size());
+  parallelFor(arena, 0, places.size(), [&](size_t i) {
+    const ScanMatch match =
+        matcher_.match(joined, places[i].pose, grid_, [](const TPose2D&) { return LogDensity(); });
+    found[i] = judged(match.pose, recent);
+  });
+  hypotheses_.insert(hypotheses_.end(), found.begin(), found.end());
+  std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.logWeight > b.logWeight; });
+  std::vector<Hypothesis> kept;
+  for (Hypothesis& hypothesis : hypotheses_) {
+    if (kept.size() == kHypotheses || hypothesis.logWeight < hypotheses_[0].logWeight - kHopeless) break;
+    const bool isKnown = std::any_of(kept.begin(), kept.end(), [&hypothesis](const Hypothesis& other) {
+      return isSamePlace(hypothesis.pose, other.pose);
+    });
+    if (!isKnown) kept.push_back(std::move(hypothesis));
+  }
+  hypotheses_ = std::move(kept);
+  const bool isCut = places.size() == kPlaces && places.back().score > places.front().score - kSearched;
+  isFound_ = !isCut && decide();
+}
+
+bool GlobalLocalization::decide() const {
+  if (hypotheses_.empty() || hypotheses_[0].evidence.size() < kScans) return false;
+  const Hypothesis& best = hypotheses_[0];
+  const auto scans = static_cast<double>(best.evidence.size());
+  if (best.logWeight < exponent_ * kUnexplained * scans + kMargin) return false;
+  if (hypotheses_.size() > 1 && hypotheses_[1].logWeight > best.logWeight - kMargin) return false;
+  BeamShares mean;
+  for (const ScanEvidence& scan : best.evidence)
+    mean.explained += scan.shares.explained / scans, mean.contradicted += scan.shares.contradicted / scans;
+  return mean.explained > kExplained && mean.contradicted < kContradicted;
+}
+
+std::vector<WeightedPose> GlobalLocalization::poses(const TPose2D& since) const {
+  std::vector<WeightedPose> all;
+  if (!hypotheses_.empty()) {
+    const double best = hypotheses_[0].logWeight;
+    double sum = 0;
+    for (const Hypothesis& hypothesis : hypotheses_) {
+      all.push_back({hypothesis.pose + since, hypothesis.logWeight - best});
+      sum += std::exp(all.back().logWeight);
+    }
+    const double none = exponent_ * kUnexplained * static_cast<double>(hypotheses_[0].evidence.size()) - best;
+    const double elsewhere = std::max(none, std::log(sum * kElsewhere / (1 - kElsewhere)));
+    for (const WeightedPose& place : anywhere_)
+      all.push_back({place.pose, elsewhere - std::log(static_cast<double>(anywhere_.size()))});
+  } else {
+    all = anywhere_;
+  }
+  return all;
+}
+
+Hypothesis GlobalLocalization::near(const TPose2D& pose, const SearchWindow& window,
+                                    const RecentScans& recent) const {
+  Hypothesis best = judged(pose, recent);
+  for (const TPose2D& place :
+       correlativeSearch(recent.scans().back().scan.matchedBeams, pose, grid_, window, kNear))
+    if (Hypothesis other = judged(place, recent); other.logWeight > best.logWeight) best = std::move(other);
+  return best;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,76 @@
+/// @file GlobalLocalization.h
+/// @brief Where in a fixed map a robot of unknown pose may be.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <vector>
+
+#include "slam/filter/FilterOptions.h"
+#include "slam/filter/FilterView.h"
+#include "slam/grid/CorrelativeSearch.h"
+#include "slam/grid/GlobalSearch.h"
+#include "slam/grid/GridWeight.h"
+#include "slam/lines/LineDatabase.h"
+#include "slam/localization/RecentScans.h"
+
+namespace hybrid_slam {
+
+/// How a scan agrees with the map at a pose.
+struct ScanEvidence {
+  double logGrid = 0;  ///< ln w_grid before tempering
+  BeamShares shares;
+};
+
+/// A place where the robot may be.
+struct Hypothesis {
+  mrpt::math::TPose2D pose;            ///< of the newest scan, map frame
+  std::vector<ScanEvidence> evidence;  ///< of each remembered scan, oldest first
+  double logWeight = 0;                ///< of all of them, tempered
+};
+
+/// Hypotheses over the whole map, each followed by scan matching and weighed by the same window of scans.
+///
+/// The scans of the window are searched for together in the whole map. Each place found is a new hypothesis;
+/// the older scans are matched one by one backwards along the odometry, so that it competes on equal terms
+/// with those that have been followed. The robot is found when one place explains the scans and no other does
+/// nearly as well.
+class GlobalLocalization {
+ public:
+  GlobalLocalization(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines);
+
+  /// Forgets the hypotheses.
+  void clear() { hypotheses_.clear(), isFound_ = false; }
+  /// Uses the newest of the recent scans; to be called for each scan added.
+  void update(const RecentScans& recent, tbb::task_arena& arena);
+  /// Whether one place explains the scans and no other does nearly as well.
+  bool isFound() const { return isFound_; }
+  /// Best first.
+  const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  /// The belief: the hypotheses, and places all over the map for the chance that none of them is right.
+  /// @param since  motion since the newest scan
+  std::vector<WeightedPose> poses(const mrpt::math::TPose2D& since) const;
+
+  /// The hypothesis near `pose` that fits the recent scans best.
+  Hypothesis near(const mrpt::math::TPose2D& pose, const SearchWindow& window,
+                  const RecentScans& recent) const;
+
+ private:
+  ScanEvidence match(const PreparedScan& scan, mrpt::math::TPose2D& pose) const;
+  void follow(Hypothesis& hypothesis, const RecentScans& recent) const;
+  Hypothesis judged(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
+  void weigh(Hypothesis& hypothesis) const;
+  bool decide() const;
+
+  OccupancyGrid grid_;
+  LineDatabase lines_;
+  double exponent_;
+  ScanMatcher matcher_;
+  GridWeight gridWeight_;
+  GlobalSearch search_;
+  std::vector<WeightedPose> anywhere_;
+  std::vector<Hypothesis> hypotheses_;
+  bool isFound_ = false;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,67 @@
+/// @file Localizer.h
+/// @brief Monte Carlo localisation in a fixed map.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <optional>
+
+#include "slam/filter/Filter.h"
+#include "slam/filter/ParticleSet.h"
+#include "slam/localization/GlobalLocalization.h"
+
+namespace hybrid_slam {
+
+/// The particle filter of HybridFilter in a map that it does not change. While the place of the robot is
+/// unknown, GlobalLocalization takes the place of the particles: at the beginning without a start, and when
+/// several successive scans contradict the map because the robot was carried elsewhere, has left the map, or
+/// the surroundings have changed.
+class Localizer : public Filter {
+ public:
+  /// @param lines  may be empty
+  /// @param start  of the robot (m, rad; map frame), right within 0.5 m and 15 deg; empty: anywhere in the
+  /// map
+  /// @throws InputError for incompatible settings
+  /// The cells of the map, not `resolution` of [grid], set the resolution.
+  Localizer(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines,
+            std::optional<mrpt::math::TPose2D> start);
+
+  void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
+
+  /// Whether the place of the robot is known. If not, several places are possible, or none fits; the poses
+  /// and their spreads then cover all of them.
+  bool isLocalized() const { return isTracking_; }
+
+  size_t updates() const override { return path_.size(); }
+  const FilterStep& lastStep() const override { return step_; }
+  /// The best estimate at each update, as known then.
+  std::vector<mrpt::math::TPose2D> bestPath() const override { return path_; }
+  mrpt::maps::COccupancyGridMap2D bestGrid() const override;
+  std::vector<DatabaseLine> bestLines() const override { return lines_.lines(); }
+  std::vector<WeightedPose> particlePoses() const override;
+
+ private:
+  void update(const Scans& scans);
+  void track(const PreparedScan& scan, bool isRemembered);
+  void search(bool isRemembered);
+  void startTracking(const mrpt::math::TPose2D& pose);
+  void summarise(const mrpt::math::TPose2D& best);
+
+  FilterConfiguration configuration_;
+  OccupancyGrid grid_;
+  LineDatabase lines_;
+  std::optional<mrpt::math::TPose2D> start_;
+  ScanPreparation prepare_;
+  ParticleSet particles_;
+  GlobalLocalization global_;
+  RecentScans recent_;
+  tbb::task_arena arena_;
+  bool isTracking_ = false;
+  size_t unsupported_ = 0;  ///< successive scans that do not fit the map at the tracked pose
+  mrpt::math::TPose2D odometry_;
+  mrpt::math::TPose2D pose_;  ///< best estimate
+  std::vector<mrpt::math::TPose2D> path_;
+  FilterStep step_;
+};
+
+}  // namespace hybrid_slam
