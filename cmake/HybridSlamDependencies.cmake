@@ -15,6 +15,7 @@ hybrid_slam_find(TBB)
 hybrid_slam_find(ZLIB)
 hybrid_slam_find(Threads)
 hybrid_slam_find(nlohmann_json)
+hybrid_slam_find(yaml-cpp)
 hybrid_slam_find(OpenCV COMPONENTS core imgcodecs)
 find_package(CLI11 REQUIRED)
 

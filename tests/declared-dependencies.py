@@ -16,6 +16,7 @@ TARGETS = [
     (r"nanoflann\.hpp", "nanoflann::nanoflann"),
     (r"opencv2/(\w+)\.hpp", r"opencv_\1"),
     (r"zlib\.h", "ZLIB::ZLIB"),
+    (r"yaml-cpp/.*", "yaml-cpp"),
     (r"CLI/.*", "CLI11::CLI11"),
     (r"wx/.*", "hybrid_slam_wx"),
     (r"thread|future|condition_variable", "Threads::Threads"),

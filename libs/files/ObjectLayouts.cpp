@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationIMU.h>
 
+#include <cmath>
 #include <string>
 
 namespace hybrid_slam::files {
@@ -12,6 +13,7 @@ using Walk = ObjectWalk;
 
 constexpr size_t kTime = 8;
 constexpr size_t kMostThrunParticles = 10000;  // MRPT draws them while it reads
+constexpr float kFarthestCell = 1 << 20;       // from the origin: floats are exact to a cell far beyond
 
 /// An enumerator: any other value would be undefined behaviour.
 uint32_t zeroOrOne(Walk& in, const char* what) {
@@ -210,6 +212,63 @@ void frame(Walk& in, int v) {
   in.observations();
 }
 
+void mapParameters(Walk& in, int) { in.flag(), in.flag(), in.flag(); }
+
+/// Cells of a grid map from `min` to `max` (m), as COccupancyGridMap2D::setSize computes them.
+size_t cellsAcross(float min, float max, float resolution) {
+  const auto inCells = [resolution](float at) {
+    const float cells = std::round(at / resolution);
+    if (!(std::abs(cells) <= kFarthestCell)) throw ObjectError("a grid map with an impossible place");
+    return cells;
+  };
+  const float first = resolution * inCells(min), last = resolution * inCells(max);
+  return last > first ? static_cast<size_t>(std::lround((last - first) / resolution)) : 0;
+}
+
+size_t cellSize(uint8_t bits) {
+  if (bits != 8 && bits != 16)
+    throw ObjectError("a grid map with cells of " + std::to_string(bits) + " bits");
+  return bits / 8;
+}
+
+void gridMapOptions(Walk& in, int v) {
+  constexpr uint32_t kLikelihoodMethods = 7;
+  in.skip(4);
+  in.flag();
+  in.skip(2 * 4);
+  in.flag();
+  in.skip(2 + 4);
+  if (in.number() >= kLikelihoodMethods) throw ObjectError("unknown likelihood method");
+  in.skip(6 * 4);
+  in.flag();
+  in.skip(3 * 4);
+  in.flag();
+  in.skip(4 * 4);
+  in.array(4);  // OWA_weights
+  in.flag();
+  if (v >= 6)
+    in.object(Kind::mapParameters);
+  else
+    in.flag();
+  if (v >= 4) in.skip(2 * 4);
+  if (v >= 5) in.flag();
+}
+
+void gridMap(Walk& in, int v) {
+  const size_t cell = v >= 2 ? cellSize(in.byte()) : 1;
+  const size_t columns = in.number(), rows = in.number();
+  const float xMin = in.real(), xMax = in.real(), yMin = in.real(), yMax = in.real(), resolution = in.real();
+  if (!(resolution > 0) || !std::isfinite(resolution))
+    throw ObjectError("a grid map with an impossible cell size");
+  // MRPT takes the number of cells from the place.
+  if (columns == 0 || rows == 0 || columns != cellsAcross(xMin, xMax, resolution) ||
+      rows != cellsAcross(yMin, yMax, resolution))
+    throw ObjectError("a grid map whose size and place disagree");
+  if (columns * rows > kMostGridMapCells) throw ObjectError("a grid map of more than 2^28 cells");
+  in.skip(columns * rows * cell);
+  if (v >= 1) gridMapOptions(in, v);
+}
+
 constexpr ObjectLayout kLayouts[] = {
     {"CObservation2DRangeScan", Kind::observation, 9, scan},
     {"CObservationOdometry", Kind::observation, 3, odometry},
@@ -231,6 +290,8 @@ constexpr ObjectLayout kLayouts[] = {
     {"CObservationBatteryState", Kind::observation, 3, battery},
     {"CObservationRange", Kind::observation, 5, range},
     {"CObservationRobotPose", Kind::observation, 2, robotPose},
+    {"COccupancyGridMap2D", Kind::gridMap, 7, gridMap},
+    {"TMapGenericParams", Kind::mapParameters, 1, mapParameters},
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file ObjectLayouts.h
-/// @brief The classes of a log that are read, and their fields in MRPT's format.
+/// @brief The classes of logs and maps that are read, and their fields in MRPT's format.
 #pragma once
 
 #include <string_view>
@@ -7,6 +7,9 @@
 #include "files/ObjectWalk.h"
 
 namespace hybrid_slam::files {
+
+/// Of a grid map: MRPT computes its size in 32 bits.
+constexpr size_t kMostGridMapCells = size_t{1} << 28;
 
 struct ObjectLayout {
   std::string_view name;  ///< without namespace

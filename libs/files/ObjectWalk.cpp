@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 
 #include "files/ObjectLayouts.h"
 
@@ -37,15 +38,18 @@ const char* textOf(ObjectKind kind) {
       return "an observation";
     case ObjectKind::action:
       return "an action";
+    case ObjectKind::gridMap:
+      return "a grid map";
     default:
-      return "a pose or a matrix";
+      return "a pose, a matrix or parameters";
   }
 }
 
 }  // namespace
 
 void ObjectWalk::need(size_t count) {
-  if (count > kMostBytes - std::min(at_, kMostBytes)) throw ObjectError("an object of more than 64 MiB");
+  if (count > mostBytes_ - std::min(at_, mostBytes_))
+    throw ObjectError("an object of more than " + std::to_string(mostBytes_ >> 20) + " MiB");
   if (!bytes_.has(at_ + count)) throw ObjectCut("cut off in the middle of an object");
 }
 
@@ -64,6 +68,13 @@ uint32_t ObjectWalk::number() {
   uint32_t value = 0;
   for (size_t i = 4; i-- > 0;) value = value << 8 | bytes_[at_ + i];
   at_ += 4;
+  return value;
+}
+
+float ObjectWalk::real() {
+  const uint32_t bits = number();
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
   return value;
 }
 

@@ -25,6 +25,8 @@ enum class ObjectKind {
   pose3D,
   matrixF,
   matrixD,
+  gridMap,
+  mapParameters,
 };
 
 struct ObjectLayout;
@@ -41,10 +43,12 @@ struct ObjectCut : ObjectError {
 
 class ObjectWalk {
  public:
-  static constexpr size_t kMostBytes = size_t{1} << 26;  ///< of an object
+  static constexpr size_t kMostBytes = size_t{1} << 26;  ///< of an object of a log
 
   /// @param passesOver  whether observations of classes that are not listed are passed over, or errors
-  ObjectWalk(ObjectBytes& bytes, bool passesOver) : bytes_(bytes), passesOver_(passesOver) {}
+  /// @param mostBytes   of the object
+  ObjectWalk(ObjectBytes& bytes, bool passesOver, size_t mostBytes = kMostBytes)
+      : bytes_(bytes), passesOver_(passesOver), mostBytes_(mostBytes) {}
 
   /// Steps over an entry of a log. @throws ObjectError, ObjectCut
   void entry();
@@ -58,6 +62,7 @@ class ObjectWalk {
   void skip(size_t count);
   uint8_t byte();
   uint32_t number();
+  float real();
   /// A bool. Old logs have other bytes than 0 and 1, whose use in MRPT would be undefined: they become 1.
   bool flag();
   /// A number of elements that take at least `size` bytes each; these bytes exist.
@@ -93,6 +98,7 @@ class ObjectWalk {
 
   ObjectBytes& bytes_;
   bool passesOver_;
+  size_t mostBytes_;
   size_t at_ = 0;
   std::vector<std::string> passedOver_;
   std::vector<std::pair<size_t, size_t>> cuts_;  ///< [first, end)

@@ -1,10 +1,7 @@
 #include "files/RawlogReader.h"
 
-#include <zlib.h>
-
-#include <filesystem>
-
 #include "base/Errors.h"
+#include "files/ObjectFile.h"
 #include "files/ObjectLayouts.h"
 #include "files/ObjectReader.h"
 #include "files/ObjectWalk.h"
@@ -16,39 +13,22 @@ constexpr const char* kExpected = "expected serialised MRPT objects (log2rawlog 
 
 }  // namespace
 
-struct RawlogReader::Stream {
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file;
-  ObjectBytes bytes{[this](char* to, size_t count) { return gzfread(to, 1, count, file.get()); }};
-
-  /// MRPT's own gzip stream does not distinguish a damaged or truncated file from its end.
-  bool isDamaged() const {
-    int error = Z_OK;
-    gzerror(file.get(), &error);
-    return error != Z_OK;
-  }
-};
-
-RawlogReader::RawlogReader(const std::string& file) : file_(file) {
-  const std::string expected = "expected a readable log";
-  if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
-  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
-  stream_.reset(new Stream{{gzopen(file.c_str(), "rb"), gzclose_r}});
-  if (!stream_->file) throw InputError("cannot open", file, expected);
-}
+RawlogReader::RawlogReader(const std::string& file)
+    : file_(file), stream_(std::make_unique<ObjectFile>(file, "expected a readable log")) {}
 
 RawlogReader::~RawlogReader() = default;
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
   while (!isAtEnd_ && defect_.empty()) {
-    isAtEnd_ = !stream_->bytes.has(1) && !stream_->isDamaged();
+    isAtEnd_ = !stream_->bytes().has(1) && !stream_->isDamaged();
     if (isAtEnd_ && entry_ == 0) throw InputError("empty file", file_, kExpected);
     if (isAtEnd_) break;
     try {
-      ObjectWalk walk(stream_->bytes, true);
+      ObjectWalk walk(stream_->bytes(), true);
       walk.entry();
       const std::string_view bytes = walk.rest();
       const auto object = bytes.empty() ? nullptr : buildObject(bytes);
-      stream_->bytes.drop(walk.at());
+      stream_->bytes().drop(walk.at());
       ++entry_;
       note(walk.passedOver());
       if (object) return object;  // otherwise an empty entry, or one that is passed over

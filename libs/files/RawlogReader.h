@@ -11,6 +11,8 @@
 
 namespace hybrid_slam::files {
 
+class ObjectFile;
+
 /// Reads a rawlog, plain or gzipped, as a stream with constant memory. Every object is
 /// checked before it is built.
 class RawlogReader {
@@ -34,11 +36,10 @@ class RawlogReader {
   const std::set<std::string>& passedOverClasses() const { return passedOverClasses_; }
 
  private:
-  struct Stream;
   void note(const std::vector<std::string>& classes);
 
   std::string file_;
-  std::unique_ptr<Stream> stream_;
+  std::unique_ptr<ObjectFile> stream_;
   size_t entry_ = 0;
   std::string defect_;
   bool isAtEnd_ = false;

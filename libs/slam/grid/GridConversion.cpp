@@ -1,9 +1,11 @@
 #include "slam/grid/GridConversion.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 
 namespace hybrid_slam {
 
@@ -25,6 +27,13 @@ mrpt::maps::COccupancyGridMap2D unknownGrid(const CellBox& box, double s) {
 }
 
 int8_t mrptValue(int8_t value) { return static_cast<int8_t>(-std::max<int>(value, -127)); }
+
+/// The shortest decimal number that is this float: 0.05, not 0.0500000007.
+double shortest(float value) {
+  char text[64];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return *parseNumber({text, static_cast<size_t>(end - text)});
+}
 
 }  // namespace
 
@@ -72,11 +81,15 @@ mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox&
 }
 
 OccupancyGrid fromMrpt(const mrpt::maps::COccupancyGridMap2D& in) {
-  const double s = std::round(in.getResolution() * 1e6) / 1e6;  // MRPT stores a float
+  const double s = shortest(in.getResolution());
   OccupancyGrid grid(s);
   const double firstX = in.getXMin() / s, firstY = in.getYMin() / s;
   const int x0 = static_cast<int>(std::lround(firstX)), y0 = static_cast<int>(std::lround(firstY));
-  if (std::abs(firstX - x0) > 0.01 || std::abs(firstY - y0) > 0.01)
+  const auto isOff = [](double first, int cell) {
+    constexpr double kFloat = 1. / (1 << 22);  // relative accuracy of MRPT's numbers
+    return std::abs(first - cell) > 0.01 + std::abs(first) * kFloat;
+  };
+  if (isOff(firstX, x0) || isOff(firstY, y0))
     throw InputError("grid not aligned", "origin of the occupancy grid",
                      "expected a whole number of cells from (0, 0)");
   for (int y = 0; y < static_cast<int>(in.getSizeY()); ++y) {

@@ -1,10 +1,9 @@
 #include "study/comparison/ReportPlots.h"
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "files/GridMapReader.h"
 #include "study/comparison/ParticlePlot.h"
 #include "study/comparison/PlanPlots.h"
 #include "study/comparison/Plots.h"
@@ -62,7 +61,7 @@ std::vector<Plot> wallPlots(const ReportInput& input) {
     const RunResult* median = medianRun(input, g);
     if (!median) continue;
     const RunFolder folder = folderOf(input, *median);
-    const auto map = loadGridMap(folder.file("map.gridmap.gz").string());
+    const auto map = files::readGridMap(folder.file("map.gridmap.gz").string());
     auto cells = occupiedCells(map);
     const auto alignment = alignmentOf(input, trajectoryOf(folder));
     for (auto& cell : cells) cell = alignment.composePoint(cell);

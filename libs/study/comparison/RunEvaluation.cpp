@@ -1,7 +1,6 @@
 #include "study/comparison/RunEvaluation.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/GridMapReader.h"
 #include "study/comparison/ReturnError.h"
 #include "study/comparison/SpreadTable.h"
 #include "study/comparison/WallErrors.h"
@@ -51,7 +51,7 @@ void takeReferenceErrors(RunResult& result, const files::Trajectory& trajectory,
   result[Figure::returnRot] = back.rotation * kRadToDeg;
   if (!truth.plan) return;
   const WallErrors walls =
-      wallErrors(loadGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
+      wallErrors(files::readGridMap(folder.file("map.gridmap.gz").string()), *truth.plan, ate.alignment);
   result[Figure::wallMean] = walls.mean;
   result[Figure::wallP95] = walls.p95;
   if (truth.sightings) result[Figure::doubledShare] = truth.sightings->doubledShare(trajectory);

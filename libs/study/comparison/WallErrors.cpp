@@ -1,8 +1,6 @@
 #include "study/comparison/WallErrors.h"
 
-#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
 
@@ -39,18 +37,6 @@ WallErrors wallErrors(const COccupancyGridMap2D& map, const simulation::FloorPla
   }
   if (distances.empty()) throw std::runtime_error("the map has no occupied cells");
   return {sum / static_cast<double>(distances.size()), quantile(distances, 0.95)};
-}
-
-COccupancyGridMap2D loadGridMap(const std::string& file) {
-  COccupancyGridMap2D map;
-  try {
-    mrpt::io::CFileGZInputStream in;
-    if (!in.open(file)) throw std::runtime_error("cannot be opened");
-    mrpt::serialization::archiveFrom(in) >> map;
-  } catch (const std::exception&) {  // MRPT's messages span many lines
-    throw std::runtime_error("no readable grid map: " + file);
-  }
-  return map;
 }
 
 }  // namespace hybrid_slam::comparison

@@ -4,7 +4,6 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <string>
 #include <vector>
 
 #include "study/simulation/FloorPlan.h"
@@ -29,9 +28,5 @@ struct WallErrors {
 /// @throws std::runtime_error for a map without occupied cells
 WallErrors wallErrors(const mrpt::maps::COccupancyGridMap2D& map, const simulation::FloorPlan& plan,
                       const mrpt::math::TPose2D& alignment);
-
-/// Reads `map.gridmap.gz`.
-/// @throws std::runtime_error if it cannot be read
-mrpt::maps::COccupancyGridMap2D loadGridMap(const std::string& file);
 
 }  // namespace hybrid_slam::comparison

@@ -1,0 +1,18 @@
+/// @file PictureFile.h
+/// @brief The picture formats of maps, from their bytes.
+#pragma once
+
+#include <string>
+
+#include "run/GreyPicture.h"
+
+namespace hybrid_slam::run {
+
+/// @throws std::runtime_error with what is wrong
+GreyPicture decodePgm(const std::string& bytes);
+GreyPicture decodePng(const std::string& bytes);
+
+/// @throws std::runtime_error for no pixels, more than 2^28, or more than 2^20 on a side
+void checkSize(size_t width, size_t height);
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,24 @@
+/// @file RosMapFile.h
+/// @brief The map.yaml of ROS's map_server.
+#pragma once
+
+#include <string>
+
+namespace hybrid_slam::run {
+
+enum class RosMapMode { trinary, scale, raw };
+
+/// What a map.yaml says of its picture.
+struct RosMapFile {
+  std::string picture;  ///< path
+  double resolution;    ///< m per pixel, 0.001 .. 10
+  double x, y;          ///< m; lower left corner of the lower left pixel, at most 2^20 pixels from (0, 0)
+  bool isNegated;       ///< white is occupied
+  double occupiedAbove, freeBelow;  ///< occupancies, 0 .. 1
+  RosMapMode mode;
+};
+
+/// @throws InputError for a file that is no map.yaml, a wrong value, a rotated map (yaw other than 0)
+RosMapFile readRosMapFile(const std::string& file);
+
+}  // namespace hybrid_slam::run
