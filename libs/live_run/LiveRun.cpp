@@ -100,8 +100,7 @@ void LiveRun::filter() {
       }
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
-      for (const std::string& note : run_.takeLoopNotes()) log_.report("filter", note);
-      for (const std::string& note : run_.takeSaveNotes()) log_.report("results", note);
+      for (const std::string& note : run_.takeNotes()) log_.report("filter", note);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
       if (!isQuiet_ && secondsSince(lastState_) >= 10) tellState();
@@ -132,6 +131,7 @@ std::string LiveRun::finish(size_t lost) {
   while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
   stopFilter();
   recording_.finish();
+  if (!failure_) run_.requirePlace();
   if (run_.scans() == 0 && failure_) std::rethrow_exception(failure_);
   if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");
 

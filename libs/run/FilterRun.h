@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "run/Verdict.h"
 #include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
+#include "slam/localization/Localizer.h"
 
 namespace hybrid_slam::run {
 
@@ -31,11 +33,14 @@ class FilterRun {
 
   /// @param configuration  must outlive the run
   /// @param start          start of `wall_s`
-  /// @throws InputError for settings the filter rejects, or an unwritable output folder
+  /// @throws InputError for settings the filter rejects, a wrong map of an earlier run, or an unwritable
+  /// output
+  ///         folder
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
-  /// Passes one reading to the filter.
+  /// Passes one reading to the filter. While the start in the map of an earlier run is searched for, it
+  /// waits.
   /// @return true for a filter update, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
   /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
@@ -45,20 +50,21 @@ class FilterRun {
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
-  void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
+  void skip(size_t readings);
 
   /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread.
   void requestSave() { isSaveRequested_ = true; }
-  /// A line for each of these saved since the last call: where.
-  std::vector<std::string> takeSaveNotes() { return std::exchange(saveNotes_, {}); }
+  /// @throws std::runtime_error if the start in the map of an earlier run has not been found
+  void requirePlace() const;
 
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
   /// One line if the map of the finished run has coarser cells than the filter's; else empty.
   std::string mapNote() const;
-  /// A line for each loop closed since the last call: where, by how much, on what evidence.
-  std::vector<std::string> takeLoopNotes() { return std::exchange(loopNotes_, {}); }
+  /// What has happened since the last call, a line each: loops closed (where, by how much, on what evidence),
+  /// the start found in a map, maps saved.
+  std::vector<std::string> takeNotes() { return std::exchange(notes_, {}); }
   const FilterView& view() const { return *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
@@ -87,10 +93,20 @@ class FilterRun {
     std::vector<DatabaseLine> lines;
     ScanMap map;  ///< of our filter: the same grid and lines
   };
+  struct Waiting {
+    size_t skipped;  ///< readings before it
+    readings::Reading reading;
+  };
   template <class State>
   void visit(State& state);
+  bool filter(const readings::Reading& reading);
+  bool searchStart(const readings::Reading& reading);
+  Verdict verdictOfLocalization() const;
+  nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
+  void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
+  void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void saveSessionTo(const std::string& path, const ScanMap& map,
-                     const std::vector<mrpt::math::TPose2D>& path_);
+                     const std::vector<mrpt::math::TPose2D>& poses);
   void saveNow();
   void checkpointIfDue();
   /// The row of steps.csv and the counters of an update.
@@ -105,6 +121,10 @@ class FilterRun {
   const files::OutputFolder& folder_;  ///< of staged_
   std::unique_ptr<Filter> filter_;
   HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
+  Localizer* localizer_ = nullptr;            ///< filter_, if it localises
+  std::optional<ScanMap> base_;               ///< of an earlier run, to map on in
+  std::unique_ptr<Localizer> search_;         ///< for the start in base_
+  std::deque<Waiting> waiting_;               ///< for it
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
@@ -113,15 +133,18 @@ class FilterRun {
   std::vector<Use> uses_;                            ///< per reading of the log
   std::vector<double> updateTimes_;                  ///< s
   std::vector<PoseCovariance> particleCovariances_;  ///< of each update
-  std::vector<std::string> loopNotes_, saveNotes_;
+  std::vector<std::string> notes_;
   std::atomic<bool> isSaveRequested_{false};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
   double secondsBefore_ = 0;  ///< wall time of the run that is resumed
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
-  double firstSlip_ = 0;  ///< s
-  double savedCell_ = 0;  ///< m, of the map files
+  size_t skippedBefore_ = 0;            ///< readings before the next one, while the start is searched for
+  size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
+  bool wasLocated_ = false;             ///< at the last update
+  double firstSlip_ = 0;                ///< s
+  double savedCell_ = 0;                ///< m, of the map files
   Verdict verdict_;
 };
 

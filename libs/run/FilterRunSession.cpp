@@ -90,7 +90,7 @@ void FilterRun::saveNow() {
   saveRosMap(folder, grid);
   saveLines(folder, lines);
   if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
-  saveNotes_.push_back("map saved: " + staged_.finalPath("saved-" + name));
+  notes_.push_back("map saved: " + staged_.finalPath("saved-" + name));
 }
 
 void FilterRun::resume(SessionReader& session) {

@@ -53,7 +53,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   try {
     while (const auto reading = stop ? std::nullopt : nextReading())
       if (run.process(*reading)) {
-        for (const std::string& note : run.takeLoopNotes()) progress.say(note);
+        for (const std::string& note : run.takeNotes()) progress.say(note);
         progress.update(run.scans(), spreadNote(run.view().lastStep()));
       }
   } catch (const std::exception& e) {
@@ -72,7 +72,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
   outcome.verdict = run.verdict();
   if (run.folderNote() != place) progress.say(run.folderNote());  // another run has finished there
-  for (const std::string& note : run.takeLoopNotes()) progress.say(note);
+  for (const std::string& note : run.takeNotes()) progress.say(note);
   if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
   run.profiler().clear(true);  // else MRPT prints it as well
   return outcome;

@@ -2,8 +2,11 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <memory>
 
 #include "base/Errors.h"
 #include "files/Gzip.h"
@@ -45,6 +48,12 @@ void saveSession(const std::string& path, const std::string& bytes) {
   ::close(file);
   if (!isWritten) partial.fail(error);
   partial.commit();
+}
+
+bool isSession(const std::string& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  uint64_t magic = 0;
+  return in && gzread(in.get(), &magic, sizeof magic) == sizeof magic && magic == kMagic;
 }
 
 SessionReader::SessionReader(const std::string& file)

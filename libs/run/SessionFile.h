@@ -35,6 +35,9 @@ void writeHeader(StateWriter& out, SessionHeader& header);
 /// @throws InputError if the file cannot be written
 void saveSession(const std::string& path, const std::string& bytes);
 
+/// Whether a file begins like a session.
+bool isSession(const std::string& file);
+
 /// Reads a session file.
 class SessionReader {
  public:

@@ -184,4 +184,14 @@ void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& rob
     }
 }
 
+void OccupancyGrid::limit(double pMin, double pMax) {
+  const auto low = static_cast<int8_t>(logOdds(pMin)), high = static_cast<int8_t>(logOdds(pMax));
+  const TileGrid before = tiles_;
+  before.forEachTile([&](int tx, int ty, const Tile& tile) {
+    Tile::Cells cells = tile.cells();
+    for (int8_t& cell : cells) cell = std::clamp(cell, low, high);
+    tiles_.writableTile(tx, ty).assign(cells);
+  });
+}
+
 }  // namespace hybrid_slam

@@ -1,0 +1,194 @@
+// The results of a run, at its end.
+#include <mrpt/system/os.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/Clock.h"
+#include "base/Numbers.h"
+#include "run/FilterRun.h"
+#include "run/MapFiles.h"
+#include "run/ResourceUse.h"
+#include "run/SimpleMapFile.h"
+#include "slam/filter/Refinement.h"
+#include "slam/grid/GridConversion.h"
+#include "slam/loops/RevisitCheck.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+using Method = RunOptions::Method;
+
+/// s, between the earliest and the latest pose.
+double durationOf(const files::Trajectory& trajectory) {
+  const auto [first, last] =
+      std::minmax_element(trajectory.begin(), trajectory.end(),
+                          [](const auto& a, const auto& b) { return a.timestamp < b.timestamp; });
+  return first == trajectory.end() ? 0 : last->timestamp - first->timestamp;
+}
+
+nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std::vector<double>& times) {
+  auto all = nlohmann::ordered_json::array();
+  const auto rounded = [](double metres) { return std::round(100 * metres) / 100; };
+  for (const DoubtfulPlace& place : places)
+    all.push_back({{"x", rounded(place.at.x)},
+                   {"y", rounded(place.at.y)},
+                   {"timestamp", times.at(place.update)},
+                   {"length_m", rounded(place.length)}});
+  return all;
+}
+
+/// Of poses in a fixed map: the spread of the particles, and 1 cm and 0.1 deg for a scan match.
+std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances) {
+  const double angle = 0.1 * M_PI / 180;
+  for (PoseCovariance& covariance : covariances)
+    covariance.diagonal() += Eigen::Vector3d(1e-4, 1e-4, angle * angle);
+  return covariances;
+}
+
+}  // namespace
+
+void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
+  std::vector<PosedScans> scans;
+  for (const Use use : uses_) {
+    const auto reading = source.next();
+    if (!reading) break;
+    if (use != Use::skipped)
+      scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
+  }
+  if (configuration_.filter.loopClosing.enabled) {
+    std::vector<Scans> ofUpdates;
+    for (const PosedScans& posed : scans)
+      if (posed.isMapped) ofUpdates.push_back(posed.scans);
+    std::vector<mrpt::math::TPose2D> closed = result.path;
+    const auto loops =
+        closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
+    // A false loop puts walls into free space.
+    if (!loops.empty() && contradictionOf(closed, ofUpdates) < contradictionOf(result.path, ofUpdates)) {
+      for (const LoopClosure& loop : loops) note(loop);
+      result.path = std::move(closed);
+      result.trajectory = recorder_.trajectory(result.path);
+      for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
+    }
+  }
+  refine(scans, configuration_.filter, configuration_.run.refine, base_);
+  for (size_t i = 0, update = 0; i < scans.size(); ++i) {
+    result.trajectory[i].pose = scans[i].pose;
+    if (scans[i].isMapped) result.path[update++] = scans[i].pose;
+  }
+  result.map = mapOf(scans, configuration_.filter, base_);
+  result.grid = toMrpt(result.map.grid);
+  result.lines = result.map.lines.lines();
+}
+
+std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
+                              const nlohmann::ordered_json& more) {
+  requirePlace();
+  const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
+  uses_.resize(std::min(uses_.size(), log.scans));
+  Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
+  if (hybrid_) result.map = hybrid_->bestMap();
+  result.trajectory = recorder_.trajectory(result.path);
+  if (hybrid_ && configuration_.run.refine > 0) {
+    readings::RawlogSource scans(file, configuration_.input, log);
+    refineResult(result, scans);
+  }
+  const auto& [trajectory, path, grid, lines, map] = result;
+  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
+  if (localizer_) {
+    verdict_ = verdictOfLocalization();
+    writeCovarianceFile(result, inFixedMap(particleCovariances_));
+  } else {
+    writeMap(result, file, log);
+  }
+  savePicture(folder_, grid, trajectory, lines, verdict_.places);
+  steps_.finish();
+  if (particles_) particles_->finish();
+  folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
+  if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
+  nlohmann::ordered_json all = metrics(result, log);
+  all.update(more);
+  folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });
+  staged_.publish();
+
+  const double wall = all.at("wall_s");
+  return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
+         fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
+         fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
+}
+
+void FilterRun::writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log) {
+  savedCell_ = result.grid.getResolution();
+  saveRosMap(folder_, result.grid);
+  saveGridMap(folder_, result.grid);
+  saveLines(folder_, result.lines);
+  std::vector<bool> isUpdate;
+  for (const Use use : uses_) isUpdate.push_back(use == Use::update);
+  readings::RawlogSource again(file, configuration_.input, log);
+  VerdictCheck check;
+  saveSimpleMap(folder_, again, isUpdate, result.path,
+                [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+  Evidence evidence = check.evidence();
+  evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
+  evidence.slips = slips_;
+  verdict_ = verdictOf(evidence);
+  const bool hasLines = configuration_.run.method == Method::hybrid;
+  writeCovarianceFile(result,
+                      pathCovariances(result.path, particleCovariances_, evidence.returning, hasLines));
+}
+
+void FilterRun::writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances) {
+  folder_.write("covariance.csv", [&](std::ostream& out) {
+    writeCovariances(out, result.trajectory, recorder_.updates(), result.path, covariances);
+  });
+}
+
+Verdict FilterRun::verdictOfLocalization() const {
+  Verdict verdict;
+  if (!wasLocated_) verdict.reasons.push_back("the place of the robot is unknown at the end");
+  if (lostAgain_ > 0)
+    verdict.reasons.push_back("the place was lost " + std::to_string(lostAgain_) +
+                              " times: the robot was carried, or " + "the surroundings have changed");
+  verdict.level = !wasLocated_     ? Verdict::Level::lost
+                  : lostAgain_ > 0 ? Verdict::Level::doubtful
+                                   : Verdict::Level::consistent;
+  return verdict;
+}
+
+nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::RawlogSummary& log) const {
+  const bool isWhole = uses_.size() == log.scans;
+  const double wall = secondsBefore_ + secondsSince(start_);
+  const double duration = isWhole ? log.duration : durationOf(result.trajectory);
+  const char* const names[] = {"hybrid", "general", "stock"};
+  nlohmann::ordered_json metrics{
+      {"method", names[static_cast<int>(configuration_.run.method)]},
+      {"particles", filter_->particlePoses().size()},
+      {"particles_min", particlesMin_},
+      {"particles_max", particlesMax_},
+      {"seed", configuration_.filter.filter.seed},
+      {"threads", configuration_.filter.filter.threads},
+      {"scans", scans_},
+      {"updates", result.path.size()},
+      {"duration_s", duration},
+      {"wall_s", wall},
+      {"cpu_s", cpuSeconds()},
+      {"realtime_factor", wall > 0 ? duration / wall : 0},
+      {"peak_rss_mb", peakMegabytes()},
+      {"resamplings", resamplings_},
+      {"slips", slips_},
+      {"loops_closed", loops_},
+      {"verdict", verdict_.name()},
+      {"reasons", verdict_.reasons},
+      {"doubtful_places", json(verdict_.places, updateTimes_)},
+      {"lines", result.lines.size()},
+      {"distance_m", recorder_.distance()},
+      {"complete", isWhole && log.defect.empty()},
+      {"skipped_readings", log.skippedReadings()},
+      {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
+  if (localizer_ && !result.path.empty())
+    metrics["localized_share"] = static_cast<double>(located_) / static_cast<double>(result.path.size());
+  return metrics;
+}
+
+}  // namespace hybrid_slam::run
