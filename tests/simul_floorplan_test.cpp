@@ -151,6 +151,57 @@ TEST_F(SimulFloorplan, WrongFloorPlans) {
   expectInputError(kRun, "cannot be read: file room.plan");
 }
 
+/// The lines of a file, without or with a comment.
+std::vector<std::string> linesOf(const std::string& file, bool commented) {
+  std::vector<std::string> lines;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if ((line.find('#') != std::string::npos) == commented) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(SimulFloorplan, SessionsDifferInDoorsBoxesAndNoiseButNotInWalls) {
+  write("room.plan", "rectangle 0 0 8 6\ncircle 6 4 0.5\ndoor 2 6 3 6\n");
+  write("room.things", "door 2 6 3 6\nbox 0.5 0.5  1 3  3 3  7 1  1 5\nbox 0.4 0.4  2 2  4 4  7 5\n");
+  const std::string run = "room.ini -q --set simulation.things=room.things ";
+  ASSERT_EQ(simulate(run + "-o a.rawlog").status, 0);
+  ASSERT_EQ(simulate(run + "--session 1 -o b.rawlog").status, 0);
+  ASSERT_EQ(simulate(run + "--session 2 -o c.rawlog").status, 0);
+  ASSERT_EQ(simulate(run + "--set simulation.session=2 -o d.rawlog").status, 0);
+  for (const char* extension : {".rawlog", ".tum", ".png", ".truth.plan"}) {
+    const auto bytes = [&](const char* name) {
+      return contentOf(folder.path(name + std::string(extension)));
+    };
+    EXPECT_TRUE(bytes("a") == bytes("b")) << extension;
+    EXPECT_TRUE(bytes("c") == bytes("d")) << extension;
+    EXPECT_EQ(bytes("a") == bytes("c"), std::string(extension) == ".tum") << extension;
+  }
+  const std::string first = folder.path("a.truth.plan"), second = folder.path("c.truth.plan");
+  EXPECT_EQ(linesOf(first, false), linesOf(second, false));
+  EXPECT_NE(linesOf(first, true), linesOf(second, true));
+  EXPECT_THAT(linesOf(first, true), testing::Contains(testing::EndsWith("# box 1")));
+  EXPECT_FALSE(fs::exists(folder.path("a.truth.part.plan")));
+
+  // Without things the first session is the log as ever.
+  ASSERT_EQ(simulate("room.ini -q -o e.rawlog").status, 0);
+  EXPECT_FALSE(fs::exists(folder.path("e.truth.plan")));
+}
+
+TEST_F(SimulFloorplan, WrongThingsAndSessions) {
+  const std::string run = std::string(kRun) + " --set simulation.things=room.things";
+  expectInputError(run, "cannot be read: file room.things");
+  expectInputError("room.ini -o out.rawlog --session 0", "--session");
+  expectInputError(std::string(kRun) + " --set simulation.session=0", "expected a whole number in 1..");
+  write("room.things", "box 0.5 0.5  1 3  7.8 3\n");
+  expectInputError(run, "box at (7.80, 3.00) stands on a wall or a door: file room.things, line 1");
+  // One of five places is on the route: an error also in the sessions in which the box is elsewhere.
+  write("room.things", "box 0.5 0.5  1 3  3 3  5 3  3 4  3 0.8\n");
+  for (const char* session : {"1", "2", "3", "4"})
+    expectInputError(run + " --session " + session, "path hits a wall at (2.7");
+  write("room.things", "door 4 0.2 4 2\n");
+  expectInputError(run, "path hits a wall at (3.7");
+}
+
 /// Each of these would take all memory, or hours.
 TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
   write("room.route", "start 1 1 0\nwait 1e300\n");
@@ -231,6 +282,17 @@ TEST_F(SimulFloorplan, TheCsieBuildingIsSimulatedForAnyTime) {
   size_t scans = 0;
   for (const auto& entry : rawlog) scans += IS_CLASS(*entry, mrpt::obs::CObservation2DRangeScan);
   EXPECT_EQ(scans, 50u);
+}
+
+TEST_F(SimulFloorplan, TheChangingBuildingIsSimulatedInAnySession) {
+  const std::string ini = "'" + std::string(SOURCE_DIR) + "/config-ini/simul-moved.ini'";
+  for (const char* session : {"1", "2", "1000000"})
+    EXPECT_EQ(simulate(ini + " -q -o out.rawlog --set simulation.scans=50 --session " + session).status, 0);
+  const std::vector<std::string> things = linesOf(folder.path("out.truth.plan"), true);
+  const auto ofBoxes = std::count_if(things.begin(), things.end(), [](const std::string& line) {
+    return line.find("# box") != std::string::npos;
+  });
+  EXPECT_EQ(ofBoxes, 6 * 4);
 }
 
 TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {

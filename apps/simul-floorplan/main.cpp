@@ -14,6 +14,7 @@
 #include "Program.h"
 #include "files/IniFile.h"
 #include "study/simulation/FloorPlan.h"
+#include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
 
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct CommandLine {
   std::string config, output;
-  int seed = -1;
+  int seed = -1, session = 0;
   std::vector<std::string> settings;
   bool quiet = false;
 };
@@ -36,9 +37,10 @@ std::string besideConfig(const CommandLine& line, const std::string& file, const
   return (fs::path(line.config).parent_path() / file).lexically_normal().string();
 }
 
+using FilesAndWriters = std::vector<std::pair<fs::path, std::function<void(const std::string&)>>>;
+
 /// Writes all files under temporary names first, so that no half-written file has a final name.
-void writeTogether(
-    const std::vector<std::pair<fs::path, std::function<void(const std::string&)>>>& filesAndWriters) {
+void writeTogether(const FilesAndWriters& filesAndWriters) {
   const auto partial = [](fs::path file) {
     return file.replace_extension(".part" + file.extension().string());
   };
@@ -61,6 +63,7 @@ void run(const CommandLine& line) {
                       {{"simulation", &options}, {"laser", &laser}, {"odometry", &odometry}}, "",
                       "expected a section [simulation] (doc/simulation.md)"));
   if (line.seed >= 0) options.seed = line.seed;
+  if (line.session > 0) options.session = line.session;
   const fs::path output = line.output;
   if (output.extension() != ".rawlog")
     throw InputError("wrong output name `" + line.output + "`", "option -o",
@@ -69,18 +72,30 @@ void run(const CommandLine& line) {
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 
-  const simulation::FloorPlan plan = simulation::FloorPlan::load(besideConfig(line, options.plan, "plan"));
+  const simulation::FloorPlan fixed = simulation::FloorPlan::load(besideConfig(line, options.plan, "plan"));
   const simulation::Route route = simulation::Route::load(besideConfig(line, options.route, "route"));
+  simulation::MovableThings things;
+  if (!options.things.empty())
+    things = simulation::MovableThings::load(besideConfig(line, options.things, "things"), fixed);
+  const std::vector<simulation::PlacedThing> placed = things.inSession(options.seed, options.session);
+  const simulation::FloorPlan plan = fixed.with(wallsOf(placed));
+  // A route that is clear in one session is clear in all.
+  if (!things.empty()) route.checkClear(fixed.with(things.everywhere()), options.robotRadius);
   const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
 
-  fs::path truth = output, picture = output;
+  fs::path truth = output, picture = output, sessionPlan = output;
   truth.replace_extension(".tum");
   picture.replace_extension(".png");
-  writeTogether(
-      {{output,
-        [&](const std::string& f) { simulation::writeRawlog(simulation::toRawlog(log, options.form), f); }},
-       {truth, [&](const std::string& f) { simulation::writeGroundTruth(log.groundTruth, f); }},
-       {picture, [&](const std::string& f) { simulation::writePicture(plan, log.groundTruth, f); }}});
+  sessionPlan.replace_extension(".truth.plan");
+  FilesAndWriters files = {
+      {output,
+       [&](const std::string& f) { simulation::writeRawlog(simulation::toRawlog(log, options.form), f); }},
+      {truth, [&](const std::string& f) { simulation::writeGroundTruth(log.groundTruth, f); }},
+      {picture, [&](const std::string& f) { simulation::writePicture(plan, log.groundTruth, f); }}};
+  if (!things.empty())
+    files.emplace_back(sessionPlan,
+                       [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
+  writeTogether(files);
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()
                                ? 0
@@ -98,8 +113,13 @@ int parseAndRun(int argc, char** argv) {
       "simul-floorplan");
   CommandLine line;
   app.add_option("config", line.config, "INI file (doc/simulation.md)")->required();
-  app.add_option("-o,--output", line.output, "OUT.rawlog; also writes OUT.tum and OUT.png")->required();
+  app.add_option("-o,--output", line.output,
+                 "OUT.rawlog; also writes OUT.tum and OUT.png, and with\n"
+                 "doors or boxes OUT.truth.plan")
+      ->required();
   app.add_option("-s,--seed", line.seed, "noise seed, overrides the INI file")->check(CLI::NonNegativeNumber);
+  app.add_option("--session", line.session, "session of the building, overrides the INI file")
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--set", line.settings, "override a key of the INI file, SECTION.KEY=VALUE; repeatable")
       ->allow_extra_args(false);
   app.add_flag("-q,--quiet", line.quiet, "print only errors");

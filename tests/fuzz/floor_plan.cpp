@@ -1,9 +1,10 @@
 /// @file floor_plan.cpp
-/// @brief Floor plans and routes of simul-floorplan.
+/// @brief Floor plans, movable things and routes of simul-floorplan.
 
 #include "MemoryFile.h"
 #include "base/Errors.h"
 #include "study/simulation/FloorPlan.h"
+#include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
 
 using namespace hybrid_slam;
@@ -14,6 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const simulation::FloorPlan plan = simulation::FloorPlan::load(file.path());
     plan.castRay({0.1, 0.2}, 0.3, 20);
     plan.distanceToNearestWall({1, 2});
+  } catch (const InputError&) {
+  }
+  try {
+    const simulation::FloorPlan room({simulation::Wall::straight({0, 0}, {8, 0})});
+    simulation::MovableThings::load(file.path(), room).inSession(1, 2);
   } catch (const InputError&) {
   }
   try {

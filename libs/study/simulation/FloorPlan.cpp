@@ -8,6 +8,12 @@ namespace hybrid_slam::simulation {
 
 FloorPlan FloorPlan::load(const std::string& file) { return FloorPlan(readWalls(file)); }
 
+FloorPlan FloorPlan::with(const std::vector<Wall>& more) const {
+  std::vector<Wall> all = walls();
+  all.insert(all.end(), more.begin(), more.end());
+  return FloorPlan(std::move(all));
+}
+
 std::optional<double> FloorPlan::castRay(const mrpt::math::TPoint2D& origin, double heading,
                                          double maxRange) const {
   const double range = index_.rayDistance(origin, {std::cos(heading), std::sin(heading)}, maxRange);

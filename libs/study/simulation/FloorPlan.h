@@ -20,6 +20,9 @@ class FloorPlan {
   ///         zero-length wall, unclosed polygon, door not on a wall, no walls
   static FloorPlan load(const std::string& file);
 
+  /// This plan with more walls.
+  FloorPlan with(const std::vector<Wall>& more) const;
+
   const std::vector<Wall>& walls() const { return index_.walls(); }
   /// Distance (m) to the first wall from `origin` towards `heading` (rad); empty beyond maxRange.
   std::optional<double> castRay(const mrpt::math::TPoint2D& origin, double heading, double maxRange) const;

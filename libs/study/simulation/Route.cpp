@@ -53,8 +53,9 @@ void Route::checkClear(const FloorPlan& plan, double robotRadius) const {
   const std::string radius = numberText(robotRadius) + " m";
   const auto check = [&](const TPose2D& pose, const Piece& piece, const char* what) {
     if (plan.distanceToNearestWall({pose.x, pose.y}) < robotRadius)
-      throw InputError(std::string(what) + " " + positionText(pose), piece.where,
-                       "expected all walls at least the robot's radius, " + radius + ", away");
+      throw InputError(
+          std::string(what) + " " + positionText(pose), piece.where,
+          "expected all walls, doors and boxes at least the robot's radius, " + radius + ", away");
   };
   for (const Piece& piece : pieces_) check(piece.start, piece, "way point inside a wall");
   for (const Piece& piece : pieces_) {

@@ -5,15 +5,14 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "base/RandomStream.h"
 #include "study/simulation/FloorPlan.h"
+#include "study/simulation/NoiseStream.h"
 #include "study/simulation/Route.h"
 
 namespace hybrid_slam::simulation {
 namespace {
 
-constexpr double kOdometryPhase = 0.03;                    // s
-constexpr uint64_t kLaserStream = 1, kOdometryStream = 2;  // used as RandomStream's particle index
+constexpr double kOdometryPhase = 0.03;  // s
 
 /// A time at which a sensor is read, the motion changes or the wheels slip.
 struct Event {
@@ -61,10 +60,15 @@ void expectBounded(const Route& route, int scans, double scanRate, size_t beamsO
 
 void SimulationOptions::describe(OptionTable& t) {
   t.add("plan", plan, "floor plan file, relative to the INI file");
+  t.add("things", things,
+        "doors and boxes that differ between sessions, relative to the INI file; empty: none");
   t.add("route", route, "route file, relative to the INI file");
   t.add("form", form, {{RawlogForm::observations, "observations"}, {RawlogForm::pairs, "pairs"}},
         "observation-only rawlog, or action-observation pairs");
-  t.add("seed", seed, 0, 2147483647, "seed of all noise: the same seed gives the same bytes");
+  t.add("seed", seed, 0, 2147483647,
+        "seed of noise, doors and boxes: the same seed and session give the same bytes");
+  t.add("session", session, 1, 1000000,
+        "visit to the building: another one has other noise, doors and boxes");
   t.add("scans", scans, 0, 10000000, "stop after this many scans; 0: the whole route");
   t.add("start_time", startTime, 0, 4e9, "s", "UNIX time of the first scan");
   t.add("robot_radius", robotRadius, 0, 5, "m", "minimum distance of the path from all walls");
@@ -90,7 +94,7 @@ SimulatedLog simulate(const FloorPlan& plan, const Route& route, const Simulatio
   uint64_t step = 0;
   for (const Event& event : eventsOf(route, slips, odometryOptions.rate, laserOptions.rate)) {
     const Route::Progress now = route.progressAt(event.time);
-    RandomStream odometryNoise(options.seed, step++, kOdometryStream);
+    RandomStream odometryNoise = noiseStream(options.seed, options.session, NoiseSource::odometry, step++);
     wheels.move(now.distance - last.distance, now.rotation - last.rotation, odometryNoise);
     last = now;
     if (event.kind == Event::slip) {
@@ -103,7 +107,7 @@ SimulatedLog simulate(const FloorPlan& plan, const Route& route, const Simulatio
       log.odometry.push_back(reading);
     } else if (event.kind == Event::scan) {
       const auto pose = route.poseAt(event.time);
-      RandomStream laserNoise(options.seed, event.index, kLaserStream);
+      RandomStream laserNoise = noiseStream(options.seed, options.session, NoiseSource::laser, event.index);
       auto scan = mrpt::obs::CObservation2DRangeScan::Create(laser.scan(plan, pose, laserNoise));
       scan->timestamp = timestampOf(event.time);
       log.groundTruth.push_back({scan->timestamp, pose});

@@ -37,9 +37,10 @@ enum class RawlogForm { observations, pairs };
 
 /// INI section [simulation].
 struct SimulationOptions : Options {
-  std::string plan, route;
+  std::string plan, things, route;
   RawlogForm form = RawlogForm::observations;
   int seed = 1;
+  int session = 1;
   int scans = 0;
   double startTime = 1287388800;  // 2010-10-18 08:00:00 UTC
   double robotRadius = 0.27;
@@ -47,7 +48,7 @@ struct SimulationOptions : Options {
 };
 
 /// Scans at 0, 1/rate, 2/rate ... s; odometry readings at their own rate with a phase offset of 30 ms, as for
-/// two devices. The same options and seed give the same log.
+/// two devices. The same options (with seed and session) give the same log.
 /// @throws InputError for a route that touches walls, or is too short for the number of scans
 SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
                       const LaserOptions& laser, const OdometryOptions& odometry);

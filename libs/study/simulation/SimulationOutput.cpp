@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -16,6 +17,7 @@
 
 #include "base/Numbers.h"
 #include "study/simulation/FloorPlan.h"
+#include "study/simulation/MovableThings.h"
 
 namespace hybrid_slam::simulation {
 
@@ -135,6 +137,31 @@ void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& fil
     out << fixedText(mrpt::Clock::toDouble(p.timestamp), 6) << ' ' << fixedText(p.pose.x, 6) << ' '
         << fixedText(p.pose.y, 6) << " 0 0 0 " << fixedText(std::sin(p.pose.phi / 2), 9) << ' '
         << fixedText(std::cos(p.pose.phi / 2), 9) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file);
+}
+
+namespace {
+
+/// A line of a floor plan file, to 1 um.
+std::string planLine(const Wall& wall) {
+  const auto line = [](std::string text, std::initializer_list<double> numbers) {
+    for (const double number : numbers) text += ' ' + fixedText(number, 6);
+    return text;
+  };
+  if (!wall.isArc()) return line("wall", {wall.start.x, wall.start.y, wall.end.x, wall.end.y});
+  const double start = mrpt::RAD2DEG(wall.startAngle), sweep = mrpt::RAD2DEG(wall.sweep);
+  if (sweep > 360 - 1e-6) return line("circle", {wall.centre.x, wall.centre.y, wall.radius});
+  return line("arc", {wall.centre.x, wall.centre.y, wall.radius, start, start + sweep});
+}
+
+}  // namespace
+
+void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& things, const std::string& file) {
+  std::ofstream out(file);
+  for (const Wall& wall : fixed.walls()) out << planLine(wall) << '\n';
+  for (const PlacedThing& thing : things)
+    for (const Wall& wall : thing.walls) out << planLine(wall) << " # " << thing.name << '\n';
   out.close();
   if (!out) throw std::runtime_error("cannot write " + file);
 }

@@ -1,5 +1,6 @@
 /// @file SimulationOutput.h
-/// @brief Writes a simulated log: rawlog, ground truth, picture. The same log gives the same bytes.
+/// @brief Writes a simulated log: rawlog, ground truth, floor plan of the session, picture. The same log
+/// gives the same bytes.
 #pragma once
 
 #include <mrpt/obs/CRawlog.h>
@@ -12,6 +13,7 @@
 namespace hybrid_slam::simulation {
 
 class FloorPlan;
+struct PlacedThing;
 
 /// Observations in order of time, or one (action, observation) pair per scan; the first action is empty.
 mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form);
@@ -22,6 +24,11 @@ void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file);
 
 /// Rows `timestamp x y z qx qy qz qw` (s, m). @throws std::runtime_error if it cannot be written
 void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file);
+
+/// A floor plan file of single walls, with the name of the thing as a comment after the walls of a door or
+/// box.
+/// @throws std::runtime_error if it cannot be written
+void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& things, const std::string& file);
 
 /// PNG: walls black, path blue, start green, end red, grid lines every 5 m.
 /// @throws std::runtime_error if it cannot be written
