@@ -73,7 +73,7 @@ inline Scans observed(const LaserScan& seen) {
   scan->aperture = static_cast<float>(M_PI);
   scan->timestamp = seen.timestamp;  // MRPT's default is now
   scan->maxRange = 80;
-  scan->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(seen.sensorPose));
+  scan->sensorPose = mrpt::poses::CPose3D(mrpt::math::TPose3D(seen.sensorPose));
   scan->resizeScan(seen.beams.size());
   for (size_t i = 0; i < seen.beams.size(); ++i) {
     scan->setScanRange(i, static_cast<float>(seen.beams[i].range));

@@ -12,7 +12,7 @@ namespace hybrid_slam::test {
 /// All files that a replay writes.
 inline const std::vector<std::string> kResults{
     "trajectory.tum", "map.png",   "map.pgm",      "map.yaml",   "map.gridmap.gz", "map.simplemap.gz",
-    "lines.csv",      "steps.csv", "metrics.json", "config.ini", "covariance.csv"};
+    "lines.csv",      "steps.csv", "metrics.json", "config.ini", "covariance.csv", "session.hslam"};
 
 /// Contents of a folder; empty if there is none.
 inline std::vector<std::string> namesIn(const std::string& folder) {

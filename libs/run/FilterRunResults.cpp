@@ -103,10 +103,10 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     writeMap(result, file, log);
   }
   savePicture(folder_, grid, trajectory, lines, verdict_.places);
+  if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
   steps_.finish();
   if (particles_) particles_->finish();
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
-  if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });

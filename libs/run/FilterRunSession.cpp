@@ -4,6 +4,7 @@
 #include "base/Clock.h"
 #include "base/Errors.h"
 #include "files/DatedName.h"
+#include "files/PartialFile.h"
 #include "run/FilterRun.h"
 #include "run/Fingerprint.h"
 #include "run/MapFiles.h"
@@ -97,6 +98,8 @@ void FilterRun::resume(SessionReader& session) {
   if (!hybrid_)
     throw InputError("MRPT's filter has no sessions", session.file(), "expected method hybrid or general");
   session.readRest([this](StateReader& in) { visit(in); });
+  std::error_code ignored;  // what a killed run leaves of its next checkpoint
+  std::filesystem::remove(files::PartialFile::partialName(session.file()), ignored);
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {

@@ -1,0 +1,245 @@
+/// hybrid-slam with sessions: saved, resumed, continued, localised in; killed at any moment; damaged.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "ChildProgram.h"
+#include "HybridSlamProgram.h"
+#include "base/RandomStream.h"
+#include "files/Gzip.h"
+#include "files/Trajectory.h"
+
+namespace hybrid_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contentOf;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Sessions : public HybridSlam {
+ protected:
+  std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(120));
+  std::string session = output + "/session.hslam";
+
+  /// Everything that a run writes but times and memory.
+  std::map<std::string, std::string> resultsIn(const std::string& where) const {
+    std::map<std::string, std::string> all;
+    for (const char* name : {"trajectory.tum", "covariance.csv", "map.pgm", "map.gridmap.gz", "lines.csv"})
+      all[name] = contentOf(where + "/" + name);
+    const std::regex stepTime(",[^,\n]*((,[^,\n]*){5}\n)");
+    all["steps.csv"] = std::regex_replace(contentOf(where + "/steps.csv"), stepTime, "$1");
+    return all;
+  }
+  void expectSame(const std::map<std::string, std::string>& expected, const std::string& where) const {
+    const auto found = resultsIn(where);
+    for (const auto& [name, text] : expected) EXPECT_TRUE(found.at(name) == text) << name << " of " << where;
+  }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    return folder.write(name, bytes);
+  }
+};
+
+TEST_F(Sessions, AKilledRunIsResumedToTheSameBytes) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const auto expected = resultsIn(output);
+  RandomStream random(1, 0, 0);
+  size_t killed = 0;
+  for (int k = 0; k < 8; ++k) {
+    const std::string out_k = folder.path("killed-" + std::to_string(k)), saved = out_k + "/session.hslam";
+    {
+      test::ChildProgram program(folder, "killed",
+                                 {HYBRID_SLAM, ini, log, "-o", out_k, "--checkpoint-every", "0.001"});
+      ASSERT_TRUE(test::happens([&] { return fs::exists(saved) || program.hasEnded(); }));
+      std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(100000 * random.uniform())));
+      killed += !program.hasEnded();
+    }
+    if (fs::exists(out_k + "/metrics.json")) continue;
+    EXPECT_FALSE(fs::exists(out_k + "/trajectory.tum"));
+    EXPECT_EQ(run("--resume '" + saved + "'"), 0) << err;
+    expectSame(expected, out_k);
+    EXPECT_THAT(test::namesIn(out_k), testing::UnorderedElementsAreArray(test::kResults));
+  }
+  EXPECT_GE(killed, 3u);
+}
+
+TEST_F(Sessions, AnInterruptedRunIsResumedElsewhere) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const auto expected = resultsIn(output);
+  const std::string cut = folder.path("interrupted"), whole = folder.path("whole");
+  test::ChildProgram program(folder, "interrupted",
+                             {HYBRID_SLAM, ini, log, "-o", cut, "--checkpoint-every", "0.001"});
+  ASSERT_TRUE(test::happens([&] { return fs::exists(cut + "/session.hslam"); }));
+  program.signal(SIGINT);
+  ASSERT_TRUE(test::happens([&] { return program.hasEnded(); }));
+  EXPECT_EQ(run("--resume '" + cut + "/session.hslam' -o '" + whole + "' -j 2"), 0) << err;
+  expectSame(expected, whole);
+}
+
+TEST_F(Sessions, ResumingAFinishedRunWritesItsResults) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const auto expected = resultsIn(output);
+  const std::string again = folder.path("again");
+  EXPECT_EQ(run("--resume '" + session + "' -o '" + again + "'"), 0) << err;
+  expectSame(expected, again);
+}
+
+TEST_F(Sessions, AnotherConfigurationLogOrMethodIsNamed) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string resume = "--resume '" + session + "' -o '" + folder.path("other") + "' ";
+  const auto expectRefused = [&](const std::string& options, const std::string& text) {
+    EXPECT_EQ(run(resume + options), 2) << options;
+    EXPECT_THAT(err, AllOf(testing::MatchesRegex(kErrorLine), HasSubstr(text)));
+    EXPECT_FALSE(fs::exists(folder.path("other")));
+  };
+  expectRefused("--set grid.resolution=0.2",
+                "section [grid], key `resolution` = 0.2; expected 0.1 as in " + session);
+  expectRefused("-n 6", "key `particles` = 6; expected 5");
+  expectRefused("-m general", "key `method` = general; expected hybrid");
+  const std::string other = test::writeGzipped(folder.path("other.rawlog"), test::laps(120, 70));
+  expectRefused("'" + other + "'", "another log than the session's: " + other);
+  const std::string shorter = test::writeGzipped(folder.path("shorter.rawlog"), test::laps(100));
+  expectRefused("'" + shorter + "'", "another log than the session's: " + shorter);
+  expectRefused("--continue '" + session + "'", "exclude each other");
+  const std::string longer = test::writeGzipped(folder.path("longer.rawlog"), test::laps(140));
+  EXPECT_EQ(run(resume + "'" + longer + "'"), 0) << "a log that has grown: " << err;
+}
+
+TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string bytes = contentOf(session), plain = files::readGzip(session, "", 1 << 28);
+  const auto expectRefused = [&](const std::string& file, const std::string& text) {
+    for (const std::string option : {"--resume", "--continue", "--localize"}) {
+      EXPECT_EQ(run("'" + log + "' -o '" + folder.path("other") + "' " + option + " '" + file + "'"), 2)
+          << option << " " << text;
+      EXPECT_THAT(err, testing::MatchesRegex(kErrorLine));
+      if (option == "--resume") {
+        EXPECT_THAT(err, HasSubstr(text));
+      }
+      EXPECT_FALSE(fs::exists(folder.path("other")));
+    }
+  };
+  expectRefused(folder.path("missing"), "no such file");
+  expectRefused(folder.path("."), "not a file");
+  expectRefused(write("empty", ""), "not a session file");
+  expectRefused(log, "not a session file");
+  expectRefused(write("text", "no session"), "not a session file");
+  for (const size_t length : {bytes.size() / 100, bytes.size() / 2, bytes.size() - 4})
+    expectRefused(write("cut", bytes.substr(0, length)), "cut");
+  std::string damaged = bytes;
+  damaged[bytes.size() / 2] = static_cast<char>(~damaged[bytes.size() / 2]);
+  expectRefused(write("damaged", damaged), "damaged");
+  std::string newer = plain;
+  newer[8] = 2;
+  expectRefused(write("newer", files::gzipped(newer)), "session of format 2");
+  std::string huge = plain;
+  huge.replace(12, 8, "\xff\xff\xff\xff\xff\xff\xff\x7f");  // the length of the first text
+  expectRefused(write("huge", files::gzipped(huge)), "damaged session, it is cut");
+  // The state of the run, which only --resume reads, stands behind the map.
+  EXPECT_EQ(run("--resume '" + write("short", files::gzipped(plain.substr(0, plain.size() - 1))) + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("damaged session, it is cut"));
+  EXPECT_EQ(run("--resume '" + write("long", files::gzipped(plain + "x")) + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("damaged session, it has more bytes"));
+}
+
+TEST_F(Sessions, AnotherVersionIsNamed) {
+  ASSERT_EQ(replay(log), 0) << err;
+  std::string plain = files::readGzip(session, "", 1 << 28);
+  const size_t at = plain.find(HYBRID_SLAM_VERSION);
+  ASSERT_EQ(at, 20u);
+  plain[at] = '9';
+  EXPECT_EQ(run("--resume '" + write("version", files::gzipped(plain)) + "'"), 2);
+  EXPECT_THAT(err, AllOf(testing::MatchesRegex(kErrorLine), HasSubstr("session of version 9"),
+                         HasSubstr("--continue")));
+}
+
+TEST_F(Sessions, ACheckpointIsNotOverwrittenByAnotherRun) {
+  fs::create_directory(output);
+  folder.write("out/session.hslam", "of a run that was killed");
+  EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + output + "' --checkpoint-every 0.001"), 0) << err;
+  EXPECT_EQ(contentOf(session), "of a run that was killed");
+  EXPECT_EQ(test::namesIn(output).size(), 2u) << "a dated subfolder";
+}
+
+TEST_F(Sessions, MapsOnFromAKnownOrASearchedStart) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const auto before = files::loadTum(output + "/trajectory.tum");
+  test::Log second = test::laps(200);
+  second.erase(second.begin(), second.begin() + 2 * 110);  // from where the first nearly ends
+  const std::string log2 = test::writeGzipped(folder.path("second.rawlog"), second);
+  const auto end = before[110].pose;
+  const std::string start = " --start=" + std::to_string(end.x) + "," + std::to_string(end.y) + "," +
+                            std::to_string(end.phi * 180 / M_PI);
+  const std::string known = folder.path("known");
+  ASSERT_EQ(run("'" + ini + "' '" + log2 + "' -o '" + known + "' --continue '" + session + "'" + start), 0)
+      << err;
+  const auto after = files::loadTum(known + "/trajectory.tum");
+  ASSERT_EQ(after.size(), 90u);
+  for (size_t i = 0; i < 10; ++i) {  // the scans that both have
+    EXPECT_NEAR(after[i].pose.x, before[110 + i].pose.x, 0.05) << i;
+    EXPECT_NEAR(after[i].pose.y, before[110 + i].pose.y, 0.05) << i;
+  }
+  EXPECT_TRUE(fs::exists(known + "/session.hslam"));
+  // The room is symmetric: without a start, the place stays unknown.
+  const std::string searched = folder.path("searched");
+  EXPECT_EQ(run("'" + ini + "' '" + log2 + "' -o '" + searched + "' --continue '" + session + "'"), 1);
+  EXPECT_THAT(
+      err, AllOf(testing::MatchesRegex("(.|\n)*hybrid-slam: error: [^\n]*\n"), HasSubstr("start not found")));
+  EXPECT_FALSE(fs::exists(searched));
+}
+
+TEST_F(Sessions, LocalisesWithoutAMapOfItsOwn) {
+  ASSERT_EQ(replay(log), 0) << err;
+  for (const std::string& map : {session, output + "/map.yaml", output + "/map.gridmap.gz"}) {
+    SCOPED_TRACE(map);
+    const std::string there = folder.path("there");
+    fs::remove_all(there);
+    ASSERT_EQ(run("'" + ini + "' '" + log + "' -o '" + there + "' --localize '" + map + "' --start 0,0,0"), 0)
+        << err;
+    EXPECT_THAT(test::namesIn(there),
+                testing::UnorderedElementsAre("trajectory.tum", "covariance.csv", "map.png", "steps.csv",
+                                              "config.ini", "metrics.json"));
+    const auto expected = files::loadTum(output + "/trajectory.tum"),
+               found = files::loadTum(there + "/trajectory.tum");
+    ASSERT_EQ(found.size(), expected.size());
+    double worst = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+      const auto off = found[i].pose - expected[i].pose;
+      worst = std::max(worst, off.norm());
+    }
+    EXPECT_LT(worst, 0.25);
+    const auto metrics = nlohmann::json::parse(contentOf(there + "/metrics.json"));
+    EXPECT_EQ(metrics.at("verdict"), "consistent");
+    EXPECT_EQ(metrics.at("localized_share"), 1);
+  }
+}
+
+TEST_F(Sessions, OptionsThatExcludeEachOther) {
+  const auto expectRefused = [&](const std::string& options, const std::string& text) {
+    EXPECT_EQ(run("'" + log + "' -o '" + output + "' " + options), 2) << options;
+    EXPECT_THAT(err, AllOf(testing::MatchesRegex(kErrorLine), HasSubstr(text)));
+    EXPECT_FALSE(fs::exists(output));
+  };
+  expectRefused("--start 1,2,3", "--start without a map");
+  expectRefused("--start 1,2 --continue x", "--start");
+  expectRefused("--start 1e9,2,3 --continue x", "too far away");
+  expectRefused("--checkpoint-every 0", "--checkpoint-every");
+  expectRefused("--checkpoint-every 1 --localize x", "--checkpoint-every with --localize");
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string other = folder.path("other");
+  EXPECT_EQ(run("'" + log + "' -o '" + other + "' -m stock --continue '" + session + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("MRPT's filter does not take a map"));
+  EXPECT_EQ(run("'" + log + "' -o '" + other + "' --set grid.resolution=0.05 --continue '" + session + "'"),
+            2);
+  EXPECT_THAT(err, HasSubstr("expected 0.1 m as in " + session));
+  EXPECT_FALSE(fs::exists(other));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
