@@ -29,7 +29,7 @@ std::string contentOf(const std::string& file) {
 
 GreyPicture decode(const std::string& bytes) {
   if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0) return decodePgm(bytes);
-  if (bytes.compare(0, 4, "\x89PNG") == 0) return decodePng(bytes);
+  if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) return decodePng(bytes);
   throw std::runtime_error("neither PGM nor PNG");
 }
 

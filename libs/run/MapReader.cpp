@@ -10,19 +10,14 @@
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam::run {
-namespace {
 
 static_assert(files::kMostGridMapCells == kMostCells);
 
-/// A map of MRPT has zeros at its start.
-bool isRosMap(const std::string& file) {
-  return std::filesystem::is_regular_file(file) && files::isText(file);
-}
-
-}  // namespace
-
 OccupancyGrid readMap(const std::string& file) {
-  if (isRosMap(file)) return readRosMap(file);
+  constexpr const char* kExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
+  if (!std::filesystem::exists(file)) throw InputError("no such file", file, kExpected);
+  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, kExpected);
+  if (files::isText(file)) return readRosMap(file);  // a grid map starts with zeros
   OccupancyGrid grid = fromMrpt(files::readGridMap(file));
   if (!(grid.resolution() >= 0.001 && grid.resolution() <= 10))
     throw InputError("grid map with impossible cells", file, "expected 0.001 .. 10 m per cell");

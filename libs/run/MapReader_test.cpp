@@ -94,5 +94,26 @@ TEST_F(MapReader, ARosMapKeepsWhatIsOccupiedFreeAndUnknown) {
   }
 }
 
+TEST_F(MapReader, FilesThatAreNoMap) {
+  EXPECT_THAT(errorOf(root.path("none.yaml")), HasSubstr("no such file"));
+  EXPECT_THAT(errorOf(root.path("")), HasSubstr("not a file"));
+  for (const std::string content :
+       {"", "1000 0 0 0 0 0 0 1\n", "{", "a: [b", "- a\n- b\n", "\x89PNG\r\n\x1a\n"}) {
+    SCOPED_TRACE(content);
+    const std::string file = root.write("map", content);
+    EXPECT_THAT(errorOf(file), AllOf(HasSubstr("map"), HasSubstr(file), HasSubstr("; expected ")));
+  }
+}
+
+TEST_F(MapReader, AGridMapThatIsCutOrHasImpossibleCells) {
+  saveGridMap(folder, toMrpt(smallMap()));
+  const std::string bytes = test::contentOf(folder.path("map.gridmap.gz"));
+  const std::string file = root.write("map.gridmap.gz", bytes.substr(0, bytes.size() / 2));
+  EXPECT_THAT(errorOf(file), AllOf(HasSubstr("cut off"), HasSubstr(file)));
+  mrpt::maps::COccupancyGridMap2D coarse(0, 400, 0, 400, 20);
+  saveGridMap(folder, coarse);
+  EXPECT_THAT(errorOf(folder.path("map.gridmap.gz")), HasSubstr("expected 0.001 .. 10 m per cell"));
+}
+
 }  // namespace
 }  // namespace hybrid_slam::run

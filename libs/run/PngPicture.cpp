@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -13,57 +14,90 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr size_t kSignature = 8, kFrame = 12;  // bytes; of a chunk: length, type and checksum
-
 uint32_t numberAt(std::string_view bytes, size_t at) {
   uint32_t value = 0;
   for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);
   return value;
 }
 
-/// What the header of a PNG file claims.
-struct PngHeader {
-  size_t width, height, bytes;  ///< bytes: of all pixels
+/// One of the smaller pictures in which an interlaced PNG file holds its pixels: every dx-th from x0 on.
+struct Pass {
+  size_t x0, dx, y0, dy;
 };
+constexpr Pass kInterlaced[] = {{0, 8, 0, 8}, {4, 8, 0, 8}, {0, 4, 4, 8}, {2, 4, 0, 4},
+                                {0, 2, 2, 4}, {1, 2, 0, 2}, {0, 1, 1, 2}};
 
-PngHeader headerOf(std::string_view chunk) {
-  constexpr size_t kLength = 13;
-  if (chunk.size() != kLength) throw std::runtime_error("no PNG header");
-  const auto depth = static_cast<uint8_t>(chunk[8]), colours = static_cast<uint8_t>(chunk[9]);
-  if (depth > 16 || colours > 6) throw std::runtime_error("no PNG header");
-  const size_t channels = colours == 2 ? 3 : colours == 4 ? 2 : colours == 6 ? 4 : 1;
-  const size_t width = numberAt(chunk, 0), height = numberAt(chunk, 4);
+/// Bytes of the inflated pixels, as the header claims: each row has one more, for its filter.
+size_t pixelBytes(std::string_view header) {
+  constexpr size_t kLength = 13, kMostDepth = 16, kMostKind = 6;
+  if (header.size() != kLength) throw std::runtime_error("no PNG header");
+  const auto depth = static_cast<uint8_t>(header[8]), kind = static_cast<uint8_t>(header[9]);
+  if (depth > kMostDepth || kind > kMostKind) throw std::runtime_error("no PNG header");
+  const size_t bits = static_cast<size_t>(depth) * (kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1);
+  const size_t width = numberAt(header, 0), height = numberAt(header, 4);
   checkSize(width, height);
-  return {width, height, (width * channels * depth + 7) / 8 * height};
+  const auto bytesOf = [&](const Pass& pass) {
+    if (width <= pass.x0 || height <= pass.y0) return size_t{0};
+    const size_t columns = (width - pass.x0 + pass.dx - 1) / pass.dx;
+    return ((columns * bits + 7) / 8 + 1) * ((height - pass.y0 + pass.dy - 1) / pass.dy);
+  };
+  size_t bytes = 0;
+  if (header[12] == 0)
+    bytes = bytesOf({0, 1, 0, 1});
+  else
+    for (const Pass& pass : kInterlaced) bytes += bytesOf(pass);
+  if (bytes > 2 * kMostCells) throw std::runtime_error("pixels of more than 2^29 bytes");
+  return bytes;
 }
 
-/// The picture without the chunks that do not change its pixels: libpng prints what it finds wrong in them.
-/// @throws std::runtime_error if the chunks cannot hold the pixels that the header claims
-std::string essentialChunks(std::string_view bytes) {
-  constexpr size_t kMostDeflated = 1032;  // bytes out of one: no stream of zlib has more
-  std::string out(bytes.substr(0, kSignature));
-  PngHeader header{};
-  size_t deflated = 0;
+/// The chunks that make up the pixels.
+struct Chunks {
+  std::string picture = "\x89PNG\r\n\x1a\n";  ///< without others: libpng prints what it finds wrong in them
+  size_t pixelBytes = 0;
+  std::string deflated;
+};
+
+Chunks essentialChunks(std::string_view bytes) {
+  constexpr size_t kFrame = 12;  // length, type and checksum
+  Chunks chunks;
   std::string_view type;
-  for (size_t at = kSignature; type != "IEND";) {
+  for (size_t at = chunks.picture.size(); type != "IEND";) {
     if (bytes.size() < at + kFrame || numberAt(bytes, at) > bytes.size() - at - kFrame)
       throw std::runtime_error("cut off");
     const size_t length = numberAt(bytes, at);
     type = bytes.substr(at + 4, 4);
-    const std::string_view chunk = bytes.substr(at + 8, length);
-    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
+    const std::string_view content = bytes.substr(at + 8, length);
+    const auto* const checked = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
     if (::crc32(0, checked, static_cast<uInt>(length + 4)) != numberAt(bytes, at + 8 + length))
       throw std::runtime_error("damaged: wrong checksum");
-    if ((header.width == 0) != (type == "IHDR")) throw std::runtime_error("no PNG header");
-    if (type == "IHDR") header = headerOf(chunk);
-    if (type == "IDAT") deflated += length;
+    if ((chunks.pixelBytes == 0) != (type == "IHDR")) throw std::runtime_error("no PNG header");
+    if (type == "IHDR") chunks.pixelBytes = pixelBytes(content);
+    if (type == "IDAT") chunks.deflated += content;
     if (type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND")
-      out += bytes.substr(at, kFrame + length);
+      chunks.picture += bytes.substr(at, kFrame + length);
     at += kFrame + length;
   }
-  if (header.bytes > kMostCells) throw std::runtime_error("pixels of more than 2^28 bytes");
-  if (header.bytes > kMostDeflated * deflated) throw std::runtime_error("cut off");
-  return out;
+  return chunks;
+}
+
+/// Bytes that a whole zlib stream holds; stops beyond `most`. @throws std::runtime_error if it is cut or
+/// damaged
+size_t inflatedSize(const std::string& deflated, size_t most) {
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(deflated.data()));
+  stream.avail_in = static_cast<uInt>(deflated.size());
+  if (inflateInit(&stream) != Z_OK) throw std::runtime_error("damaged");
+  std::array<Bytef, 1 << 16> buffer;
+  int state = Z_OK;
+  while (state == Z_OK && stream.total_out <= most) {
+    stream.next_out = buffer.data(), stream.avail_out = buffer.size();
+    state = inflate(&stream, Z_NO_FLUSH);
+  }
+  const size_t size = stream.total_out;
+  inflateEnd(&stream);
+  if (state == Z_BUF_ERROR) throw std::runtime_error("cut off");
+  if (state != Z_STREAM_END && size <= most) throw std::runtime_error("damaged");
+  return size;
 }
 
 /// Colours and opacity of a pixel, 0..255.
@@ -86,8 +120,10 @@ Pixel pixelAt(const cv::Mat& image, int x, int y) {
 }  // namespace
 
 GreyPicture decodePng(const std::string& bytes) {
-  const std::string chunks = essentialChunks(bytes);
-  const cv::Mat encoded(1, static_cast<int>(chunks.size()), CV_8U, const_cast<char*>(chunks.data()));
+  Chunks chunks = essentialChunks(bytes);
+  const size_t size = inflatedSize(chunks.deflated, chunks.pixelBytes);
+  if (size != chunks.pixelBytes) throw std::runtime_error(size < chunks.pixelBytes ? "cut off" : "damaged");
+  const cv::Mat encoded(1, static_cast<int>(chunks.picture.size()), CV_8U, chunks.picture.data());
   const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
   if (image.empty() || (image.depth() != CV_8U && image.depth() != CV_16U))
     throw std::runtime_error("damaged");

@@ -4,26 +4,24 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "files/LineReader.h"
 
 namespace hybrid_slam::run {
 namespace {
 
 constexpr const char* kExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
 
-/// The whole text: yaml-cpp reads no more than what is checked here.
 std::string textOf(const std::string& file) {
   constexpr size_t kMost = 1 << 16;
-  files::LineReader in(file);
-  std::string text, line;
-  while (in.next(line)) {
-    text += line + '\n';
-    if (text.size() > kMost) throw InputError("not a map", file, kExpected);
-  }
+  std::string text(kMost, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(text.data(), kMost);
+  if (in) throw InputError("not a map", file, kExpected);
+  text.resize(static_cast<size_t>(in.gcount()));
   return text;
 }
 
