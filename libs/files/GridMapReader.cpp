@@ -11,15 +11,17 @@
 namespace hybrid_slam::files {
 namespace {
 
-constexpr size_t kMostBytes = kMostGridMapCells + (size_t{1} << 20);  // one byte a cell, and the options
-constexpr const char* kExpected = "expected a grid map of MRPT (COccupancyGridMap2D, plain or gzipped)";
+constexpr size_t kMostGridMapBytes =
+    kMostGridMapCells + (size_t{1} << 20);  // one byte a cell, and the options
+constexpr const char* kGridMapExpected =
+    "expected a grid map of MRPT (COccupancyGridMap2D, plain or gzipped)";
 
 }  // namespace
 
 mrpt::maps::COccupancyGridMap2D readGridMap(const std::string& file) {
-  ObjectFile in(file, kExpected);
+  ObjectFile in(file, kGridMapExpected);
   try {
-    ObjectWalk walk(in.bytes(), false, kMostBytes);
+    ObjectWalk walk(in.bytes(), false, kMostGridMapBytes);
     walk.object(ObjectKind::gridMap);
     const bool hasMore = in.bytes().has(walk.at() + 1);  // to the checksum of gzip
     if (in.isDamaged()) throw ObjectCut("");
@@ -29,9 +31,10 @@ mrpt::maps::COccupancyGridMap2D readGridMap(const std::string& file) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const ObjectCut&) {
-    throw InputError(in.isDamaged() ? "gzip file damaged or cut off" : "grid map cut off", file, kExpected);
+    throw InputError(in.isDamaged() ? "gzip file damaged or cut off" : "grid map cut off", file,
+                     kGridMapExpected);
   } catch (const std::exception& e) {
-    throw InputError("not a readable grid map (" + messageOf(e) + ")", file, kExpected);
+    throw InputError("not a readable grid map (" + messageOf(e) + ")", file, kGridMapExpected);
   }
 }
 

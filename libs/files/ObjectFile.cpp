@@ -9,7 +9,7 @@
 namespace hybrid_slam::files {
 namespace {
 
-gzFile_s* openForReading(const std::string& path, const std::string& expected) {
+gzFile_s* openObjects(const std::string& path, const std::string& expected) {
   if (!std::filesystem::exists(path)) throw InputError("no such file", path, expected);
   if (!std::filesystem::is_regular_file(path)) throw InputError("not a file", path, expected);
   gzFile_s* const file = gzopen(path.c_str(), "rb");
@@ -20,7 +20,7 @@ gzFile_s* openForReading(const std::string& path, const std::string& expected) {
 }  // namespace
 
 ObjectFile::ObjectFile(const std::string& path, const std::string& expected)
-    : file_(openForReading(path, expected), gzclose_r),
+    : file_(openObjects(path, expected), gzclose_r),
       bytes_([this](char* to, size_t count) { return gzfread(to, 1, count, file_.get()); }) {}
 
 bool ObjectFile::isDamaged() const {

@@ -12,18 +12,19 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr const char* kExpected = "expected a picture of a map (PGM or PNG)";
-constexpr size_t kMostBytes = 4 * kMostCells + 4096;  // of a plain PGM: three digits and a space a pixel
+constexpr const char* kPictureExpected = "expected a picture of a map (PGM or PNG)";
+constexpr size_t kMostPictureBytes =
+    4 * kMostCells + 4096;  // of a plain PGM: three digits and a space a pixel
 
-std::string contentOf(const std::string& file) {
-  if (!std::filesystem::exists(file)) throw InputError("no such file", file, kExpected);
-  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, kExpected);
+std::string pictureBytes(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw InputError("no such file", file, kPictureExpected);
+  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, kPictureExpected);
   const auto size = std::filesystem::file_size(file);
-  if (size > kMostBytes) throw InputError("picture too large", file, "expected at most 2^28 pixels");
+  if (size > kMostPictureBytes) throw InputError("picture too large", file, "expected at most 2^28 pixels");
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
-    throw InputError("cannot read", file, kExpected);
+    throw InputError("cannot read", file, kPictureExpected);
   return bytes;
 }
 
@@ -44,13 +45,13 @@ void checkSize(size_t width, size_t height) {
 }
 
 GreyPicture readGreyPicture(const std::string& file) {
-  const std::string bytes = contentOf(file);
+  const std::string bytes = pictureBytes(file);
   try {
     return decode(bytes);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    throw InputError("not a readable picture (" + messageOf(e) + ")", file, kExpected);
+    throw InputError("not a readable picture (" + messageOf(e) + ")", file, kPictureExpected);
   }
 }
 

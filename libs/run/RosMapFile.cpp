@@ -13,14 +13,14 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr const char* kExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
+constexpr const char* kYamlExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
 
 std::string textOf(const std::string& file) {
   constexpr size_t kMost = 1 << 16;
   std::string text(kMost, '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(text.data(), kMost);
-  if (in) throw InputError("not a map", file, kExpected);
+  if (in) throw InputError("not a map", file, kYamlExpected);
   text.resize(static_cast<size_t>(in.gcount()));
   return text;
 }
@@ -33,9 +33,9 @@ class MapKeys {
       root_ = YAML::Load(textOf(file));
     } catch (const YAML::Exception& e) {
       const std::string line = e.mark.is_null() ? "" : ", line " + std::to_string(e.mark.line + 1);
-      throw InputError("not a map (" + e.msg + ")", file + line, kExpected);
+      throw InputError("not a map (" + e.msg + ")", file + line, kYamlExpected);
     }
-    if (!root_.IsMap() || !root_["image"]) throw InputError("not a map", file, kExpected);
+    if (!root_.IsMap() || !root_["image"]) throw InputError("not a map", file, kYamlExpected);
   }
 
   std::string text(const char* key, const char* expected) const {
