@@ -102,6 +102,37 @@ class Campaign:
         self.expect(not left, f"unfinished folders are left: {left}")
         self.row("hybrid-slam killed", count, f"{finished} had finished; complete results of one run at all times")
 
+    def kill_sessions(self, count):
+        """Kills a run and what resumes it, over and over, until it ends; then begins again."""
+        datasets = os.environ.get("HYBRID_SLAM_DATASETS")
+        log = pathlib.Path(datasets) / "intel-lab.clf.gz" if datasets else LOG
+        folder, whole, killed, ends = self.out / "session", self.out / "whole", 0, 0
+        session = folder / "session.hslam"
+        new = [self.bin / "hybrid-slam", log, "-q", "--checkpoint-every", "0.3", "-o"]
+        begin = time.monotonic()
+        self.expect(run(*new, whole)[0] == 0, "run with checkpoints fails")
+        seconds = time.monotonic() - begin
+        same = [name for name in RESULTS if name not in ("steps.csv", "config.ini")]
+        while killed < count:
+            command = [*new[:1], "--resume", session, *new[2:-1]] if session.exists() else [*new, folder]
+            child = start(*command)
+            try:
+                child.wait(self.rng.uniform(0, 0.6 * seconds))
+            except subprocess.TimeoutExpired:
+                child.kill()
+                child.communicate()
+                killed += 1
+                self.expect(not (folder / "map.png").exists(), f"session {killed}: results of a part")
+                continue
+            self.expect(child.communicate() and child.returncode == 0, f"session {killed}: not resumed")
+            for name in same:
+                self.expect((folder / name).read_bytes() == (whole / name).read_bytes(), f"session {killed}: {name} differs")
+            ends += 1
+            shutil.rmtree(folder)
+        self.expect(ends > 0, "no run reached its end")
+        self.row("hybrid-slam --checkpoint-every killed", killed,
+                 f"resumed from the last checkpoint each time; {ends} runs reached the end, with the bytes of an uninterrupted one")
+
     def kill_comparisons(self, count):
         folder = self.out / "compare"
         command = [self.bin / "slam-compare", ROOT / "config-ini/paper.ini", self.short, "--methods", "hybrid,general",
@@ -236,6 +267,7 @@ def main():
     campaign = Campaign(arguments)
     campaign.write_nowhere()
     campaign.fill_disks(arguments.limits)
+    campaign.kill_sessions(arguments.kills)
     campaign.kill_replays(arguments.kills)
     campaign.kill_comparisons(arguments.kills)
     campaign.kill_lives(arguments.kills)
