@@ -27,17 +27,25 @@ constexpr double kHopeless = 40;       // ln of the ratio of weights to the best
 constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hypotheses of one place
 constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
 
-// One place is declared if
-constexpr size_t kScans = 5;           // so many scans
-constexpr double kExplained = 0.7;     // are explained by it in this share of their beams on average,
-constexpr double kContradicted = 0.1;  // contradicted in no more than this,
-constexpr double kMargin = 10;         // and other places are less likely by this ln of the ratio
-constexpr double kSearched = 0.1;      // among all with a score within this of the best.
+constexpr double kImpossible = 10;  // ln of the ratio of weights to a place that is not in the map, likewise
+
+// A place is declared if
+constexpr size_t kScans = 5;              // there are at least so many scans,
+constexpr double kExplainedScans = 0.75;  // it explains this share of them,
+constexpr double kMargin = 10;            // other places are less likely by this ln of the ratio,
+constexpr double kSearched = 0.1;         // and all with a score within this of the best were looked at.
+constexpr double kExplained = 0.7, kContradicted = 0.15;  // share of the beams of an explained scan
 
 TPoint2D centreOf(const OccupancyGrid& grid) {
   const CellBox box = grid.tiles().bounds();
   return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
           0.5 * (box.min.y + box.max.y) * grid.resolution()};
+}
+
+double explainedScans(const Hypothesis& hypothesis) {
+  const auto explained = std::count_if(hypothesis.evidence.begin(), hypothesis.evidence.end(),
+                                       [](const ScanEvidence& scan) { return isExplained(scan.shares); });
+  return static_cast<double>(explained) / static_cast<double>(hypothesis.evidence.size());
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b) {
@@ -46,6 +54,10 @@ bool isSamePlace(const TPose2D& a, const TPose2D& b) {
 }
 
 }  // namespace
+
+bool isExplained(const BeamShares& scan) {
+  return scan.explained > kExplained && scan.contradicted < kContradicted;
+}
 
 GlobalLocalization::GlobalLocalization(const FilterConfiguration& c, OccupancyGrid grid, LineDatabase lines)
     : grid_(std::move(grid)),
@@ -84,9 +96,15 @@ void GlobalLocalization::follow(Hypothesis& hypothesis, const RecentScans& recen
 Hypothesis GlobalLocalization::judged(const TPose2D& pose, const RecentScans& recent) const {
   Hypothesis hypothesis;
   TPose2D at = pose;
+  double against = 0;
   for (size_t i = recent.scans().size(); i-- > 0;) {
     hypothesis.evidence.push_back(match(recent.scans()[i].scan, at));
     if (hypothesis.evidence.size() == 1) hypothesis.pose = at;
+    against += exponent_ * (kUnexplained - hypothesis.evidence.back().logGrid);
+    if (against > kImpossible) {
+      hypothesis.logWeight = -INFINITY;
+      return hypothesis;
+    }
     if (i > 0) at = at + recent.motion(i, i - 1);
   }
   std::reverse(hypothesis.evidence.begin(), hypothesis.evidence.end());
@@ -114,7 +132,9 @@ void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& aren
                    [](const Hypothesis& a, const Hypothesis& b) { return a.logWeight > b.logWeight; });
   std::vector<Hypothesis> kept;
   for (Hypothesis& hypothesis : hypotheses_) {
-    if (kept.size() == kHypotheses || hypothesis.logWeight < hypotheses_[0].logWeight - kHopeless) break;
+    if (kept.size() == kHypotheses || hypothesis.logWeight < hypotheses_[0].logWeight - kHopeless ||
+        hypothesis.logWeight == -INFINITY)
+      break;
     const bool isKnown = std::any_of(kept.begin(), kept.end(), [&hypothesis](const Hypothesis& other) {
       return isSamePlace(hypothesis.pose, other.pose);
     });
@@ -131,10 +151,13 @@ bool GlobalLocalization::decide() const {
   const auto scans = static_cast<double>(best.evidence.size());
   if (best.logWeight < exponent_ * kUnexplained * scans + kMargin) return false;
   if (hypotheses_.size() > 1 && hypotheses_[1].logWeight > best.logWeight - kMargin) return false;
-  BeamShares mean;
-  for (const ScanEvidence& scan : best.evidence)
-    mean.explained += scan.shares.explained / scans, mean.contradicted += scan.shares.contradicted / scans;
-  return mean.explained > kExplained && mean.contradicted < kContradicted;
+  return explainedScans(best) >= kExplainedScans;
+}
+
+bool GlobalLocalization::refutes(const TPose2D& pose, const RecentScans& recent) const {
+  return !hypotheses_.empty() && !isSamePlace(hypotheses_[0].pose, pose) &&
+         explainedScans(hypotheses_[0]) >= kExplainedScans &&
+         hypotheses_[0].logWeight > judged(pose, recent).logWeight + kMargin;
 }
 
 std::vector<WeightedPose> GlobalLocalization::poses(const TPose2D& since) const {

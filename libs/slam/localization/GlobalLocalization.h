@@ -22,6 +22,9 @@ struct ScanEvidence {
   BeamShares shares;
 };
 
+/// Whether most of the beams end at walls of the map and few contradict it.
+bool isExplained(const BeamShares& scan);
+
 /// A place where the robot may be.
 struct Hypothesis {
   mrpt::math::TPose2D pose;            ///< of the newest scan, map frame
@@ -45,6 +48,8 @@ class GlobalLocalization {
   void update(const RecentScans& recent, tbb::task_arena& arena);
   /// Whether one place explains the scans and no other does nearly as well.
   bool isFound() const { return isFound_; }
+  /// Whether another place explains the recent scans much better than the robot at `pose`.
+  bool refutes(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
   /// Best first.
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// The belief: the hypotheses, and places all over the map for the chance that none of them is right.

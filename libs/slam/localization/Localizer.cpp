@@ -2,6 +2,7 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/Errors.h"
@@ -17,8 +18,11 @@ namespace {
 
 constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};  // around a given start
 constexpr double kStdXY = 0.05, kStdPhi = mrpt::DEG2RAD(1.0);   // of the particles where tracking begins
-constexpr size_t kLost = 4;  // successive scans, at least 0.5 m or 20 deg apart, that do not fit
-constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams of a scan that does not fit
+// Of scans at least 0.5 m or 20 deg apart:
+constexpr size_t kLost = 4;  // in succession that do not fit: the place is unknown
+constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams of such a scan
+constexpr size_t kWindow = 8;
+constexpr long kDoubtful = 2;  // of these that are not explained: other places may fit
 
 FilterConfiguration checked(FilterConfiguration configuration, const OccupancyGrid& grid) {
   configuration.grid.resolution = grid.resolution();
@@ -73,6 +77,7 @@ void Localizer::startTracking(const TPose2D& pose) {
   particles_.place(poses, grid_, lines_);
   isTracking_ = true;
   unsupported_ = 0;
+  explained_.clear();
   summarise(pose);
 }
 
@@ -82,14 +87,27 @@ void Localizer::track(const PreparedScan& scan, bool isRemembered) {
   particles_.resampleIfDue();
   step_ = particles_.lastStep();
   pose_ = particles_.best().path.back();
-  if (!isRemembered) return;
-  const BeamShares shares = beamShares(scan.matchedBeams, pose_, grid_);
+  if (isRemembered) check(beamShares(scan.matchedBeams, pose_, grid_));
+}
+
+// A robot that was carried to a place that looks much like the one before is found out by comparing the
+// places.
+void Localizer::check(const BeamShares& shares) {
   const bool isSupported = shares.contradicted < kContradicted && shares.explained > kExplained;
   unsupported_ = isSupported ? 0 : unsupported_ + 1;
-  if (unsupported_ < kLost) return;
+  explained_.push_back(isExplained(shares));
+  if (explained_.size() > kWindow) explained_.pop_front();
+  recent_.keep(kWindow);
+  if (unsupported_ >= kLost) {
+    recent_.keep(kLost);
+    global_.clear();
+  } else {
+    if (std::count(explained_.begin(), explained_.end(), false) < kDoubtful) return global_.clear();
+    global_.update(recent_, arena_);
+    if (!global_.refutes(pose_, recent_)) return;
+    global_.clear();
+  }
   isTracking_ = false;
-  recent_.keep(kLost);
-  global_.clear();
   search(true);
 }
 

@@ -4,6 +4,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <deque>
 #include <optional>
 
 #include "slam/filter/Filter.h"
@@ -45,6 +46,7 @@ class Localizer : public Filter {
  private:
   void update(const Scans& scans);
   void track(const PreparedScan& scan, bool isRemembered);
+  void check(const BeamShares& shares);
   void search(bool isRemembered);
   void startTracking(const mrpt::math::TPose2D& pose);
   void summarise(const mrpt::math::TPose2D& best);
@@ -59,7 +61,8 @@ class Localizer : public Filter {
   RecentScans recent_;
   tbb::task_arena arena_;
   bool isTracking_ = false;
-  size_t unsupported_ = 0;  ///< successive scans that do not fit the map at the tracked pose
+  size_t unsupported_ = 0;      ///< successive scans that do not fit the map at the tracked pose
+  std::deque<bool> explained_;  ///< whether the last scans are, there
   mrpt::math::TPose2D odometry_;
   mrpt::math::TPose2D pose_;  ///< best estimate
   std::vector<mrpt::math::TPose2D> path_;
