@@ -1,7 +1,9 @@
 #include "files/RawlogWriter.h"
 
+#include <fcntl.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
@@ -24,10 +26,15 @@ struct GzipSink {
 
 }  // namespace
 
-RawlogWriter::RawlogWriter(const std::string& path) : file_(path), gzip_(nullptr, gzclose_w) {
-  errno = 0;
-  gzip_.reset(gzopen(file_.path().c_str(), "wb1"));
-  if (!gzip_) file_.fail(errno);
+RawlogWriter::RawlogWriter(const std::string& path)
+    : file_(path),
+      descriptor_(::open(file_.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
+      gzip_(nullptr, gzclose_w) {
+  if (descriptor_ < 0) file_.fail(errno);
+  gzip_.reset(gzdopen(descriptor_, "wb1"));
+  if (gzip_) return;
+  ::close(descriptor_);
+  file_.fail(ENOMEM);
 }
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
@@ -39,7 +46,7 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
 
 void RawlogWriter::flush() {
   errno = 0;
-  if (gzflush(gzip_.get(), Z_SYNC_FLUSH) != Z_OK) file_.fail(errno);
+  if (gzflush(gzip_.get(), Z_SYNC_FLUSH) != Z_OK || ::fdatasync(descriptor_) != 0) file_.fail(errno);
 }
 
 void RawlogWriter::finishCut() {

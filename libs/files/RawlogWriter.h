@@ -34,6 +34,7 @@ class RawlogWriter {
 
  private:
   PartialFile file_;
+  int descriptor_;  ///< owned by gzip_
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> gzip_;
 };
 

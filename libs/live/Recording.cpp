@@ -35,22 +35,34 @@ void Recording::open() {
 }
 
 void Recording::write(const mrpt::obs::CObservation& observation) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (entries_++ == 0) open();
   if (!writer_) return;
   try {
     writer_->write(observation);
-    if (Clock::now() - lastFlush_ >= std::chrono::seconds(5)) flush();
   } catch (const std::exception& e) {
     endAt(e);
   }
+  if (Clock::now() - lastFlush_ >= std::chrono::seconds(5)) sync();
 }
 
 void Recording::flush() {
-  writer_->flush();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sync();
+}
+
+void Recording::sync() {
+  if (!writer_) return;
+  try {
+    writer_->flush();
+  } catch (const std::exception& e) {
+    endAt(e);
+  }
   lastFlush_ = Clock::now();
 }
 
 void Recording::finish() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (!writer_) return;
   try {
     writer_->finish();

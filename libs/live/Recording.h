@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "files/RawlogWriter.h"
@@ -27,7 +28,7 @@ class Recording {
   /// A full disk ends the recording, not the run, and is reported.
   /// @throws InputError if the file cannot be opened
   void write(const mrpt::obs::CObservation& observation);
-  /// Syncs everything written so far to disk.
+  /// Syncs everything written so far to disk, from any thread.
   void flush();
   void finish();
   /// Empty before the first observation.
@@ -37,11 +38,13 @@ class Recording {
  private:
   using Clock = std::chrono::steady_clock;
   void open();
+  void sync();
   void endAt(const std::exception& fault);
 
   std::string folder_, name_, path_;
   size_t entries_ = 0;
   EventLog& log_;
+  std::mutex mutex_;                             ///< guards the next two
   std::unique_ptr<files::RawlogWriter> writer_;  ///< null before the first observation and after the end
   Clock::time_point lastFlush_ = Clock::now();
 };
