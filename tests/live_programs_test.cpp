@@ -16,6 +16,7 @@
 #include "Shell.h"
 #include "files/RawlogReader.h"
 #include "files/TemporaryFolder.h"
+#include "testing/DriveLog.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 
@@ -42,7 +43,11 @@ class LivePrograms : public testing::Test {
   }
   /// The server that replays laps in the room.
   std::unique_ptr<Program> replaying(size_t steps, const std::string& rate, const std::string& atPort = "0") {
-    const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(steps));
+    return replaying(test::laps(steps), rate, atPort);
+  }
+  std::unique_ptr<Program> replaying(const test::Log& recorded, const std::string& rate,
+                                     const std::string& atPort = "0") {
+    const std::string log = test::writeGzipped(folder.path("log.rawlog"), recorded);
     return server(folder.write("server.ini", "[server]\nport = " + atPort +
                                                  "\nwait_for_clients = 1\nqueue = 10000\n" +
                                                  "replay_rate = " + rate + "\nrawlog = " + log + "\n"));
@@ -58,6 +63,11 @@ class LivePrograms : public testing::Test {
     Program program(folder, "replay", {HYBRID_SLAM, ini, log, "-q", "-o", folder.path(to)});
     EXPECT_EQ(program.wait(), 0) << program.err();
     return test::contentOf(folder.path(to + "/trajectory.tum"));
+  }
+  /// The session of a replay.
+  std::string sessionOf(const test::Log& recorded) {
+    replay(test::writeGzipped(folder.path("earlier.rawlog"), recorded), "earlier");
+    return folder.path("earlier/session.hslam");
   }
   /// Waits for the first cycles in the recording: they come in one block, within 5 s.
   bool isRecording() const {
@@ -214,6 +224,90 @@ TEST_F(LivePrograms, AKilledRunLeavesItsRecording) {
   EXPECT_GT(objects, 10u);
 }
 
+TEST_F(LivePrograms, AKilledRunIsResumedFromItsCheckpointAndItsRecording) {
+  const auto robot = replaying(5000, "100");
+  const auto map = live({"--checkpoint-every", "0.3"});
+  const std::string session = output + "/session.hslam";
+  ASSERT_TRUE(test::happens([&] { return std::filesystem::exists(session); })) << map->err();
+  const auto first = test::contentOf(session);
+  ASSERT_TRUE(test::happens([&] { return test::contentOf(session) != first; })) << "the next checkpoint";
+  map->signal(SIGKILL);
+  EXPECT_EQ(map->wait(), -1);
+  const auto left = test::filesIn(output, ".partial.recording-");
+  ASSERT_EQ(left.size(), 1u);
+
+  Program whole(folder, "whole", {HYBRID_SLAM, ini, left[0], "-q", "-o", folder.path("whole")});
+  EXPECT_EQ(whole.wait(), 1) << "the recording is cut off";
+  Program resumed(folder, "resumed", {HYBRID_SLAM, "--resume", session, left[0], "-q"});
+  EXPECT_EQ(resumed.wait(), 1);
+  EXPECT_THAT(resumed.err(), HasSubstr("cut off"));
+  for (const char* name : {"trajectory.tum", "map.pgm", "lines.csv", "covariance.csv"}) {
+    EXPECT_EQ(result(name), test::contentOf(folder.path("whole/") + name)) << name;
+    EXPECT_FALSE(result(name).empty()) << name;
+  }
+}
+
+TEST_F(LivePrograms, ASignalSavesTheMapAndTheRunGoesOn) {
+  const auto robot = replaying(400, "100");
+  const auto map = live();
+  ASSERT_TRUE(isRecording()) << map->err();
+  map->signal(SIGUSR1);
+  ASSERT_TRUE(test::happens([&] { return map->err().find("map saved: ") != std::string::npos; }))
+      << map->err();
+  const auto saved = test::filesIn(output, "saved-20");
+  ASSERT_EQ(saved.size(), 1u);
+  EXPECT_THAT(map->err(), HasSubstr("map saved: " + saved[0] + "\n"));
+  EXPECT_THAT(test::namesIn(saved[0]),
+              testing::UnorderedElementsAre("trajectory.tum", "map.png", "map.pgm", "map.yaml", "lines.csv",
+                                            "session.hslam"));
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_THAT(map->out(), HasSubstr("400 scans"));
+  EXPECT_TRUE(std::filesystem::exists(saved[0] + "/session.hslam")) << "beside the results of the run";
+  EXPECT_EQ(result("trajectory.tum"), replay(recording(), "again")) << "saving changes nothing";
+}
+
+TEST_F(LivePrograms, LocalisesInTheMapOfAnEarlierRun) {
+  const std::string session = sessionOf(test::logOf(test::drive(8, 1)));
+  const auto robot = replaying(test::logOf(test::drive(4, 2)), "100");
+  const auto map = live({"--localize", session});
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_THAT(results(), testing::IsSupersetOf({"trajectory.tum", "map.png", "covariance.csv"}));
+  EXPECT_THAT(results(), testing::Not(testing::Contains("map.pgm"))) << "the map is not this run's";
+  const auto metrics = nlohmann::json::parse(result("metrics.json"));
+  EXPECT_GT(metrics["localized_share"], 0.5);
+  EXPECT_EQ(metrics["verdict"], "consistent");
+  std::istringstream path(result("trajectory.tum"));
+  double time = 0, x = 0, y = 0;
+  for (std::string line; std::getline(path, line);) std::istringstream(line) >> time >> x >> y;
+  const auto truth = test::drive(4, 2).back().truth;
+  EXPECT_NEAR(x, truth.x, 0.1) << "of the last scan";
+  EXPECT_NEAR(y, truth.y, 0.1);
+}
+
+TEST_F(LivePrograms, MapsOnInTheMapOfAnEarlierRun) {
+  const std::string session = sessionOf(test::logOf(test::drive(8, 1)));
+  const auto robot = replaying(test::logOf(test::drive(4, 2)), "100");
+  const auto map = live({"--continue", session, "--set", "live.max_waiting=100000"});
+  EXPECT_EQ(map->wait(), 0) << map->err();
+  EXPECT_THAT(map->err(), HasSubstr("start found after"));
+  expectAllResults();
+  Program again(folder, "again",
+                {HYBRID_SLAM, ini, recording(), "--continue", session, "-q", "-o", folder.path("again")});
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  for (const char* name : {"trajectory.tum", "map.pgm", "lines.csv"})
+    EXPECT_EQ(result(name), test::contentOf(folder.path("again/") + name)) << name;
+}
+
+TEST_F(LivePrograms, AStartThatIsNotFoundIsAnErrorThatKeepsTheRecording) {
+  const std::string session = sessionOf(test::logOf(test::drive(8, 1)));
+  const auto robot = replaying(3, "100");  // three scans of another room
+  const auto map = live({"--continue", session});
+  EXPECT_EQ(map->wait(), 1);
+  EXPECT_THAT(map->err(), HasSubstr("start not found in the map of " + session));
+  EXPECT_EQ(results().size(), 1u);
+  EXPECT_EQ(recorded(), 3u);
+}
+
 TEST_F(LivePrograms, TheShippedConfigurationsWaitForTheirSensors) {
   const std::vector<std::string> nowhere{"--set", "LASER.ip_address=127.0.0.1",   "--set", "LASER.TCP_port=1",
                                          "--set", "PIONEER.serial_port=/dev/none"};
@@ -256,6 +350,9 @@ TEST_F(LivePrograms, WrongCommandLinesAndFiles) {
   liveError({}, "no INI file");
   liveError({ini, "-o", output}, "no sensors");
   liveError({ini, "--server", "robot", "-o", output}, "expected HOST:PORT");
+  liveError({ini, "--server", "a:1", "--start", "0,0,0"}, "--start without a map");
+  liveError({ini, "--server", "a:1", "-o", output, "--localize", folder.write("no.hslam", "none")},
+            "no.hslam");
   liveError({ini, "--server", "a:1", "--set", "live.maxwaiting=1"}, "nearest known key is `max_waiting`");
 }
 

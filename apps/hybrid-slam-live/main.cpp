@@ -6,7 +6,9 @@
 
 #include "FilterArguments.h"
 #include "Program.h"
+#include "SaveSignal.h"
 #include "SensorProgram.h"
+#include "SessionArguments.h"
 #include "Settings.h"
 #include "Stop.h"
 #include "live/ObservationClient.h"
@@ -21,6 +23,7 @@ using namespace hybrid_slam;
 struct CommandLine {
   std::string config, server, output;
   FilterArguments filter;
+  SessionArguments session;
   std::vector<std::string> settings;
   bool isQuiet = false, overwrites = false, wantsManual = false;
 };
@@ -37,14 +40,17 @@ void describe(CLI::App& app, CommandLine& line) {
                "subfolder");
   line.filter.addMethod(app);
   line.filter.addParticles(app, "random seed; same seed and recording: identical results");
+  line.session.addCheckpoints(app);
+  line.session.addMap(app);
   addSettings(app, line.settings);
   app.add_flag("-q,--quiet", line.isQuiet, "no status every 10 s, no summary");
   app.add_flag("--help-config", line.wantsManual, "print every key of section [live]");
   app.footer(
       "Results: those of hybrid-slam (doc/results.md) and recording-DATE.rawlog, which hybrid-slam "
       "replays.\n"
-      "Ctrl-C ends the run and writes the results. Exit: 0 done, 1 the run failed, 2 wrong command line or "
-      "input.");
+      "Ctrl-C ends the run and writes the results. SIGUSR1 saves map and session to saved-DATE in DIR; the "
+      "run goes on.\n"
+      "Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
 }
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {
@@ -77,7 +83,10 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
   const auto finish = [&] { return run.finish(client ? client->lost() : 0); };
   try {
     source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
-                [&] { return stop || run.hasFailed(); });
+                [&] {
+                  if (takeSaveSignal()) run.requestSave();
+                  return stop || run.hasFailed();
+                });
   } catch (const std::exception&) {
     try {
       finish();                        // the results so far
@@ -98,8 +107,10 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (line.config.empty()) return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini");
   ignoreHangUps();
   stopOnSignals();
+  holdSaveSignal();
   run::Configuration configuration(line.config, settings, sections);
   configuration.run.overwrite = line.overwrites;
+  line.session.addTo(configuration.run);
   warn(configuration.warnings);
   const std::string summary = runLive(configuration, options, line.isQuiet);
   if (!line.isQuiet) std::cout << summary << "\n";

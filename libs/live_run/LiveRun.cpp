@@ -44,6 +44,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
                  configuration.input.maxOdometryGap),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
+  run_.setBeforeSession([this] { recording_.flush(); });
   if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
 }
 
@@ -114,10 +115,12 @@ void LiveRun::filter() {
 void LiveRun::tellState() {
   lastState_ = Clock::now();
   const FilterStep& step = run_.view().lastStep();
-  log_.report("filter", std::to_string(run_.scans()) + " scans, " + std::to_string(run_.view().updates()) +
-                            " updates, " + std::to_string(skipped_) + " skipped, spread " +
-                            fixedText(std::hypot(step.stdX, step.stdY), 2) + " m, latency " +
-                            fixedText(latencies_.back(), 0) + " ms");
+  const auto place = run_.view().place();
+  log_.report("filter", std::to_string(latencies_.size()) + " scans, " +
+                            std::to_string(run_.view().updates()) + " updates, " + std::to_string(skipped_) +
+                            " skipped, spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) +
+                            " m, latency " + fixedText(latencies_.back(), 0) + " ms" +
+                            (place ? ", " + describe(*place) : ""));
 }
 
 void LiveRun::stopFilter() {

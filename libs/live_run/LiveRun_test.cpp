@@ -245,6 +245,25 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
   EXPECT_GT(map.size(), 1u);
 }
 
+TEST_F(LiveRunTest, ACheckpointThatCannotBeWrittenDoesNotEndTheRun) {
+  run::Configuration c = configuration("live");
+  c.run.checkpointEvery = 0.001;
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  const std::string inTheWay = folder.path("live/session.hslam");
+  std::filesystem::create_directory(inTheWay);
+  const auto take = [&](const auto& object) {
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
+    run.take(cycle);
+  };
+  for (const auto& object : test::laps(30)) take(object);
+  ASSERT_TRUE(test::happens([&] { return events.count("no checkpoint: ") > 0; })) << events.text();
+  std::filesystem::remove(inTheWay);
+  EXPECT_THAT(run.finish(0), HasSubstr("30 scans"));
+  EXPECT_FALSE(result("live/session.hslam").empty());
+}
+
 TEST_F(LiveRunTest, WrongRecordingNames) {
   run::Configuration c = configuration("live");
   for (const char* name : {"", "a/b.rawlog"}) {

@@ -75,10 +75,11 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
 FilterRun::~FilterRun() = default;
 
 bool FilterRun::process(const readings::Reading& reading) {
-  if (!scanOdometry_) return search_ ? searchStart(reading) : filter(reading);
   readings::Reading moved = reading;
-  moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
-  return search_ ? searchStart(moved) : filter(moved);
+  if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
+  const bool isUpdate = search_ ? searchStart(moved) : filter(moved);
+  saveIfDue();
+  return isUpdate;
 }
 
 bool FilterRun::filter(const readings::Reading& reading) {
@@ -92,16 +93,16 @@ bool FilterRun::filter(const readings::Reading& reading) {
   uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
   const bool isUpdate = uses_.back() == Use::update;
   if (isUpdate) record(reading.timestamp, stepStart);
-  checkpointIfDue();
   return isUpdate;
 }
 
 bool FilterRun::searchStart(const readings::Reading& reading) {
   waiting_.push_back({std::exchange(skippedBefore_, 0), reading});
+  const size_t before = search_->updates();
   search_->process(reading.motion, reading.scans);
   if (!search_->isLocalized()) {
     if (waiting_.size() >= kMostWaiting) requirePlace();
-    return false;
+    return search_->updates() > before;
   }
   const mrpt::math::TPose2D start = search_->firstPose();
   notes_.push_back("start found after " + std::to_string(waiting_.size()) + " scans: (" +

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -41,7 +42,7 @@ class FilterRun {
 
   /// Passes one reading to the filter. While the start in the map of an earlier run is searched for, it
   /// waits.
-  /// @return true for a filter update, false if only the odometry was accumulated
+  /// @return true for an update of `view`, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
   /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
@@ -52,8 +53,15 @@ class FilterRun {
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
   void skip(size_t readings);
 
-  /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread.
+  /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread. A
+  /// note names it, or why it could not be written.
   void requestSave() { isSaveRequested_ = true; }
+  /// Writes map, trajectory and session as they are now; the run goes on.
+  /// @param folder  created if missing
+  /// @throws InputError if it cannot be written; std::runtime_error while the start is searched for
+  void saveMapTo(const std::string& folder);
+  /// Called before each session is written. What it was given must be on disk to resume from the session.
+  void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
   /// @throws std::runtime_error if the start in the map of an earlier run has not been found
   void requirePlace() const;
 
@@ -65,7 +73,8 @@ class FilterRun {
   /// What has happened since the last call, a line each: loops closed (where, by how much, on what evidence),
   /// the start found in a map, maps saved.
   std::vector<std::string> takeNotes() { return std::exchange(notes_, {}); }
-  const FilterView& view() const { return *filter_; }
+  /// The filter; while the start in the map of an earlier run is searched for, that search.
+  const FilterView& view() const { return search_ ? static_cast<const FilterView&>(*search_) : *filter_; }
   /// The times of the stages; enable it before the first scan. Changes no result.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
   /// Where the results will be.
@@ -107,8 +116,8 @@ class FilterRun {
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void saveSessionTo(const std::string& path, const ScanMap& map,
                      const std::vector<mrpt::math::TPose2D>& poses);
-  void saveNow();
-  void checkpointIfDue();
+  void saveToDatedFolder();
+  void saveIfDue();
   /// The row of steps.csv and the counters of an update.
   void record(double timestamp, Clock::time_point stepStart);
   void note(const LoopClosure& loop);
@@ -135,6 +144,7 @@ class FilterRun {
   std::vector<PoseCovariance> particleCovariances_;  ///< of each update
   std::vector<std::string> notes_;
   std::atomic<bool> isSaveRequested_{false};
+  std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
   double secondsBefore_ = 0;  ///< wall time of the run that is resumed

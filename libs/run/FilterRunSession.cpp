@@ -58,6 +58,7 @@ void FilterRun::visit(State& state) {
 
 void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
                               const std::vector<mrpt::math::TPose2D>& poses) {
+  beforeSession_();
   std::string bytes;
   StateWriter out(bytes);
   SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses};
@@ -69,20 +70,37 @@ void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
   saveSession(path, bytes);
 }
 
-void FilterRun::checkpointIfDue() {
-  if (isSaveRequested_.exchange(false)) saveNow();
+/// A full disk must not end the run.
+void FilterRun::saveIfDue() {
+  try {
+    if (isSaveRequested_.exchange(false)) saveToDatedFolder();
+  } catch (const std::exception& e) {
+    notes_.push_back("map not saved: " + messageOf(e));
+  }
   const double every = configuration_.run.checkpointEvery;
-  if (every <= 0 || !hybrid_ || secondsSince(lastCheckpoint_) < every) return;
-  staged_.setOwn(kSessionName);
-  saveSessionTo(staged_.finalPath(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  if (every <= 0 || !hybrid_ || search_ || secondsSince(lastCheckpoint_) < every) return;
+  try {
+    staged_.setOwn(kSessionName);
+    saveSessionTo(staged_.finalPath(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  } catch (const std::exception& e) {
+    notes_.push_back("no checkpoint: " + messageOf(e));
+  }
   lastCheckpoint_ = Clock::now();
 }
 
-void FilterRun::saveNow() {
+void FilterRun::saveToDatedFolder() {
+  requirePlace();
   const std::string name = files::claimDatedName([this](const std::string& date) {
     return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
   });
-  const files::OutputFolder folder(staged_.finalPath("saved-" + name));
+  const std::string folder = staged_.finalPath("saved-" + name);
+  saveMapTo(folder);
+  notes_.push_back("map saved: " + folder);
+}
+
+void FilterRun::saveMapTo(const std::string& path) {
+  requirePlace();
+  const files::OutputFolder folder(path);
   const auto grid = filter_->bestGrid();
   const auto trajectory = recorder_.trajectory(filter_->bestPath());
   const auto lines = filter_->bestLines();
@@ -91,7 +109,6 @@ void FilterRun::saveNow() {
   saveRosMap(folder, grid);
   saveLines(folder, lines);
   if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
-  notes_.push_back("map saved: " + staged_.finalPath("saved-" + name));
 }
 
 void FilterRun::resume(SessionReader& session) {

@@ -33,4 +33,10 @@ void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double 
   step.poses = poses;
 }
 
+std::string describe(const Place& place) {
+  if (place.isKnown) return "localised";
+  return (place.wasKnown ? "place lost: " : "searching the start: ") + std::to_string(place.hypotheses) +
+         " hypotheses";
+}
+
 }  // namespace hybrid_slam

@@ -8,6 +8,7 @@
 #include <mrpt/system/CTimeLogger.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "slam/lines/LineDatabase.h"
@@ -62,6 +63,16 @@ struct FilterStep {
 /// Stores the weighted poses and their spreads, with axes along and across `heading`.
 void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double heading);
 
+/// What a filter in a fixed map knows of the place of the robot.
+struct Place {
+  bool isKnown = false;   ///< else several places are possible, or none fits
+  bool wasKnown = false;  ///< earlier: the robot was carried elsewhere, or the surroundings have changed
+  size_t hypotheses = 0;  ///< places considered while it is unknown
+};
+
+/// In a few words, such as "searching the start: 12 hypotheses".
+std::string describe(const Place& place);
+
 /// Read access common to our filter and MRPT's.
 class FilterView {
  public:
@@ -75,6 +86,8 @@ class FilterView {
   /// The best particle's line database; empty for a filter without lines.
   virtual std::vector<DatabaseLine> bestLines() const = 0;
   virtual std::vector<WeightedPose> particlePoses() const = 0;
+  /// Of a filter in a fixed map; empty for one that maps.
+  virtual std::optional<Place> place() const { return std::nullopt; }
 
   /// Times (s) of the stages of an update; off by default, negligible cost.
   mrpt::system::CTimeLogger& profiler() { return profiler_; }

@@ -54,5 +54,11 @@ TEST(FilterView, OnePoseHasNoSpreadAndNoPoseChangesNothing) {
   EXPECT_EQ(spreadOf({}, 0).stdX, 0);
 }
 
+TEST(Place, IsDescribedInAFewWords) {
+  EXPECT_EQ(describe(Place{true, true, 0}), "localised");
+  EXPECT_EQ(describe(Place{false, false, 12}), "searching the start: 12 hypotheses");
+  EXPECT_EQ(describe(Place{false, true, 3}), "place lost: 3 hypotheses");
+}
+
 }  // namespace
 }  // namespace hybrid_slam

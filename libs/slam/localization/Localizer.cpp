@@ -75,7 +75,7 @@ void Localizer::startTracking(const TPose2D& pose) {
     poses.push_back({pose.x + kStdXY * x, pose.y + kStdXY * y, pose.phi + kStdPhi * phi});
   }
   particles_.place(poses, grid_, lines_);
-  isTracking_ = true;
+  isTracking_ = hasTracked_ = true;
   unsupported_ = 0;
   explained_.clear();
   summarise(pose);
@@ -136,6 +136,10 @@ TPose2D Localizer::firstPose() const {
 }
 
 mrpt::maps::COccupancyGridMap2D Localizer::bestGrid() const { return toMrpt(grid_); }
+
+std::optional<Place> Localizer::place() const {
+  return Place{isTracking_, hasTracked_, isTracking_ ? 0 : global_.hypotheses().size()};
+}
 
 std::vector<WeightedPose> Localizer::particlePoses() const {
   return isTracking_ ? particles_.poses() : global_.poses(recent_.since());

@@ -42,6 +42,7 @@ class Localizer : public Filter {
   mrpt::maps::COccupancyGridMap2D bestGrid() const override;
   std::vector<DatabaseLine> bestLines() const override { return lines_.lines(); }
   std::vector<WeightedPose> particlePoses() const override;
+  std::optional<Place> place() const override;
 
  private:
   void update(const Scans& scans);
@@ -60,7 +61,7 @@ class Localizer : public Filter {
   GlobalLocalization global_;
   RecentScans recent_;
   tbb::task_arena arena_;
-  bool isTracking_ = false;
+  bool isTracking_ = false, hasTracked_ = false;
   size_t unsupported_ = 0;      ///< successive scans that do not fit the map at the tracked pose
   std::deque<bool> explained_;  ///< whether the last scans are, there
   mrpt::math::TPose2D odometry_;

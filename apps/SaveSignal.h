@@ -1,0 +1,30 @@
+/// @file SaveSignal.h
+/// @brief SIGUSR1: save the map now.
+#pragma once
+
+#include <csignal>
+#include <ctime>
+
+namespace hybrid_slam {
+
+inline sigset_t saveSignal() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGUSR1);
+  return set;
+}
+
+/// Call before threads are started: they inherit it, and the signal interrupts no driver.
+inline void holdSaveSignal() {
+  const sigset_t set = saveSignal();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+/// Whether the signal has come since the last call.
+inline bool takeSaveSignal() {
+  const sigset_t set = saveSignal();
+  const timespec now{};
+  return sigtimedwait(&set, nullptr, &now) == SIGUSR1;
+}
+
+}  // namespace hybrid_slam
