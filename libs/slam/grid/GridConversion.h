@@ -21,6 +21,7 @@ mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, size_t mostCel
 /// @throws InputError for more than kMostCells
 mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox& box);
 
+/// The resolution is the shortest decimal number that gives MRPT's float: 0.05, not 0.0500000007.
 /// @throws InputError if the origin of MRPT's grid is not a whole number of cells from the map's origin
 OccupancyGrid fromMrpt(const mrpt::maps::COccupancyGridMap2D& grid);
 
