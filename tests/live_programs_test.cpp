@@ -289,7 +289,7 @@ TEST_F(LivePrograms, MapsOnInTheMapOfAnEarlierRun) {
   const auto robot = replaying(test::logOf(test::drive(4, 2)), "100");
   const auto map = live({"--continue", session, "--set", "live.max_waiting=100000"});
   EXPECT_EQ(map->wait(), 0) << map->err();
-  EXPECT_THAT(map->err(), HasSubstr("start found after"));
+  EXPECT_THAT(map->err(), HasSubstr("place found after"));
   expectAllResults();
   Program again(folder, "again",
                 {HYBRID_SLAM, ini, recording(), "--continue", session, "-q", "-o", folder.path("again")});
@@ -298,13 +298,13 @@ TEST_F(LivePrograms, MapsOnInTheMapOfAnEarlierRun) {
     EXPECT_EQ(result(name), test::contentOf(folder.path("again/") + name)) << name;
 }
 
-TEST_F(LivePrograms, AStartThatIsNotFoundIsAnErrorThatKeepsTheRecording) {
+TEST_F(LivePrograms, APlaceThatIsNotFoundIsAnErrorThatLosesNothing) {
   const std::string session = sessionOf(test::logOf(test::drive(8, 1)));
   const auto robot = replaying(3, "100");  // three scans of another room
   const auto map = live({"--continue", session});
   EXPECT_EQ(map->wait(), 1);
-  EXPECT_THAT(map->err(), HasSubstr("start not found in the map of " + session));
-  EXPECT_EQ(results().size(), 1u);
+  EXPECT_THAT(map->err(), HasSubstr("place not found in the map of " + session));
+  expectAllResults();
   EXPECT_EQ(recorded(), 3u);
 }
 

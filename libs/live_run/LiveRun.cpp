@@ -134,7 +134,6 @@ std::string LiveRun::finish(size_t lost) {
   while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
   stopFilter();
   recording_.finish();
-  if (!failure_) run_.requirePlace();
   if (run_.scans() == 0 && failure_) std::rethrow_exception(failure_);
   if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");
 
@@ -153,6 +152,7 @@ std::string LiveRun::finish(size_t lost) {
     log_.report("results", "those up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);
   }
+  if (const std::string place = run_.placeNote(); !place.empty()) throw std::runtime_error(place);
   return summary + ", " + recording_.path() + "\n" + run_.verdict().line();
 }
 

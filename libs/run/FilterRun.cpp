@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
@@ -17,8 +16,6 @@ namespace hybrid_slam::run {
 namespace {
 
 using Method = RunOptions::Method;
-
-constexpr size_t kMostWaiting = 10000;  // readings, while the start is searched for
 
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
   if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
@@ -62,6 +59,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     hybrid_ = hybrid.get();
     filter_ = std::move(hybrid);
     base_ = std::move(map);
+    if (base_) hybrid_->expectMap();
     if (base_)
       search_ = std::make_unique<Localizer>(configuration.filter, base_->grid, base_->lines,
                                             configuration.run.start);
@@ -77,7 +75,8 @@ FilterRun::~FilterRun() = default;
 bool FilterRun::process(const readings::Reading& reading) {
   readings::Reading moved = reading;
   if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
-  const bool isUpdate = search_ ? searchStart(moved) : filter(moved);
+  const bool isUpdate = filter(moved);
+  if (search_) searchPlace(moved);
   saveIfDue();
   return isUpdate;
 }
@@ -96,40 +95,22 @@ bool FilterRun::filter(const readings::Reading& reading) {
   return isUpdate;
 }
 
-bool FilterRun::searchStart(const readings::Reading& reading) {
-  waiting_.push_back({std::exchange(skippedBefore_, 0), reading});
-  const size_t before = search_->updates();
+// Until the place in the map of the earlier run is found, the filter maps in a frame of its own.
+void FilterRun::searchPlace(const readings::Reading& reading) {
   search_->process(reading.motion, reading.scans);
-  if (!search_->isLocalized()) {
-    if (waiting_.size() >= kMostWaiting) requirePlace();
-    return search_->updates() > before;
-  }
-  const mrpt::math::TPose2D start = search_->firstPose();
-  notes_.push_back("start found after " + std::to_string(waiting_.size()) + " scans: (" +
-                   fixedText(start.x, 2) + ", " + fixedText(start.y, 2) + ") m, " +
-                   fixedText(start.phi * 180 / M_PI, 1) + " deg in the map of " +
-                   configuration_.run.continueFrom);
-  hybrid_->continueIn(*base_, start);
+  if (!search_->isLocalized()) return;
+  const mrpt::math::TPose2D pose = search_->bestPath().back();
+  notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(pose.x, 2) + ", " +
+                   fixedText(pose.y, 2) + ") m, " + fixedText(pose.phi * 180 / M_PI, 1) +
+                   " deg in the map of " + configuration_.run.continueFrom);
+  hybrid_->joinMap(*base_, pose);
   search_.reset();
-  bool isUpdate = false;
-  for (const Waiting& waited : std::exchange(waiting_, {})) {
-    skip(waited.skipped);
-    isUpdate = filter(waited.reading) || isUpdate;
-  }
-  return isUpdate;
 }
 
-void FilterRun::skip(size_t readings) {
-  if (search_)
-    skippedBefore_ += readings;
-  else
-    uses_.resize(uses_.size() + readings, Use::skipped);
-}
-
-void FilterRun::requirePlace() const {
-  if (search_)
-    throw std::runtime_error("start not found in the map of " + configuration_.run.continueFrom + ": " +
-                             std::to_string(waiting_.size()) + " scans; --start X,Y,DEG gives it");
+std::string FilterRun::placeNote() const {
+  if (!search_) return {};
+  return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
+         " scans; the results are in a frame of their own, --start X,Y,DEG gives the place";
 }
 
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -51,7 +50,7 @@ class FilterRun {
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
-  void skip(size_t readings);
+  void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
 
   /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread. A
   /// note names it, or why it could not be written.
@@ -62,8 +61,8 @@ class FilterRun {
   void saveMapTo(const std::string& folder);
   /// Called before each session is written. What it was given must be on disk to resume from the session.
   void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
-  /// @throws std::runtime_error if the start in the map of an earlier run has not been found
-  void requirePlace() const;
+  /// One line if the place in the map of an earlier run has not been found; else empty.
+  std::string placeNote() const;
 
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
@@ -102,14 +101,10 @@ class FilterRun {
     std::vector<DatabaseLine> lines;
     ScanMap map;  ///< of our filter: the same grid and lines
   };
-  struct Waiting {
-    size_t skipped;  ///< readings before it
-    readings::Reading reading;
-  };
   template <class State>
   void visit(State& state);
   bool filter(const readings::Reading& reading);
-  bool searchStart(const readings::Reading& reading);
+  void searchPlace(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
@@ -132,8 +127,7 @@ class FilterRun {
   HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
   Localizer* localizer_ = nullptr;            ///< filter_, if it localises
   std::optional<ScanMap> base_;               ///< of an earlier run, to map on in
-  std::unique_ptr<Localizer> search_;         ///< for the start in base_
-  std::deque<Waiting> waiting_;               ///< for it
+  std::unique_ptr<Localizer> search_;         ///< for the place in base_
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
@@ -150,7 +144,6 @@ class FilterRun {
   double secondsBefore_ = 0;  ///< wall time of the run that is resumed
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
-  size_t skippedBefore_ = 0;            ///< readings before the next one, while the start is searched for
   size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
   bool wasLocated_ = false;             ///< at the last update
   double firstSlip_ = 0;                ///< s

@@ -57,7 +57,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     if (use != Use::skipped)
       scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
   }
-  if (configuration_.filter.loopClosing.enabled) {
+  if (configuration_.filter.loopClosing.enabled && !base_) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
@@ -84,7 +84,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
 
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
-  requirePlace();
+  if (search_) base_.reset();  // the map is in a frame of its own
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};

@@ -89,7 +89,6 @@ void FilterRun::saveIfDue() {
 }
 
 void FilterRun::saveToDatedFolder() {
-  requirePlace();
   const std::string name = files::claimDatedName([this](const std::string& date) {
     return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
   });
@@ -99,7 +98,6 @@ void FilterRun::saveToDatedFolder() {
 }
 
 void FilterRun::saveMapTo(const std::string& path) {
-  requirePlace();
   const files::OutputFolder folder(path);
   const auto grid = filter_->bestGrid();
   const auto trajectory = recorder_.trajectory(filter_->bestPath());
@@ -108,7 +106,7 @@ void FilterRun::saveMapTo(const std::string& path) {
   savePicture(folder, grid, trajectory, lines);
   saveRosMap(folder, grid);
   saveLines(folder, lines);
-  if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  if (hybrid_ && !search_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
 }
 
 void FilterRun::resume(SessionReader& session) {

@@ -68,6 +68,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     outcome.incomplete = "interrupted: " + source.place() + upToHere;
   else if (outcome.incomplete.empty() && !log.defect.empty())
     outcome.incomplete = "log " + log.defect + ": " + log.defectPlace(file) + upToHere;
+  else if (outcome.incomplete.empty())
+    outcome.incomplete = run.placeNote();
   outcome.summary = run.finish(file, log, nlohmann::ordered_json::object());
   if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
   outcome.verdict = run.verdict();

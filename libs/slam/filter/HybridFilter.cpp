@@ -29,6 +29,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       updateAngle_(configuration.updateAngle()),
       prepare_(configuration),
       particles_(configuration, &profiler()),
+      remembersScans_(configuration.loopClosing.enabled),
       loopCloser_(configuration.loopClosing, configuration.grid) {
   checkMemory(configuration);
   reset();
@@ -56,7 +57,8 @@ void HybridFilter::update(const Scans& scans) {
   CTimeLoggerEntry mapping(profiler(), "5 update maps");
   particles_.updateMaps(scan);  // step 4, map estimation: grids and line databases, Sec. III-C, eq. (7)-(8)
   mapping.stop();
-  if (configuration_.loopClosing.enabled) closeLoops(scans, scan);
+  if (remembersScans_) updateScans_.push_back(scans);
+  if (configuration_.loopClosing.enabled) closeLoops(scan);
 
   odometry_ = TPose2D();
   hasMap_ = true;
@@ -64,19 +66,39 @@ void HybridFilter::update(const Scans& scans) {
 }
 
 // Not in the paper: corrects path and maps where all particles agree on a map that does not fit itself.
-void HybridFilter::closeLoops(const Scans& scans, const PreparedScan& scan) {
+void HybridFilter::closeLoops(const PreparedScan& scan) {
   const CTimeLoggerEntry closing(profiler(), "6 close loops");
-  updateScans_.push_back(scans);
   const Particle& best = particles_.best();
   loopCloser_.add(best.path.lastMotion(), scan.scans, scan.lines,
                   particles_.lastStep().slipped.value_or(false));
   if (!loopCloser_.isDue()) return;
   const auto closure = loopCloser_.close(bestPath(), best.lines->dominatingDirection());
   if (!closure) return;
+  std::vector<TPose2D> path{best.path.poses().front()};
+  path.insert(path.end(), closure->path.begin(), closure->path.end());
+  continueFrom(path);
+  particles_.setLoop(*closure);
+}
+
+// All particles go on from one path, with its start, and from the map of the remembered scans along it.
+void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   std::vector<PosedScans> all = known_;
-  for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], closure->path[i], true});
+  for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], path[i + 1], true});
   const ScanMap map = mapOf(all, configuration_, base_);
-  particles_.continueFrom(*closure, map.grid, map.lines);
+  particles_.continueFrom(path, map.grid, map.lines);
+}
+
+void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
+  base_ = map;
+  const TPose2D now = particles_.best().path.back() + odometry_;
+  const TPose2D origin = pose + (TPose2D() - now);  // of the map so far, in the other
+  std::vector<TPose2D> path = particles_.best().path.poses();
+  for (TPose2D& at : path) at = origin + at;
+  for (PosedScans& known : known_) known.pose = origin + known.pose;
+  loopCloser_.turn(origin.phi);
+  continueFrom(path);
+  remembersScans_ = configuration_.loopClosing.enabled;
+  if (!remembersScans_) updateScans_.clear();
 }
 
 void HybridFilter::reset() {
@@ -90,18 +112,11 @@ void HybridFilter::reset() {
   particles_.reset(TPose2D());
 }
 
-void HybridFilter::continueIn(const ScanMap& map, const TPose2D& start) {
-  reset();
-  particles_.reset(start, map.grid, map.lines);
-  if (configuration_.loopClosing.enabled) base_ = map;
-  hasMap_ = true;
-}
-
 void HybridFilter::insertAt(const TPose2D& pose, const Scans& scans) {
   particles_.appendPose(pose - particles_.best().path.back());
   particles_.beginStep();
   particles_.updateMaps(prepare_(scans));
-  if (configuration_.loopClosing.enabled) known_.push_back({scans, pose, true});
+  if (remembersScans_) known_.push_back({scans, pose, true});
   hasMap_ = true;
 }
 

@@ -32,9 +32,12 @@ class HybridFilter : public Filter {
   /// Of the best particle.
   ScanMap bestMap() const { return {particles_.best().grid, *particles_.best().lines}; }
 
-  /// Maps on in a map of an earlier run, before the first scan: the robot stands at `start` (map frame). Loop
-  /// closures leave that map as it is.
-  void continueIn(const ScanMap& map, const mrpt::math::TPose2D& start);
+  /// Keeps the scans until `joinMap`, also without loop closing.
+  void expectMap() { remembersScans_ = true; }
+  /// Joins the map so far to that of an earlier run, in its frame. Later loop closures leave that map as it
+  /// is.
+  /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
+  void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
 
   /// @name The whole state (base/State.h). A filter that reads it goes on to the same bytes.
   /// @{
@@ -55,7 +58,8 @@ class HybridFilter : public Filter {
   template <class State>
   void visit(State& state);
   void update(const Scans& scans);
-  void closeLoops(const Scans& scans, const PreparedScan& scan);
+  void closeLoops(const PreparedScan& scan);
+  void continueFrom(const std::vector<mrpt::math::TPose2D>& path);
 
   FilterConfiguration configuration_;
   double updateDistance_, updateAngle_;  ///< m, rad
@@ -63,11 +67,11 @@ class HybridFilter : public Filter {
   ParticleSet particles_;
   mrpt::math::TPose2D odometry_;
   size_t updates_ = 0;
-  bool hasMap_ = false;
+  bool hasMap_ = false, remembersScans_;
   LoopCloser loopCloser_;
-  std::optional<ScanMap> base_;    ///< of an earlier run
-  std::vector<PosedScans> known_;  ///< in the map before the first update
-  std::vector<Scans> updateScans_;
+  std::optional<ScanMap> base_;     ///< of an earlier run
+  std::vector<PosedScans> known_;   ///< in the map before the first update
+  std::vector<Scans> updateScans_;  ///< if remembersScans_
 };
 
 }  // namespace hybrid_slam

@@ -137,8 +137,12 @@ TEST(HybridFilter, MapsOnInTheMapOfAnEarlierRun) {
   const FilterConfiguration c = configuration(ParticleFilterOptions::Proposal::improved);
   HybridFilter first(c), second(c);
   process(first, drive, 0, half);
-  second.continueIn(first.bestMap(), drive[half - 1].truth);
-  process(second, drive, half, drive.size());
+  second.expectMap();
+  process(second, drive, half, half + 10);
+  second.joinMap(first.bestMap(), drive[half + 9].truth);
+  process(second, drive, half + 10, drive.size());
+  const TPose2D begin = second.bestPath().front(), first_ = drive[half].truth;
+  EXPECT_LT(std::hypot(begin.x - first_.x, begin.y - first_.y), 0.1);
   const TPose2D end = second.bestPath().back(), truth = drive.back().truth;
   EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.1);
   const auto before = first.bestMap().grid.tiles().bounds(), after = second.bestMap().grid.tiles().bounds();

@@ -53,14 +53,9 @@ void ParticleSet::forEachParticle(const Body& body) {
 }
 
 void ParticleSet::reset(const TPose2D& start) {
-  reset(start, OccupancyGrid(grid_.resolution), LineDatabase());
-}
-
-void ParticleSet::reset(const TPose2D& start, const OccupancyGrid& grid, const LineDatabase& lines) {
   m_particles.clear();
   Particle particle;
-  particle.grid = grid;
-  particle.lines = CowPtr<LineDatabase>(lines);
+  particle.grid = OccupancyGrid(grid_.resolution);
   particle.path.push(start);
   const int number =
       filter_.isAdaptive() && !filter_.isAuxiliary() ? filter_.minParticles : filter_.fixedParticles();
@@ -266,13 +261,11 @@ void ParticleSet::updateMaps(const PreparedScan& scan) {
     }
 }
 
-void ParticleSet::continueFrom(const LoopClosure& closure, const OccupancyGrid& grid,
+void ParticleSet::continueFrom(const std::vector<TPose2D>& path, const OccupancyGrid& grid,
                                const LineDatabase& lines) {
   Particle corrected = best();
-  const TPose2D start = corrected.path.poses().front();
   corrected.path = Path();
-  corrected.path.push(start);
-  for (const TPose2D& pose : closure.path) corrected.path.push(pose);
+  for (const TPose2D& pose : path) corrected.path.push(pose);
   corrected.grid = grid;
   corrected.lines = CowPtr<LineDatabase>(lines);
   corrected.logWeight = 0;
@@ -280,7 +273,6 @@ void ParticleSet::continueFrom(const LoopClosure& closure, const OccupancyGrid& 
     *particle.d = corrected;
     particle.log_w = 0;
   }
-  step_.loop = closure;
 }
 
 const Particle& ParticleSet::best() const {

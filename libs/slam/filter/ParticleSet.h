@@ -26,8 +26,6 @@ class ParticleSet : public MrptParticles {
 
   /// All particles at `start` with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
-  /// Likewise with this map.
-  void reset(const mrpt::math::TPose2D& start, const OccupancyGrid& grid, const LineDatabase& lines);
   /// Replaces the particles by one at each pose, with equal weights and this map, in which they are to be
   /// localised: a robot that was carried is not searched for in the whole map.
   void place(const std::vector<mrpt::math::TPose2D>& poses, const OccupancyGrid& grid,
@@ -47,8 +45,11 @@ class ParticleSet : public MrptParticles {
   /// Step 4, map estimation: scan into the grids, lines into the databases, at each particle's pose.
   void updateMaps(const PreparedScan& scan);
 
-  /// After a loop is closed: all particles become copies of the best one with this path and map.
-  void continueFrom(const LoopClosure& closure, const OccupancyGrid& grid, const LineDatabase& lines);
+  /// All particles become copies of the best one with this path and map.
+  void continueFrom(const std::vector<mrpt::math::TPose2D>& path, const OccupancyGrid& grid,
+                    const LineDatabase& lines);
+  /// Notes in lastStep that a loop was closed.
+  void setLoop(const LoopClosure& closure) { step_.loop = closure; }
 
   const Particle& best() const;  ///< argmax of the weight before resampling
   const FilterStep& lastStep() const { return step_; }

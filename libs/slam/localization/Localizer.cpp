@@ -130,11 +130,6 @@ void Localizer::summarise(const TPose2D& best) {
   step_.motions.assign(step_.poses.size(), odometry_);
 }
 
-TPose2D Localizer::firstPose() const {
-  const TPose2D sinceFirst = recent_.scans().back().pose + recent_.since();
-  return pose_ + (TPose2D() - sinceFirst);
-}
-
 mrpt::maps::COccupancyGridMap2D Localizer::bestGrid() const { return toMrpt(grid_); }
 
 std::optional<Place> Localizer::place() const {

@@ -32,8 +32,6 @@ class Localizer : public Filter {
   /// Whether the place of the robot is known. If not, several places are possible, or none fits; the poses
   /// and their spreads then cover all of them.
   bool isLocalized() const { return isTracking_; }
-  /// The pose (m, rad; map frame) of the first scan, by scan matching from one scan to the next since.
-  mrpt::math::TPose2D firstPose() const;
 
   size_t updates() const override { return path_.size(); }
   const FilterStep& lastStep() const override { return step_; }

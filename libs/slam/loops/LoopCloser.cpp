@@ -164,6 +164,12 @@ void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
   known_.push_back({edge.from, edge.to, toMap * edge.information.inverse() * toMap.transpose()});
 }
 
+void LoopCloser::turn(double angle) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  for (KnownPair& pair : known_) pair.covariance = rotation * pair.covariance * rotation.transpose();
+}
+
 void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
   const size_t here = candidate.edge.to;
   const TPose2D corrected = visit.poses[candidate.edge.from] + candidate.edge.relative;

@@ -39,6 +39,9 @@ class LoopCloser {
   std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
                                    const std::optional<double>& direction);
 
+  /// The map frame is turned by an angle (rad).
+  void turn(double angle);
+
   template <class State>
   void visit(State& state) {
     state(keyframes_, variances_, wallDirections_, loops_, known_, candidates_, updates_, motion_, variance_,
