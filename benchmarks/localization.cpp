@@ -34,10 +34,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kTolerance = 0.02;                           // s, of time stamps
-constexpr double kRight = 0.5, kRightAngle = 5 * M_PI / 180;  // m, rad
-constexpr double kSmall = 1;                                  // m, of the spread
-constexpr double kGood = 0.1, kGoodAngle = 1 * M_PI / 180;    // m, rad
+constexpr double kTolerance = 0.02;                            // s, of time stamps
+constexpr double kRight = 0.5, kRightAngle = 10 * M_PI / 180;  // m, rad
+constexpr double kSmall = 1;                                   // m, of the spread
+constexpr double kGood = 0.1, kGoodAngle = 1 * M_PI / 180;     // m, rad
 
 struct Map {
   OccupancyGrid grid;
@@ -74,13 +74,24 @@ struct Study {
   Map map;
   run::Configuration configuration;
   Log log;
-  std::map<std::string, double> numbers{{"seed", 1},  {"count", 100}, {"from", 0}, {"jobs", 1},
-                                        {"lines", 1}, {"most", 40},   {"only", -1}};
+  std::string out;  ///< for the trajectory of `track`
+  std::map<std::string, double> numbers{{"seed", 1},  {"count", 100}, {"from", 0},     {"jobs", 1},
+                                        {"lines", 1}, {"most", 40},   {"held_out", 0}, {"only", -1}};
   double operator[](const char* key) const { return numbers.at(key); }
 };
 
+/// The pose of a scan that has none, by odometry from those before and after it; empty for one that has.
+std::optional<TPose2D> between(const std::vector<std::optional<TPose2D>>& known,
+                               const std::vector<TPose2D>& odometry, size_t i) {
+  if (known[i] || i == 0 || i + 1 >= known.size() || !known[i - 1] || !known[i + 1]) return std::nullopt;
+  const TPose2D a = *known[i - 1] + (odometry[i] - odometry[i - 1]);
+  const TPose2D b = *known[i + 1] + (odometry[i] - odometry[i + 1]);
+  return TPose2D(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), a.phi + 0.5 * mrpt::math::wrapToPi(b.phi - a.phi));
+}
+
+/// @param heldOut  only the scans without a reference pose of their own: those the mapping run left out
 Log readLog(const std::string& file, const std::string& folder, const std::string& referenceFile,
-            const std::string& mapReferenceFile, run::Configuration& configuration) {
+            const std::string& mapReferenceFile, bool heldOut, run::Configuration& configuration) {
   const auto summary = readings::summarise(file, configuration.input);
   run::applyLogSettings(run::readLogSettings(file, configuration.input, summary), configuration);
   const files::Trajectory reference = files::loadTum(referenceFile);
@@ -88,17 +99,27 @@ Log readLog(const std::string& file, const std::string& folder, const std::strin
       files::loadTum(mapReferenceFile), files::loadTum(folder + "/trajectory.tum"), kTolerance));
   const evaluation::StampIndex index(reference);
   readings::RawlogSource source(file, configuration.input, summary);
+  std::vector<readings::Reading> all;
+  std::vector<std::optional<TPose2D>> known;
+  std::vector<TPose2D> odometry{{}};
+  while (auto reading = source.next()) {
+    // Stamps may repeat and step back, rows of the same log do not.
+    const auto row = reference.size() == summary.scans ? std::optional(all.size())
+                                                       : index.nearest(reading->timestamp, kTolerance);
+    known.push_back(row ? std::optional(alignment + reference[*row].pose) : std::nullopt);
+    odometry.push_back(odometry.back() + reading->motion);
+    all.push_back(std::move(*reading));
+  }
+  odometry.erase(odometry.begin());
   Log log;
   TPose2D motion;
-  size_t rows = 0;
-  while (auto reading = source.next()) {
-    reading->motion = motion = motion + reading->motion;
-    // Stamps may repeat and step back, rows of the same log do not.
-    const auto row = reference.size() == summary.scans ? std::optional(rows++)
-                                                       : index.nearest(reading->timestamp, kTolerance);
-    if (!row) continue;
-    log.readings.push_back(*reading);
-    log.reference.push_back(alignment + reference[*row].pose);
+  for (size_t i = 0; i < all.size(); ++i) {
+    motion = motion + all[i].motion;
+    const auto pose = heldOut ? between(known, odometry, i) : known[i];
+    if (!pose) continue;
+    all[i].motion = motion;
+    log.readings.push_back(all[i]);
+    log.reference.push_back(*pose);
     log.driven.push_back((log.driven.empty() ? 0 : log.driven.back()) + motion.norm());
     motion = {};
   }
@@ -129,7 +150,10 @@ struct Trial {
   double distance = 0, time = 0;  ///< until found, m, s
   double lost = -1;               ///< until lost, m
   double error = 0, angle = 0;    ///< when found
-  size_t updates = 0, wrong = 0;  ///< with a small spread, but wrong
+  size_t updates = 0;
+  size_t wrong =
+      0;  ///< updates with a small spread but far off; not before it was noticed that it was carried
+  size_t claims = 0;  ///< wrong places declared
   double seconds = 0, slowest = 0;
 };
 
@@ -162,6 +186,7 @@ Trial follow(Localizer& localizer, const Log& log, size_t start, double most, bo
       trial.distance = driven, trial.time = log.readings[i].timestamp - log.readings[start].timestamp;
       trial.error = error.distance, trial.angle = error.angle;
     }
+    if (localizer.isLocalized() && !step.gridWeight && !error.isRight()) ++trial.claims;
     trial.isRightAtEnd = localizer.isLocalized() && error.isRight();
   }
   return trial;
@@ -194,6 +219,12 @@ std::vector<Trial> study(const Study& s, bool isCarried) {
   return trials;
 }
 
+/// Whether the map shows what the robot sees at a reading.
+bool isMapped(const Study& s, size_t reading) {
+  const ScanBeams beams(toLaserScans(s.log.readings[reading].scans, s.configuration.filter.grid.maxRange));
+  return isExplained(beamShares(beams, s.log.reference[reading], s.map.grid));
+}
+
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return NAN;
   std::sort(values.begin(), values.end());
@@ -202,26 +233,29 @@ double quantile(std::vector<double> values, double q) {
 
 void report(const Study& s, const std::vector<Trial>& trials) {
   std::printf(
-      "start,x,y,found,right,right_at_end,distance_m,time_s,lost_m,error_m,error_deg,wrong_updates,updates,"
+      "start,x,y,found,right,right_at_end,distance_m,time_s,lost_m,error_m,error_deg,wrong_updates,"
+      "wrong_claims,updates,"
       "mean_ms,slowest_ms\n");
   std::vector<double> distances, times;
-  size_t right = 0, within = 0, wrong = 0, updates = 0;
+  size_t right = 0, within = 0, mapped = 0, mappedWithin = 0, wrong = 0, claims = 0, updates = 0;
   double seconds = 0, slowest = 0;
   for (const Trial& t : trials) {
     const TPose2D at = s.log.reference[t.start];
-    std::printf("%zu,%.1f,%.1f,%d,%d,%d,%.1f,%.1f,%.1f,%.3f,%.2f,%zu,%zu,%.1f,%.0f\n", t.start, at.x, at.y,
-                t.isFound, t.isRight, t.isRightAtEnd, t.distance, t.time, t.lost, t.error,
-                t.angle * 180 / M_PI, t.wrong, t.updates,
+    std::printf("%zu,%.1f,%.1f,%d,%d,%d,%.1f,%.1f,%.1f,%.3f,%.2f,%zu,%zu,%zu,%.1f,%.0f\n", t.start, at.x,
+                at.y, t.isFound, t.isRight, t.isRightAtEnd, t.distance, t.time, t.lost, t.error,
+                t.angle * 180 / M_PI, t.wrong, t.claims, t.updates,
                 1000 * t.seconds / static_cast<double>(std::max<size_t>(1, t.updates)), 1000 * t.slowest);
-    right += t.isRight && t.isFound, wrong += t.wrong > 0 || (t.isFound && !t.isRight);
-    within += t.isRight && t.isFound && t.distance <= 15;
+    right += t.isRight && t.isFound, wrong += t.wrong > 0, claims += t.claims;
+    const bool isWithin = t.isRight && t.isFound && t.distance <= 15, isInMap = isMapped(s, t.start);
+    within += isWithin, mapped += isInMap, mappedWithin += isInMap && isWithin;
     distances.push_back(t.isFound && t.isRight ? t.distance : INFINITY);
     times.push_back(t.isFound && t.isRight ? t.time : INFINITY);
     seconds += t.seconds, updates += t.updates, slowest = std::max(slowest, t.slowest);
   }
-  std::printf("| %zu | %zu | %zu | %zu | %.1f / %.1f | %.0f / %.0f | %.0f / %.0f |\n", trials.size(), within,
-              right, wrong, quantile(distances, 0.5), quantile(distances, 0.95), quantile(times, 0.5),
-              quantile(times, 0.95), 1000 * seconds / static_cast<double>(updates), 1000 * slowest);
+  std::printf("| %zu | %zu | %zu of %zu | %zu | %zu | %zu | %.1f / %.1f | %.0f / %.0f | %.0f / %.0f |\n",
+              trials.size(), within, mappedWithin, mapped, right, claims, wrong, quantile(distances, 0.5),
+              quantile(distances, 0.95), quantile(times, 0.5), quantile(times, 0.95),
+              1000 * seconds / static_cast<double>(updates), 1000 * slowest);
 }
 
 /// From the start of the log, or from a share of it on.
@@ -230,32 +264,37 @@ void track(const Study& s) {
   const auto first = static_cast<size_t>(s["from"] * static_cast<double>(log.readings.size()));
   Localizer localizer(s.configuration.filter, s.map.grid, s.map.lines, log.reference[first]);
   std::vector<double> distances, angles;
-  size_t good = 0, unknown = 0, lost = 0;
+  size_t good = 0, mapped = 0, mappedGood = 0, unknown = 0, lost = 0;
   bool wasLocalized = true;
   TPose2D since;
-  const double begin = threadSeconds();
+  files::Trajectory trajectory;
+  double seconds = 0;
   for (size_t i = first; i < log.readings.size(); ++i) {
     const size_t before = localizer.updates();
     const TPose2D motion = i == first ? TPose2D() : log.readings[i].motion;
+    const double begin = threadSeconds();
     localizer.process(motion, log.readings[i].scans);
+    seconds += threadSeconds() - begin;
     since = localizer.updates() == before ? since + motion : TPose2D();
-    const Error error = errorOf(localizer.bestPath().back() + since, log.reference[i]);
+    const TPose2D pose = localizer.bestPath().back() + since;
+    if (localizer.isLocalized()) trajectory.push_back({log.readings[i].timestamp, pose});
+    const Error error = errorOf(pose, log.reference[i]);
     if (!localizer.isLocalized()) ++unknown;
     lost += wasLocalized && !localizer.isLocalized();
     wasLocalized = localizer.isLocalized();
-    if (s["only"] >= 0 && (!error.isRight() || !wasLocalized))
-      std::printf("%zu,%.1f,%.1f,%.2f,%.1f,%d\n", i, log.reference[i].x, log.reference[i].y, error.distance,
-                  error.angle * 180 / M_PI, wasLocalized);
     if (wasLocalized) distances.push_back(error.distance), angles.push_back(error.angle * 180 / M_PI);
-    good += wasLocalized && error.distance < kGood && error.angle < kGoodAngle;
+    const bool isGood = wasLocalized && error.distance < kGood && error.angle < kGoodAngle,
+               isInMap = isMapped(s, i);
+    good += isGood, mapped += isInMap, mappedGood += isInMap && isGood;
   }
-  const double seconds = threadSeconds() - begin;
+  if (std::ofstream file(s.out); !s.out.empty()) files::saveTum(trajectory, file);
   double squares = 0;
   for (const double distance : distances) squares += distance * distance;
   const auto scans = static_cast<double>(log.readings.size() - first);
-  std::printf("| %.0f | %.3f | %.3f | %.3f | %.2f | %.1f %% | %.1f %% | %zu | %.0f |\n", scans,
+  std::printf("| %.0f | %.3f | %.3f | %.3f | %.2f | %.1f %% | %.1f %% | %.1f %% | %zu | %.0f |\n", scans,
               std::sqrt(squares / static_cast<double>(distances.size())), quantile(distances, 0.5),
               quantile(distances, 0.99), quantile(angles, 0.5), 100 * static_cast<double>(good) / scans,
+              100 * static_cast<double>(mappedGood) / static_cast<double>(mapped),
               100 * static_cast<double>(unknown) / scans, lost,
               (log.readings.back().timestamp - log.readings[first].timestamp) / seconds);
 }
@@ -268,14 +307,16 @@ int run(int argc, char** argv) {
   for (int i = 6; i < argc; ++i) {
     const std::string setting = argv[i];
     const size_t equals = setting.find('=');
-    if (setting.find('.') < equals)
+    if (setting.rfind("out=", 0) == 0)
+      s.out = setting.substr(4);
+    else if (setting.find('.') < equals)
       settings.push_back(setting);
     else
       s.numbers.at(setting.substr(0, equals)) = std::stod(setting.substr(equals + 1));
   }
   s.configuration = run::Configuration("", settings);
   s.map = readMap(argv[2], s["lines"] > 0);
-  s.log = readLog(argv[3], argv[2], argv[4], argv[5], s.configuration);
+  s.log = readLog(argv[3], argv[2], argv[4], argv[5], s["held_out"] > 0, s.configuration);
   const std::string mode = argv[1];
   if (mode == "track")
     track(s);

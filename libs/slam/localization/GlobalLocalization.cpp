@@ -32,6 +32,7 @@ constexpr double kImpossible = 10;  // ln of the ratio of weights to a place tha
 // A place is declared if
 constexpr size_t kScans = 5;              // there are at least so many scans,
 constexpr double kExplainedScans = 0.75;  // it explains this share of them,
+constexpr long kNewest = 3;               // and these,
 constexpr double kMargin = 10;            // other places are less likely by this ln of the ratio,
 constexpr double kSearched = 0.1;         // and all with a score within this of the best were looked at.
 constexpr double kExplained = 0.7, kContradicted = 0.15;  // share of the beams of an explained scan
@@ -42,10 +43,13 @@ TPoint2D centreOf(const OccupancyGrid& grid) {
           0.5 * (box.min.y + box.max.y) * grid.resolution()};
 }
 
-double explainedScans(const Hypothesis& hypothesis) {
-  const auto explained = std::count_if(hypothesis.evidence.begin(), hypothesis.evidence.end(),
-                                       [](const ScanEvidence& scan) { return isExplained(scan.shares); });
-  return static_cast<double>(explained) / static_cast<double>(hypothesis.evidence.size());
+/// Also the newest scans: those before a robot was carried elsewhere would hide them.
+bool explains(const Hypothesis& hypothesis) {
+  const auto& evidence = hypothesis.evidence;
+  const auto isOfScan = [](const ScanEvidence& scan) { return isExplained(scan.shares); };
+  const auto explained = static_cast<double>(std::count_if(evidence.begin(), evidence.end(), isOfScan));
+  return evidence.size() >= kScans && explained >= kExplainedScans * static_cast<double>(evidence.size()) &&
+         std::all_of(evidence.end() - kNewest, evidence.end(), isOfScan);
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b) {
@@ -146,17 +150,16 @@ void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& aren
 }
 
 bool GlobalLocalization::decide() const {
-  if (hypotheses_.empty() || hypotheses_[0].evidence.size() < kScans) return false;
+  if (hypotheses_.empty()) return false;
   const Hypothesis& best = hypotheses_[0];
   const auto scans = static_cast<double>(best.evidence.size());
   if (best.logWeight < exponent_ * kUnexplained * scans + kMargin) return false;
   if (hypotheses_.size() > 1 && hypotheses_[1].logWeight > best.logWeight - kMargin) return false;
-  return explainedScans(best) >= kExplainedScans;
+  return explains(best);
 }
 
 bool GlobalLocalization::refutes(const TPose2D& pose, const RecentScans& recent) const {
-  return !hypotheses_.empty() && !isSamePlace(hypotheses_[0].pose, pose) &&
-         explainedScans(hypotheses_[0]) >= kExplainedScans &&
+  return !hypotheses_.empty() && !isSamePlace(hypotheses_[0].pose, pose) && explains(hypotheses_[0]) &&
          hypotheses_[0].logWeight > judged(pose, recent).logWeight + kMargin;
 }
 
