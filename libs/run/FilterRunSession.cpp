@@ -1,4 +1,5 @@
 // Saving a run and going on with it.
+#include <array>
 #include <filesystem>
 
 #include "base/Clock.h"
@@ -115,6 +116,35 @@ void FilterRun::resume(SessionReader& session) {
   session.readRest([this](StateReader& in) { visit(in); });
   std::error_code ignored;  // what a killed run leaves of its next checkpoint
   std::filesystem::remove(files::PartialFile::partialName(session.file()), ignored);
+}
+
+FilterRun::Drive FilterRun::driveOf(SessionReader& session) {
+  Configuration configuration;
+  configuration.load(session.header().configuration, session.file());
+  Drive drive;
+  HybridFilter filter(configuration.filter);
+  session.readRest([&](StateReader& in) {
+    // In the order of `visit`.
+    decltype(fingerprint_) fingerprint;
+    double seconds, slip;
+    std::array<size_t, 6> counters;
+    TrajectoryRecorder recorder;
+    decltype(uses_) uses;
+    decltype(particleCovariances_) covariances;
+    std::string table;
+    bool hasParticles, hasScanOdometry;
+    in(fingerprint, seconds, counters, slip, recorder, uses, drive.times, covariances, table, hasParticles,
+       hasScanOdometry);
+    if (hasParticles) in(table);
+    ScanOdometry odometry(configuration.filter);
+    if (hasScanOdometry) in(odometry);
+    filter.load(in);
+    const size_t updates = session.header().path.size();
+    in.check(filter.updates() == updates && drive.times.size() == updates,
+             "its readings do not belong to its path");
+  });
+  if (filter.isMapOfUpdates()) drive.scans = filter.updateScans();
+  return drive;
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {

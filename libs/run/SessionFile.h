@@ -15,7 +15,8 @@ namespace hybrid_slam::run {
 
 inline const char* const kSessionName = "session.hslam";
 
-/// What every use of a session needs. The state of the run follows in the file (FilterRun).
+/// What every use of a session needs. The state of the run follows in the file (FilterRun), unless the map was
+/// merged of others.
 struct SessionHeader {
   std::string version;                    ///< of the program that wrote it
   std::string configuration;              ///< Configuration::text()
@@ -48,6 +49,8 @@ class SessionReader {
 
   const std::string& file() const { return file_; }
   const SessionHeader& header() const { return header_; }
+  /// Whether the state of a run follows the header, or nothing: a merged map (slam-merge).
+  bool hasRun() const { return !in_.isAtEnd(); }
   /// Reads what follows the header, to the end.
   /// @throws InputError likewise
   void readRest(const std::function<void(StateReader&)>& read);

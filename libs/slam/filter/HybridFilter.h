@@ -39,6 +39,11 @@ class HybridFilter : public Filter {
   /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
 
+  /// Of each update, with loop closing; else empty.
+  const std::vector<Scans>& updateScans() const { return updateScans_; }
+  /// Whether the map holds nothing else than these.
+  bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }
+
   /// @name The whole state (base/State.h). A filter that reads it goes on to the same bytes.
   /// @{
   void save(StateWriter& out);

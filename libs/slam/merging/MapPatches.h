@@ -1,0 +1,28 @@
+/// @file MapPatches.h
+/// @brief A map as local maps, to find it in another one piece by piece.
+#pragma once
+
+#include <vector>
+
+#include "slam/loops/LocalMap.h"
+
+namespace hybrid_slam {
+
+/// A piece of a map. Its axes are those of the map.
+struct MapPatch {
+  mrpt::math::TPose2D place;  ///< of its frame in the map's; free
+  LocalMap map;
+};
+
+/// The whole map as one patch.
+/// @param place  the origin of its frame
+MapPatch wholeMap(const OccupancyGrid& grid, const mrpt::math::TPose2D& place);
+
+/// Squares of 12 m around free places, about 4 m apart, at most 250 of them. Those with less than 4 m of wall
+/// are left out.
+std::vector<MapPatch> patchesOf(const OccupancyGrid& grid);
+
+/// m, the middle of the cells that exist.
+mrpt::math::TPoint2D middleOf(const OccupancyGrid& grid);
+
+}  // namespace hybrid_slam

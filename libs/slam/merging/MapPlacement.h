@@ -1,0 +1,40 @@
+/// @file MapPlacement.h
+/// @brief Where a map lies in another one.
+#pragma once
+
+#include <vector>
+
+#include "slam/filter/Refinement.h"
+#include "slam/loops/LoopMatch.h"
+
+namespace hybrid_slam {
+
+/// A patch of the newer map that matches the older one.
+struct PatchMatch {
+  mrpt::math::TPose2D newer;  ///< the patch in the newer map (m, rad)
+  mrpt::math::TPose2D older;  ///< the same in the older map
+  Agreement agreement;
+};
+
+/// The newer map in the older one, and the evidence for it.
+struct MapPlacement {
+  mrpt::math::TPose2D frame;        ///< of the newer map in that of the older (m, rad)
+  Agreement agreement;              ///< of the whole maps
+  double compared = 0;              ///< m of wall of the newer map where the older knows something
+  double second = 0;                ///< highest score elsewhere, as a fraction of this one's
+  std::vector<PatchMatch> patches;  ///< that agree with it
+
+  /// At least three patches and 20 m of wall; 75 % of the walls agree.
+  bool hasEvidence() const;
+  /// Another place is as good.
+  bool isAmbiguous() const;
+  bool isFound() const { return hasEvidence() && !isAmbiguous(); }
+};
+
+/// Searches all of the older map for patches of the newer one, by the directions of the walls in the line
+/// databases, and at all headings where this finds nothing. The places that the patches suggest are judged by
+/// the whole maps, on cells of at least 0.1 m; patches count that agree on the place.
+/// @param threads  0: all cores
+MapPlacement placementOf(const ScanMap& newer, const ScanMap& older, int threads);
+
+}  // namespace hybrid_slam
