@@ -65,7 +65,7 @@ class Placer {
         return isWithin(match.pose, other.older, kAgree, kAgreeAngle);
       });
       if (isKnown || match.agreement.fit < kMinFit || match.agreement.overlap < kMinOverlap) continue;
-      all.push_back({patch.place, match.pose, match.agreement});
+      all.push_back({patch.place, match.pose, edgeInformation(match.pose, patch.map, older_.map)});
     }
     return all;
   }

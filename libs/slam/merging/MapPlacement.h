@@ -11,9 +11,9 @@ namespace hybrid_slam {
 
 /// A patch of the newer map that matches the older one.
 struct PatchMatch {
-  mrpt::math::TPose2D newer;  ///< the patch in the newer map (m, rad)
-  mrpt::math::TPose2D older;  ///< the same in the older map
-  Agreement agreement;
+  mrpt::math::TPose2D newer;                              ///< the patch in the newer map (m, rad)
+  mrpt::math::TPose2D older;                              ///< the same in the older map
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `older`, axes of the older map
 };
 
 /// The newer map in the older one, and the evidence for it.
