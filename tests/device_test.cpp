@@ -208,7 +208,7 @@ TEST_F(DeviceTest, TheRecordingOfBothDevicesReplaysToTheSameMap) {
   Sensors sensors(test::contentOf(ini), events, 5, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
   ASSERT_TRUE(test::happens([&] { return sensors.scans().size() >= 25; })) << events.text();
   sensors.stop();
-  run.finish("test", 0);
+  run.finish(0);
   EXPECT_EQ(run.skipped(), 0u);
 
   run::Configuration again(ini, {"run.output=" + folder.path("offline")});
