@@ -121,6 +121,7 @@ class ScenePainter {
     }
   }
   void ellipse() {
+    if (!isPlaceKnown()) return;
     constexpr double kSigmas = 3;
     const UncertaintyEllipse& e = filter_.ellipse;
     strokes("uncertainty", kViolet, 2)
@@ -147,9 +148,10 @@ class ScenePainter {
                    ahead(at, *filter_.dominatingDirection + turn, radius));
   }
   void caption() {
-    std::string text = mrpt::format("%s: %zu updates, ESS %.0f %%", filter_.method.c_str(), filter_.updates,
-                                    100 * filter_.step.ess);
-    if (!filter_.lines.empty() || !filter_.scanLines.empty())
+    std::string text = mrpt::format("%s: %zu updates", filter_.method.c_str(), filter_.updates);
+    if (filter_.place) text += ", " + describe(*filter_.place);
+    if (isPlaceKnown()) text += mrpt::format(", ESS %.0f %%", 100 * filter_.step.ess);
+    if (isPlaceKnown() && (!filter_.lines.empty() || !filter_.scanLines.empty()))
       text += mrpt::format(", %zu lines, %d of %d matched", filter_.lines.size(), filter_.step.linesMatched,
                            filter_.step.linesSeen);
     mrpt::opengl::TFontParams font;
@@ -163,6 +165,7 @@ class ScenePainter {
   const COpenGLScene::Ptr& scene() const { return scene_; }
 
  private:
+  bool isPlaceKnown() const { return !filter_.place || filter_.place->isKnown; }
   /// Adds a layer above the previous ones. @param width  pixels
   Strokes strokes(const char* name, const TColor& colour, double width) {
     height_ += pixel_;

@@ -45,6 +45,14 @@ FilterWatch::FilterWatch(const run::Configuration& configuration)
 
 void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, bool isUpdate) {
   if (!start_) start_ = reading.timestamp;
+  const auto place = view.place();
+  if (!place) knownFrom_ = 0;
+  if (place && !place->isKnown) {
+    knownFrom_ = view.updates();
+    scans_.clear();
+    if (useLines_) linesAfter_ = view.bestLines();
+    return;
+  }
   if (!isUpdate) return;
   const FilterStep& step = view.lastStep();
   plot_.push_back({reading.timestamp - *start_, step.stdX, step.stdY, step.stdPhi, step.ess});
@@ -59,9 +67,12 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->updates = view.updates();
   out->map = mapImage(view.bestGrid());
   out->path = view.bestPath();
+  out->path.erase(out->path.begin(),
+                  out->path.begin() + static_cast<std::ptrdiff_t>(std::min(knownFrom_, out->path.size())));
   out->lines = linesAfter_;
   out->dominatingDirection = directionModuloRightAngle(out->lines);
   out->particles = view.particlePoses();
+  out->place = view.place();
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();

@@ -19,7 +19,7 @@
 
 namespace hybrid_slam::window {
 
-/// One filter update in the plots.
+/// One filter update in the plots, with a known place.
 struct PlotRow {
   double time = 0;                        ///< s since the first scan
   double stdX = 0, stdY = 0, stdPhi = 0;  ///< m, m, rad
@@ -42,12 +42,15 @@ struct UncertaintyEllipse {
 struct FilterSnapshot {
   std::string method;  ///< "hybrid", "general", "stock"
   size_t updates = 0;
-  MapImage map;                           ///< of the best particle, like the next three
-  std::vector<mrpt::math::TPose2D> path;  ///< one pose per update; the last is the current one
+  MapImage map;  ///< of the best particle, like the next three
+  /// One pose per update; the last is the current one. In a fixed map: since the place has been known, empty
+  /// while it is not.
+  std::vector<mrpt::math::TPose2D> path;
   std::vector<DatabaseLine> lines;
   std::optional<double> dominatingDirection;  ///< rad, modulo a right angle
-  std::vector<WeightedPose> particles;
-  std::vector<ScanLine> scanLines;  ///< of the last update
+  std::vector<WeightedPose> particles;        ///< places that are possible, while the place is unknown
+  std::optional<Place> place;                 ///< in a fixed map
+  std::vector<ScanLine> scanLines;            ///< of the last update
   UncertaintyEllipse ellipse;
   std::vector<PlotRow> plot;
   FilterStep step;  ///< the last update
@@ -70,6 +73,7 @@ class FilterWatch {
   LineWeightOptions lineWeight_;
   ScanPreparation prepare_;
   std::optional<double> start_;  ///< s
+  size_t knownFrom_ = 0;         ///< update since which the place has been known
   std::vector<PlotRow> plot_;
   Scans scans_;                                         ///< of the last update
   std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update

@@ -80,7 +80,10 @@ std::string LiveSession::run() {
     });
   });
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
-             [&] { return isStopping_ || live.hasFailed(); });
+             [&] {
+               if (wantsSave_.exchange(false)) live.requestSave();
+               return isStopping_ || live.hasFailed();
+             });
   publish([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   return live.finish(client.lost());
 }

@@ -38,6 +38,8 @@ class LiveSession {
 
   /// Ends the run; the state becomes done after the results are written.
   void stop() { isStopping_ = true; }
+  /// Saves map and session to a dated subfolder after the next scan; an event names it.
+  void saveMap() { wantsSave_ = true; }
   std::shared_ptr<const LiveSnapshot> snapshot() const;
 
  private:
@@ -50,7 +52,7 @@ class LiveSession {
   live::LiveOptions options_;
   std::pair<std::string, uint16_t> server_;
   live::EventLog log_;
-  std::atomic<bool> isStopping_{false};
+  std::atomic<bool> isStopping_{false}, wantsSave_{false};
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveSnapshot> snapshot_ = std::make_shared<LiveSnapshot>();
   std::thread thread_;

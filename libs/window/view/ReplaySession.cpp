@@ -140,6 +140,12 @@ void ReplaySession::exportResults(const std::string& folder) {
   wake_.notify_all();
 }
 
+void ReplaySession::saveMap(const std::string& folder) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  saveTo_ = folder;
+  wake_.notify_all();
+}
+
 std::shared_ptr<const ReplaySnapshot> ReplaySession::snapshot() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return snapshot_;
@@ -186,6 +192,13 @@ bool ReplaySession::hasWork(Pass& pass) {
     if (goal_ == Goal::reach && (target_ < pass.scans || (pass.isFinished() && target_ > pass.scans)))
       wantsRestart_ = true;
     if (isClosing_ || wantsRestart_) return false;
+    if (saveTo_) {
+      const std::string folder = *std::exchange(saveTo_, std::nullopt);
+      lock.unlock();
+      savePass(pass, folder);
+      lock.lock();
+      continue;
+    }
     if (exportTo_) {
       const std::string folder = *std::exchange(exportTo_, std::nullopt);
       goal_ = Goal::pause;
@@ -234,6 +247,8 @@ void ReplaySession::advance(Pass& pass) {
     const bool isUpdate = lane->run.process(*pass.next);
     lane->watch.saw(lane->run.view(), *pass.next, isUpdate);
     pass.isOutdated |= isUpdate;
+    for (const std::string& text : lane->run.takeNotes())
+      note(nameOf(lane->configuration.run.method) + ": " + text);
   }
   ++pass.scans;
   pass.time = pass.next->timestamp - pass.start;
@@ -245,6 +260,7 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
+    for (const auto& lane : pass.lanes) lane->run.requirePlace();
     std::vector<std::string> names;
     for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
     files::StagedFolder staged(folder, names, false);
@@ -259,6 +275,31 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   } catch (const std::exception& e) {
     tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
   }
+}
+
+void ReplaySession::savePass(Pass& pass, const std::string& folder) {
+  try {
+    if (pass.scans == 0)
+      throw InputError("no map yet", "before the first scan", "play or step the log first");
+    if (pass.isFinished())
+      throw InputError("the replay has ended", "its results are exported", "play it again to save a map");
+    std::vector<std::string> names;
+    for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
+    files::StagedFolder staged(folder, names, false);
+    for (const auto& lane : pass.lanes)
+      lane->run.saveMapTo(staged.files().path(nameOf(lane->configuration.run.method)));
+    staged.publish();
+    note("map saved: " + staged.folder());
+  } catch (const std::exception& e) {
+    tell(messageOf(e), true, snapshot()->state);
+  }
+}
+
+void ReplaySession::note(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto next = std::make_shared<ReplaySnapshot>(*snapshot_);
+  next->note = text;
+  snapshot_ = next;
 }
 
 void ReplaySession::publish(Pass& pass, State state, bool withMaps) {
@@ -277,6 +318,7 @@ void ReplaySession::publish(Pass& pass, State state, bool withMaps) {
   next->filters = pass.pictures;
   next->filters.resize(methods_.size());
   const std::lock_guard<std::mutex> lock(mutex_);
+  next->note = snapshot_->note;
   next->message = snapshot_->message;
   next->isError = snapshot_->isError;
   next->messages = snapshot_->messages;

@@ -24,6 +24,7 @@ struct ReplaySnapshot {
   size_t run = 0;               ///< number of starts from the beginning of the log
   std::string message;          ///< one line: an error, or the result of an export
   bool isError = false;         ///< the message is an error
+  std::string note;             ///< one line on the run: the map saved, the start found, a loop closed
   size_t messages = 0;          ///< number of messages, so that each is shown once
   std::vector<std::shared_ptr<const FilterSnapshot>> filters;  ///< one per method; null before the first scan
 };
@@ -54,6 +55,10 @@ class ReplaySession {
   /// snapshot. This ends the replay; it can only be restarted.
   void exportResults(const std::string& folder);
 
+  /// Writes map, trajectory and session as they are now to folder/METHOD, or to a dated subfolder if that
+  /// exists, with a message in the snapshot. The replay goes on.
+  void saveMap(const std::string& folder);
+
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
 
  private:
@@ -65,6 +70,8 @@ class ReplaySession {
   bool waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass);
   void advance(Pass& pass);
   void exportPass(Pass& pass, const std::string& folder);
+  void savePass(Pass& pass, const std::string& folder);
+  void note(const std::string& text);
   void publish(Pass& pass, ReplaySnapshot::State state, bool withMaps);
   void tell(const std::string& message, bool isError, ReplaySnapshot::State state);
 
@@ -79,7 +86,7 @@ class ReplaySession {
   size_t target_ = 0;  ///< scan to reach
   double speed_ = 1;
   bool isClosing_ = false, wantsRestart_ = false;
-  std::optional<std::string> exportTo_;
+  std::optional<std::string> exportTo_, saveTo_;
   std::shared_ptr<const ReplaySnapshot> snapshot_ = std::make_shared<ReplaySnapshot>();
   /// @}
   /// @name Used by the session's thread only

@@ -6,6 +6,7 @@
 
 #include "files/TemporaryFolder.h"
 #include "run/Replay.h"
+#include "testing/DriveLog.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 
@@ -191,6 +192,103 @@ TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
     isQuick = Clock::now() - opened < whole / 4;
   }
   EXPECT_TRUE(isQuick);
+}
+
+TEST_F(ReplaySessionTest, SavesTheMapAndGoesOn) {
+  ReplaySession session(laps(), {Method::hybrid, Method::general});
+  session.saveMap(folder.path("early"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 1; }));
+  EXPECT_THAT(session.snapshot()->message, HasSubstr("no map yet"));
+  session.seek(30);
+  ASSERT_TRUE(reaches(session, State::paused, 30));
+  session.saveMap(folder.path("saved"));
+  ASSERT_TRUE(test::happens([&] { return !session.snapshot()->note.empty(); }));
+  EXPECT_EQ(session.snapshot()->note, "map saved: " + folder.path("saved"));
+  for (const char* method : {"hybrid", "general"}) {
+    const std::string path = folder.path("saved/") + method;
+    EXPECT_FALSE(test::contentOf(path + "/session.hslam").empty()) << method;
+    const std::string trajectory = test::contentOf(path + "/trajectory.tum");
+    EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 30) << method;
+  }
+  session.saveMap("/proc/nowhere");
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
+  EXPECT_TRUE(session.snapshot()->isError);
+  EXPECT_EQ(session.snapshot()->state, State::paused);
+  session.seek(31);
+  ASSERT_TRUE(reaches(session, State::paused, 31));
+  EXPECT_EQ(session.snapshot()->run, 1u) << "the same run";
+}
+
+/// The map of an earlier run, and a log of the same room.
+class ReplayInAMap : public ReplaySessionTest {
+ protected:
+  ReplayInAMap() {
+    earlier.run.output = folder.path("earlier");
+    const std::atomic<bool> stop{false};
+    run::replay(earlier, true, stop);
+  }
+  const std::string session = folder.path("earlier/session.hslam");
+  run::Configuration earlier = configuration(drive(1)), now = configuration(drive(2));
+
+ private:
+  std::string drive(uint64_t seed) {
+    return test::writeGzipped(folder.path("drive" + std::to_string(seed) + ".rawlog"),
+                              test::logOf(test::drive(8, seed)));
+  }
+};
+
+TEST_F(ReplayInAMap, ShowsTheSearchForTheStartAndThenTheRobot) {
+  now.run.localizeIn = session;
+  ReplaySession replay(now, {Method::hybrid});
+  replay.seek(1);
+  ASSERT_TRUE(reaches(replay, State::paused, 1));
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->filters.at(0) != nullptr; }));
+  const auto searching = replay.snapshot()->filters[0];
+  ASSERT_TRUE(searching->place);
+  EXPECT_FALSE(searching->place->isKnown);
+  EXPECT_THAT(describe(*searching->place), testing::MatchesRegex("searching the start: [0-9]+ hypotheses"));
+  EXPECT_GT(searching->particles.size(), 20u) << "places all over the map";
+  EXPECT_FALSE(searching->lines.empty());
+  EXPECT_TRUE(searching->path.empty());
+  EXPECT_TRUE(searching->plot.empty());
+  EXPECT_GT(searching->map.width, 100) << "the map is known";
+
+  replay.setSpeed(0);
+  replay.play();
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
+  const auto found = replay.snapshot()->filters[0];
+  ASSERT_TRUE(found->place);
+  EXPECT_EQ(describe(*found->place), "localised");
+  EXPECT_EQ(found->map.grey, searching->map.grey) << "it stays as it is";
+  ASSERT_FALSE(found->path.empty());
+  EXPECT_LT(found->path.size(), found->updates) << "since the place has been known";
+  EXPECT_EQ(found->plot.size(), found->path.size());
+  for (size_t i = 1; i < found->path.size(); ++i)
+    EXPECT_LT((found->path[i] - found->path[i - 1]).norm(), 0.5) << "no jumps";
+}
+
+TEST_F(ReplayInAMap, MapsOnFromAStartThatIsSearchedFor) {
+  now.run.continueFrom = session;
+  ReplaySession replay(now, {Method::hybrid});
+  replay.seek(1);
+  ASSERT_TRUE(reaches(replay, State::paused, 1));
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->filters.at(0) != nullptr; }));
+  EXPECT_TRUE(replay.snapshot()->filters[0]->place);
+  replay.saveMap(folder.path("saved"));
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->messages == 1; }));
+  EXPECT_THAT(replay.snapshot()->message, HasSubstr("start not found"));
+  replay.setSpeed(0);
+  replay.play();
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
+  EXPECT_FALSE(replay.snapshot()->filters[0]->place) << "it maps";
+  EXPECT_THAT(replay.snapshot()->note, HasSubstr("hybrid: start found after"));
+}
+
+TEST_F(ReplayInAMap, AFileThatIsNoMapFailsWithItsName) {
+  now.run.localizeIn = folder.write("none.hslam", "none");
+  ReplaySession replay(now, {Method::hybrid});
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::failed; }));
+  EXPECT_THAT(replay.snapshot()->message, HasSubstr("none.hslam"));
 }
 
 TEST_F(ReplaySessionTest, AnInvalidLogFailsWithItsName) {
