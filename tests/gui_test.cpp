@@ -16,9 +16,11 @@
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "live/ObservationServer.h"
+#include "run/Replay.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 #include "window/gui/MainFrame.h"
+#include "window/gui/MapDialog.h"
 #include "window/gui/ParametersDialog.h"
 
 namespace hybrid_slam {
@@ -116,6 +118,8 @@ class GuiTest : public testing::Test {
         onScreen({canvas.ClientToScreen(wxPoint(wxRound(at.x), wxRound(at.y))), wxSize(1, 1)}).GetTopLeft();
     return screen.GetRed(p.x, p.y);
   }
+
+  std::string status(int field) { return frame->GetStatusBar()->GetStatusText(field).utf8_string(); }
 
   files::TemporaryFolder folder;
   Dialogs dialogs;
@@ -218,6 +222,85 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
     EXPECT_FALSE(test::contentOf(folder.path(std::string("out/") + name)).empty()) << name;
 }
 
+TEST_F(GuiTest, SavesTheMapAndTheReplayGoesOn) {
+  menu(window::kSaveMap);
+  ASSERT_EQ(dialogs.messages.size(), 1u);
+  EXPECT_THAT(dialogs.messages.back(), HasSubstr("no log is open"));
+  frame->open(ini, log);
+  frame->replay()->seek(40);
+  ASSERT_TRUE(stands(State::paused, 40));
+  frame->saveReplayMapTo(folder.path("maps"));
+  ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("maps/hybrid/session.hslam")));
+  frame->replay()->seek(60);
+  ASSERT_TRUE(stands(State::ended, 60));
+  EXPECT_EQ(now().run, 1u);
+
+  frame->useMap({window::MapChoice::Use::localise, folder.path("maps/hybrid/session.hslam"),
+                 mrpt::math::TPose2D(0, 0, 0)});
+  frame->replay()->seek(60);
+  ASSERT_TRUE(stands(State::ended, 60));
+  ASSERT_TRUE(happens([&] { return status(1) == "localised"; })) << status(1);
+  frame->applyChanges({"particle_filter.particles=9"});
+  EXPECT_EQ(frame->settings()->map().use, window::MapChoice::Use::localise) << "in the same map";
+  frame->useMap({});
+  ASSERT_TRUE(stands(State::paused, 0));
+  frame->replay()->seek(2);
+  ASSERT_TRUE(happens([&] { return status(1).empty(); })) << "a new map";
+  EXPECT_EQ(dialogs.messages.size(), 1u);
+}
+
+TEST_F(GuiTest, ShowsTheSearchForTheStartInTheMapOfAnEarlierRun) {
+  const std::string building = SOURCE_DIR "/config-ini/csie-lms100.ini";
+  run::Configuration earlier(building, {"run.rawlog=" SOURCE_DIR "/datasets/csie/csie-loop.rawlog",
+                                        "run.output=" + folder.path("earlier")});
+  const std::atomic<bool> stop{false};
+  run::replay(earlier, true, stop);
+  const std::string session = folder.path("earlier/session.hslam");
+  frame->open(building, SOURCE_DIR "/datasets/csie/csie-corridor.rawlog",
+              {window::MapChoice::Use::localise, session, {}});
+  ASSERT_TRUE(stands(State::paused, 0));
+  const window::MapCanvas& canvas = *frame->replay()->canvas(0);
+  const auto shows = [&](size_t scan) {
+    frame->replay()->seek(scan);
+    return stands(State::paused, scan) &&
+           happens([&] { return canvas.shown() && canvas.shown() == now().filters.at(0); });
+  };
+  ASSERT_TRUE(shows(1));
+  EXPECT_THAT(status(1), testing::MatchesRegex("searching the start: [0-9]+ hypotheses"));
+  const wxImage searching = screenshot("searching");
+  EXPECT_EQ(count(searching, canvas, 80, 180, 255), 0u) << "no robot yet";
+  EXPECT_GT(count(searching, canvas, 220, 0, 0), 300u) << "hypotheses";
+  size_t scan = 1;
+  while (!canvas.shown()->place->isKnown && scan + 10 < now().total) ASSERT_TRUE(shows(scan += 10));
+  ASSERT_TRUE(canvas.shown()->place->isKnown);
+  ASSERT_TRUE(shows(scan += 100));
+  const wxImage found = screenshot("localised");
+  EXPECT_EQ(status(1), "localised");
+  EXPECT_GT(count(found, canvas, 80, 180, 255), 20u) << "robot";
+}
+
+TEST_F(GuiTest, AsksForTheMapOfAnEarlierRun) {
+  using window::MapChoice;
+  window::MapDialog dialog(frame, {});
+  EXPECT_EQ(dialog.choice().use, MapChoice::Use::none);
+  const std::string map = folder.write("map.yaml", "image: map.pgm\n");
+  dialog.set({MapChoice::Use::mapOn, map, mrpt::math::TPose2D(1.5, -2, M_PI / 2)});
+  dialog.Show();
+  screenshot("map");
+  EXPECT_EQ(dialog.choice().use, MapChoice::Use::mapOn);
+  EXPECT_EQ(dialog.choice().file, map);
+  EXPECT_NEAR(dialog.choice().start->x, 1.5, 1e-9);
+  EXPECT_NEAR(dialog.choice().start->phi, M_PI / 2, 1e-9);
+  dialog.set({MapChoice::Use::localise, map, {}});
+  EXPECT_FALSE(dialog.choice().start) << "searched for";
+  dialog.set({MapChoice::Use::localise, folder.path("missing.hslam"), {}});
+  EXPECT_THROW(dialog.choice(), InputError);
+  EXPECT_NEAR(window::MapDialog::startOf("1,-2, 30")->y, -2, 1e-9);
+  for (const char* wrong : {"1, 2", "1 2 3", "a, b, c", "1, 2, 3, 4", "1e9, 0, 0", "nan, 0, 0"})
+    EXPECT_THROW(window::MapDialog::startOf(wrong), InputError) << wrong;
+}
+
 TEST_F(GuiTest, ReportsErrorsInTheFiles) {
   frame->open(folder.path("missing.ini"), "");
   frame->open(folder.write("typo.ini", "[particle_filter]\nparticle = 3\n"), "");
@@ -279,7 +362,10 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
       cycle.insert(std::dynamic_pointer_cast<mrpt::obs::CObservation>(all[j]));
     server.publish(cycle);
     settle(0.03);
+    if (i == 60) menu(window::kSaveMap);
   }
+  ASSERT_TRUE(happens([&] { return status(0).find("map saved: ") != std::string::npos; })) << status(0);
+  EXPECT_THAT(status(0), HasSubstr(folder.path("live/saved-20")));
   ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
   const wxImage screen = screenshot("live");
   EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);

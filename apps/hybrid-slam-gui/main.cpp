@@ -10,13 +10,20 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "FilterArguments.h"
 #include "InputFiles.h"
 #include "Program.h"
+#include "SessionArguments.h"
+#include "Settings.h"
 #include "window/gui/MainFrame.h"
 
 namespace {
 
+using hybrid_slam::window::MapChoice;
+
 hybrid_slam::InputFiles files;
+MapChoice map;
+std::vector<std::string> settings;
 
 class GuiApp : public wxApp {
  public:
@@ -32,7 +39,8 @@ class GuiApp : public wxApp {
     wxInitAllImageHandlers();
     auto* const frame = new hybrid_slam::window::MainFrame;
     frame->Show();
-    if (!files.main().empty()) frame->CallAfter([frame] { frame->open(files.config, files.log); });
+    if (!files.main().empty() || !map.file.empty() || !settings.empty())
+      frame->CallAfter([frame] { frame->open(files.config, files.log, map, settings); });
     return true;
   }
 };
@@ -47,12 +55,21 @@ int main(int argc, char** argv) {
                  "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
     files.add(app, std::string(hybrid_slam::kLogMeans) + " (default: [run] rawlog)");
+    hybrid_slam::FilterArguments filter;
+    filter.addParticles(app);
+    hybrid_slam::SessionArguments session;
+    session.addMap(app);
+    hybrid_slam::addSettings(app, settings);
     app.footer(
         "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 "
         "wrong "
         "command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
     files.sort();
+    filter.addTo(settings, app);
+    hybrid_slam::run::RunOptions run;
+    session.addTo(run);
+    map = MapChoice::of(run);
     // Debian's wxWidgets uses GLX for OpenGL; on Wayland, XWayland provides it.
     if (!std::getenv("DISPLAY"))
       return hybrid_slam::fail(

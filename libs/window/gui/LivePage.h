@@ -33,6 +33,8 @@ class LivePage : public wxPanel {
   void setServer(const wxString& server) { server_->SetValue(server); }
   void setOutput(const wxString& folder) { output_->SetValue(folder); }
   MapCanvas* canvas() const { return canvas_; }
+  /// The newest event of the run; empty without one.
+  std::string note() const { return shown_ && !shown_->events.empty() ? shown_->events.back() : ""; }
   LiveSession* session() const { return session_.get(); }
 
  private:

@@ -12,6 +12,7 @@
 #include "base/Errors.h"
 #include "files/OutputFolder.h"
 #include "files/PartialFile.h"
+#include "window/gui/MapDialog.h"
 #include "window/gui/Messages.h"
 #include "window/gui/ParametersDialog.h"
 
@@ -42,7 +43,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), timer_(this)
   live_ = new LivePage(pages_);
   pages_->AddPage(replay_, "Replay");
   pages_->AddPage(live_, "Live");
-  CreateStatusBar();
+  CreateStatusBar(2);
   makeMenus();
   bindFileMenu();
   bindReplayMenu();
@@ -50,6 +51,7 @@ MainFrame::MainFrame() : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), timer_(this)
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) {
     replay_->refresh();
     live_->refresh();
+    showState();
   });
   timer_.Start(kRefreshInterval);
 }
@@ -58,8 +60,10 @@ void MainFrame::makeMenus() {
   auto* const file = new wxMenu;
   file->Append(kOpenIni, "Open &INI file...\tCtrl+O");
   file->Append(kOpenRawlog, "Open &rawlog...\tCtrl+R");
+  file->Append(kOpenMap, "Open &map...\tCtrl+M", "Maps on, or localises, in the map of an earlier run");
   file->Append(kSaveIni, "&Save settings as INI...\tCtrl+S");
   file->AppendSeparator();
+  file->Append(kSaveMap, "Save map &now...\tCtrl+Shift+S", "Saves map and session; the run goes on");
   file->Append(kExportPicture, "Export &picture...\tCtrl+P");
   file->Append(kExportResults, "&Export results...\tCtrl+E",
                "Writes them as hybrid-slam does; ends the replay");
@@ -113,6 +117,8 @@ void MainFrame::bindFileMenu() {
   bind(kSaveIni, &MainFrame::saveIni);
   bind(kExportPicture, &MainFrame::exportPicture);
   bind(kExportResults, &MainFrame::exportResults);
+  bind(kOpenMap, &MainFrame::openMap);
+  bind(kSaveMap, &MainFrame::saveMap);
   bind(kSeek, &MainFrame::askForScan);
   bind(kParameters, &MainFrame::editParameters);
   Bind(
@@ -164,12 +170,17 @@ void MainFrame::bindViewMenu() {
       wxEVT_MENU, [this](wxCommandEvent& event) { replay_->showGeneral(event.IsChecked()); }, kGeneral);
 }
 
-void MainFrame::open(const std::string& ini, const std::string& rawlog) {
+void MainFrame::open(const std::string& ini, const std::string& rawlog, const MapChoice& map,
+                     const std::vector<std::string>& changes) {
   orTell(this, [&] {
-    std::vector<std::string> changes;
-    if (!rawlog.empty()) changes.push_back("run.rawlog=" + rawlog);
-    use(Settings::fromFile(ini, changes));
+    std::vector<std::string> all = changes;
+    if (!rawlog.empty()) all.push_back("run.rawlog=" + rawlog);
+    use(Settings::fromFile(ini, all)->inMap(map));
   });
+}
+
+void MainFrame::useMap(const MapChoice& map) {
+  use((settings_ ? settings_ : Settings::fromFile(""))->inMap(map));
 }
 
 void MainFrame::applyChanges(const std::vector<std::string>& changes) {
@@ -252,6 +263,33 @@ void MainFrame::exportResults() {
 }
 
 void MainFrame::exportResultsTo(const std::string& folder) { replay_->session()->exportResults(folder); }
+
+void MainFrame::openMap() {
+  MapDialog dialog(this, settings_ ? settings_->map() : MapChoice());
+  if (dialog.ShowModal() == wxID_OK) useMap(dialog.choice());
+}
+
+void MainFrame::saveMap() {
+  if (pages_->GetSelection() == 1) {
+    if (!live_->isRunning()) throw InputError("no map yet", "the live view", "connect first");
+    return live_->session()->saveMap();
+  }
+  if (!replay_->session()) throw InputError("no map yet", "no log is open", "open a rawlog and play it");
+  wxDirDialog dialog(this, "Folder for the maps (hybrid/ and general/ in it)");
+  if (dialog.ShowModal() == wxID_OK) saveReplayMapTo(dialog.GetPath().utf8_string());
+}
+
+void MainFrame::saveReplayMapTo(const std::string& folder) { replay_->session()->saveMap(folder); }
+
+/// The newest event on the left, the place in the map of an earlier run on the right.
+void MainFrame::showState() {
+  const bool isReplay = pages_->GetSelection() == 0;
+  const auto note = wxString::FromUTF8(isReplay ? replay_->note() : live_->note());
+  if (note != note_) SetStatusText(note_ = note);
+  const auto& shown = isReplay ? replay_->canvas(0)->shown() : live_->canvas()->shown();
+  const auto place = wxString::FromUTF8(shown && shown->place ? describe(*shown->place) : "");
+  if (place != GetStatusBar()->GetStatusText(1)) SetStatusText(place, 1);
+}
 
 void MainFrame::askForScan() {
   if (!replay_->session()) throw InputError("no log", "the replay", "open a rawlog first: File, Open rawlog");

@@ -22,6 +22,8 @@ enum Command {
   kSaveIni,
   kExportPicture,
   kExportResults,
+  kOpenMap,
+  kSaveMap,
   kPlay,
   kStep,
   kRestart,
@@ -47,8 +49,12 @@ class MainFrame : public wxFrame {
   MainFrame();
 
   /// Shows errors in the files in a dialog.
-  /// @param rawlog  empty: [run] rawlog of the INI file, if it names one
-  void open(const std::string& ini, const std::string& rawlog);
+  /// @param rawlog   empty: [run] rawlog of the INI file, if it names one
+  /// @param changes  SECTION.KEY=VALUE each
+  void open(const std::string& ini, const std::string& rawlog, const MapChoice& map = {},
+            const std::vector<std::string>& changes = {});
+  /// Later runs map on or localise in this map.
+  void useMap(const MapChoice& map);
   void applyChanges(const std::vector<std::string>& changes);
 
   /// @name Menu actions with a chosen file
@@ -57,6 +63,7 @@ class MainFrame : public wxFrame {
   void saveIniTo(const std::string& file) const;
   void exportPictureTo(const std::string& file) const;  ///< PNG, 1600 x 1200
   void exportResultsTo(const std::string& folder);
+  void saveReplayMapTo(const std::string& folder);  ///< the replay goes on
   /// @}
 
   ReplayPage* replay() const { return replay_; }
@@ -74,6 +81,9 @@ class MainFrame : public wxFrame {
   void saveIni();
   void exportPicture();
   void exportResults();
+  void openMap();
+  void saveMap();
+  void showState();
   std::shared_ptr<const FilterSnapshot> shownFilter() const;
   void askForScan();
   void editParameters();
@@ -83,6 +93,7 @@ class MainFrame : public wxFrame {
   ReplayPage* replay_;
   LivePage* live_;
   wxTimer timer_;
+  wxString note_;  ///< shown last
 };
 
 }  // namespace hybrid_slam::window

@@ -35,6 +35,8 @@ class ReplayPage : public wxPanel {
   void toggle(bool Layers::*layer);
   void showGeneral(bool isShown);
   MapCanvas* canvas(size_t i) const { return canvases_.at(i); }
+  /// The newest event of the replay; empty without one.
+  std::string note() const { return shown_ ? shown_->note : ""; }
   ReplaySession* session() const { return session_.get(); }
 
  private:

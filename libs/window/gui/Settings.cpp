@@ -5,6 +5,12 @@
 
 namespace hybrid_slam::window {
 
+MapChoice MapChoice::of(const run::RunOptions& run) {
+  if (!run.continueFrom.empty()) return {Use::mapOn, run.continueFrom, run.start};
+  if (!run.localizeIn.empty()) return {Use::localise, run.localizeIn, run.start};
+  return {};
+}
+
 std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
                                              const std::vector<std::string>& changes) {
   return std::shared_ptr<Settings>(new Settings(file, changes, nullptr));
@@ -12,6 +18,12 @@ std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
 
 Settings::Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before)
     : configuration(file, changes, {{"live", &live}}) {
+  if (before) {
+    const run::RunOptions& of = before->configuration.run;
+    configuration.run.continueFrom = of.continueFrom;
+    configuration.run.localizeIn = of.localizeIn;
+    configuration.run.start = of.start;
+  }
   const std::string& log = configuration.run.rawlog;
   const readings::InputOptions& input = configuration.input;
   if (log.empty()) return;
@@ -25,6 +37,15 @@ Settings::Settings(const std::string& file, const std::vector<std::string>& chan
     if (ofLog_) applyLogSettings(*ofLog_, configuration);
   } catch (const InputError&) {  // the replay reports it
   }
+}
+
+std::shared_ptr<Settings> Settings::inMap(const MapChoice& map) const {
+  auto changed = copy();
+  run::RunOptions& run = changed->configuration.run;
+  run.continueFrom = map.use == MapChoice::Use::mapOn ? map.file : "";
+  run.localizeIn = map.use == MapChoice::Use::localise ? map.file : "";
+  run.start = map.start;
+  return changed;
 }
 
 std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes) const {

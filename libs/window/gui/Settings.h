@@ -2,13 +2,26 @@
 /// @brief The window's INI settings: shared and immutable.
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
+
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "live/LiveOptions.h"
 #include "run/LogSettings.h"
 
 namespace hybrid_slam::window {
+
+/// The map of an earlier run in which a run maps on or localises.
+struct MapChoice {
+  enum class Use { none, mapOn, localise };
+  Use use = Use::none;
+  std::string file;                          ///< session, map.yaml or gridmap
+  std::optional<mrpt::math::TPose2D> start;  ///< in this map (m, rad); empty: searched for
+
+  static MapChoice of(const run::RunOptions& run);
+};
 
 /// A run's configuration with section [live]. Sessions in other threads keep the settings they started with.
 struct Settings {
@@ -22,6 +35,9 @@ struct Settings {
                                             const std::vector<std::string>& changes = {});
   /// A modified copy. @param changes  SECTION.KEY=VALUE each
   std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {}) const;
+  /// A copy for runs in another map, or in a new one.
+  std::shared_ptr<Settings> inMap(const MapChoice& map) const;
+  MapChoice map() const { return MapChoice::of(configuration.run); }
 
  private:
   Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before);

@@ -1,0 +1,85 @@
+#include "window/gui/MapDialog.h"
+
+#include <mrpt/core/bits_math.h>
+#include <wx/sizer.h>
+#include <wx/stattext.h>
+
+#include <cmath>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+#include "window/gui/Messages.h"
+
+namespace hybrid_slam::window {
+
+MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
+    : wxDialog(parent, wxID_ANY, "Map of an earlier run") {
+  auto* const column = new wxBoxSizer(wxVERTICAL);
+  const auto add = [&](wxWindow* control) { column->Add(control, 0, wxEXPAND | wxALL, FromDIP(8)); };
+  add(new wxStaticText(this, wxID_ANY, "Session, map.yaml or gridmap"));
+  file_ = new wxFilePickerCtrl(
+      this, wxID_ANY, "", "Open map",
+      "Maps (*.hslam, *.yaml, *.gridmap.gz)|*.hslam;*.yaml;*.gridmap;*.gridmap.gz|All files|*",
+      wxDefaultPosition, FromDIP(wxSize(460, -1)), wxFLP_OPEN | wxFLP_USE_TEXTCTRL);
+  add(file_);
+  const wxString uses[] = {"none: a new map", "map on in it", "localise in it; it stays as it is"};
+  use_ = new wxRadioBox(this, wxID_ANY, "Use", wxDefaultPosition, wxDefaultSize, 3, uses, 1);
+  add(use_);
+  add(new wxStaticText(this, wxID_ANY, "Start in this map: x, y (m), heading (deg); empty: searched for"));
+  start_ = new wxTextCtrl(this, wxID_ANY);
+  add(start_);
+  column->Add(CreateButtonSizer(wxOK | wxCANCEL), 0, wxEXPAND | wxALL, FromDIP(8));
+  SetSizerAndFit(column);
+  set(now);
+  Bind(
+      wxEVT_BUTTON,
+      [this](wxCommandEvent& event) {
+        try {
+          choice();
+          event.Skip();
+        } catch (const std::exception& e) {
+          showError(this, messageOf(e));
+        }
+      },
+      wxID_OK);
+}
+
+void MapDialog::set(const MapChoice& map) {
+  use_->SetSelection(static_cast<int>(map.use));
+  file_->SetPath(wxString::FromUTF8(map.file));
+  start_->ChangeValue(map.start ? numberText(map.start->x) + ", " + numberText(map.start->y) + ", " +
+                                      numberText(mrpt::RAD2DEG(map.start->phi))
+                                : "");
+}
+
+MapChoice MapDialog::choice() const {
+  MapChoice map;
+  map.use = static_cast<MapChoice::Use>(use_->GetSelection());
+  if (map.use == MapChoice::Use::none) return map;
+  map.file = file_->GetPath().utf8_string();
+  if (!std::filesystem::is_regular_file(map.file))
+    throw InputError("no map", map.file.empty() ? "file name" : map.file,
+                     "expected a session.hslam, map.yaml or gridmap");
+  map.start = startOf(start_->GetValue().utf8_string());
+  return map;
+}
+
+std::optional<mrpt::math::TPose2D> MapDialog::startOf(const std::string& text) {
+  if (text.find_first_not_of(" \t") == std::string::npos) return std::nullopt;
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double x = 0, y = 0, degrees = 0;
+  char first = 0, second = 0, more = 0;
+  const bool isPose =
+      in >> x >> first >> y >> second >> degrees && first == ',' && second == ',' && !(in >> more);
+  for (const double value : {x, y, degrees})
+    if (!isPose || !(std::abs(value) <= 1e6))
+      throw InputError("wrong start `" + text + "`", "the start in the map",
+                       "expected x, y (m), heading (deg), or nothing: the start is searched for");
+  return mrpt::math::TPose2D(x, y, mrpt::DEG2RAD(degrees));
+}
+
+}  // namespace hybrid_slam::window

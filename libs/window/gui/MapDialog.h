@@ -1,0 +1,31 @@
+/// @file MapDialog.h
+/// @brief Asks for the map of an earlier run, whether it is mapped on in, and the start.
+#pragma once
+
+#include <wx/dialog.h>
+#include <wx/filepicker.h>
+#include <wx/radiobox.h>
+#include <wx/textctrl.h>
+
+#include "window/gui/Settings.h"
+
+namespace hybrid_slam::window {
+
+class MapDialog : public wxDialog {
+ public:
+  MapDialog(wxWindow* parent, const MapChoice& now);
+
+  void set(const MapChoice& map);
+  /// @throws InputError for a map that is missing, or a start that is no pose
+  MapChoice choice() const;
+  /// "X, Y, DEG" (m, deg) as a pose; empty for blanks.
+  /// @throws InputError for anything else
+  static std::optional<mrpt::math::TPose2D> startOf(const std::string& text);
+
+ private:
+  wxFilePickerCtrl* file_;
+  wxRadioBox* use_;
+  wxTextCtrl* start_;
+};
+
+}  // namespace hybrid_slam::window
