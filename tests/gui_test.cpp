@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 
 #include "Screen.h"
 #include "base/Errors.h"
@@ -119,6 +120,19 @@ class GuiTest : public testing::Test {
     return screen.GetRed(p.x, p.y);
   }
 
+  /// 60 scans of laps.
+  void publishLaps(
+      live::ObservationServer& server, const std::function<void(size_t)>& after = [](size_t) {}) {
+    const test::Log all = test::laps(60);
+    for (size_t i = 0; i + 1 < all.size(); i += 2) {
+      mrpt::obs::CSensoryFrame cycle;
+      for (const size_t j : {i, i + 1})
+        cycle.insert(std::dynamic_pointer_cast<mrpt::obs::CObservation>(all[j]));
+      server.publish(cycle);
+      settle(0.03);
+      after(i);
+    }
+  }
   std::string status(int field) { return frame->GetStatusBar()->GetStatusText(field).utf8_string(); }
 
   files::TemporaryFolder folder;
@@ -355,15 +369,9 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
   ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
   frame->replay()->seek(60);
-  const test::Log all = test::laps(60);
-  for (size_t i = 0; i + 1 < all.size(); i += 2) {
-    mrpt::obs::CSensoryFrame cycle;
-    for (const size_t j : {i, i + 1})
-      cycle.insert(std::dynamic_pointer_cast<mrpt::obs::CObservation>(all[j]));
-    server.publish(cycle);
-    settle(0.03);
+  publishLaps(server, [&](size_t i) {
     if (i == 60) menu(window::kSaveMap);
-  }
+  });
   ASSERT_TRUE(happens([&] { return status(0).find("map saved: ") != std::string::npos; })) << status(0);
   EXPECT_THAT(status(0), HasSubstr(folder.path("live/saved-20")));
   ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
@@ -379,6 +387,31 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   EXPECT_THAT(dialogs.messages[2], HasSubstr("recording-20"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
   EXPECT_TRUE(stands(State::ended, 60));
+}
+
+TEST_F(GuiTest, LivePageLocalisesInTheMapOfAnEarlierRun) {
+  frame->open(ini, log);
+  frame->replay()->seek(60);
+  ASSERT_TRUE(stands(State::ended, 60));
+  frame->saveReplayMapTo(folder.path("maps"));
+  ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+  frame->useMap({window::MapChoice::Use::localise, folder.path("maps/hybrid/session.hslam"),
+                 mrpt::math::TPose2D(0, 0, 0)});
+
+  menu(window::kLivePage);
+  test::Events events;
+  live::ObservationServer server("127.0.0.1", 0, {}, events.log());
+  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
+  frame->live()->setOutput(folder.path("live"));
+  frame->live()->connectOrStop();
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  publishLaps(server);
+  EXPECT_TRUE(happens([&] { return status(1) == "localised"; })) << status(1);
+  frame->live()->connectOrStop();
+  ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 1; }));
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("recording-20"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("live/trajectory.tum")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("live/map.pgm"))) << "the map is not this run's";
 }
 
 }  // namespace
