@@ -299,6 +299,13 @@ TEST_F(GuiTest, AsksForTheMapOfAnEarlierRun) {
   window::MapDialog dialog(frame, {});
   EXPECT_EQ(dialog.choice().use, MapChoice::Use::none);
   const std::string map = folder.write("map.yaml", "image: map.pgm\n");
+  for (wxWindow* child : dialog.GetChildren())
+    if (auto* const picker = dynamic_cast<wxFilePickerCtrl*>(child)) {
+      picker->SetPath(wxString::FromUTF8(map));
+      wxFileDirPickerEvent chosen(wxEVT_FILEPICKER_CHANGED, picker, picker->GetId(), picker->GetPath());
+      picker->ProcessWindowEvent(chosen);
+    }
+  EXPECT_EQ(dialog.choice().use, MapChoice::Use::mapOn) << "a map that is opened is used";
   dialog.set({MapChoice::Use::mapOn, map, mrpt::math::TPose2D(1.5, -2, M_PI / 2)});
   dialog.Show();
   screenshot("map");

@@ -28,6 +28,10 @@ MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
   const wxString uses[] = {"none: a new map", "map on in it", "localise in it; it stays as it is"};
   use_ = new wxRadioBox(this, wxID_ANY, "Use", wxDefaultPosition, wxDefaultSize, 3, uses, 1);
   add(use_);
+  file_->Bind(wxEVT_FILEPICKER_CHANGED, [this](wxFileDirPickerEvent&) {  // a map that is opened is to be used
+    if (use_->GetSelection() == static_cast<int>(MapChoice::Use::none))
+      use_->SetSelection(static_cast<int>(MapChoice::Use::mapOn));
+  });
   add(new wxStaticText(this, wxID_ANY, "Start in this map: x, y (m), heading (deg); empty: searched for"));
   start_ = new wxTextCtrl(this, wxID_ANY);
   add(start_);

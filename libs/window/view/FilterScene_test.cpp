@@ -73,6 +73,17 @@ TEST(FilterScene, HasTheRequestedLayers) {
   EXPECT_TRUE(none->getByName("robot"));
 }
 
+TEST(FilterScene, WhileThePlaceIsUnknownThereIsNoEllipse) {
+  FilterSnapshot filter = room();
+  const PictureSize size{600, 400};
+  for (const bool isKnown : {false, true}) {
+    filter.place = Place{isKnown, false, 12};
+    const auto scene = filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, size), {}, size);
+    EXPECT_EQ(scene->getByName("uncertainty") != nullptr, isKnown);
+    EXPECT_TRUE(scene->getByName("particles")) << "the places that are possible";
+  }
+}
+
 TEST(FilterScene, AnEmptyMapGivesNoPlane) {
   EXPECT_FALSE(mapPlane({}));
   const FilterSnapshot nothing;

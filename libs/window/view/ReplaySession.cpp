@@ -286,8 +286,11 @@ void ReplaySession::savePass(Pass& pass, const std::string& folder) {
     std::vector<std::string> names;
     for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
     files::StagedFolder staged(folder, names, false);
-    for (const auto& lane : pass.lanes)
-      lane->run.saveMapTo(staged.files().path(nameOf(lane->configuration.run.method)));
+    for (const auto& lane : pass.lanes) {
+      const std::string name = nameOf(lane->configuration.run.method);
+      lane->configuration.run.output = staged.finalPath(name);  // for a run that is resumed from the session
+      lane->run.saveMapTo(staged.files().path(name));
+    }
     staged.publish();
     note("map saved: " + staged.folder());
   } catch (const std::exception& e) {

@@ -210,6 +210,17 @@ TEST_F(ReplaySessionTest, SavesTheMapAndGoesOn) {
     const std::string trajectory = test::contentOf(path + "/trajectory.tum");
     EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 30) << method;
   }
+  run::Configuration whole = laps(), resumed = laps();
+  whole.run.output = folder.path("whole");
+  resumed.run.resume = folder.path("saved/hybrid/session.hslam");
+  const std::atomic<bool> stop{false};
+  run::replay(whole, true, stop);
+  run::replay(resumed, true, stop);
+  const auto results = test::filesIn(folder.path("saved/hybrid"), "20");  // beside the saved map
+  ASSERT_EQ(results.size(), 1u);
+  for (const char* name : {"/trajectory.tum", "/map.pgm", "/lines.csv"})
+    EXPECT_EQ(test::contentOf(results[0] + name), test::contentOf(folder.path("whole") + name)) << name;
+
   session.saveMap("/proc/nowhere");
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
   EXPECT_TRUE(session.snapshot()->isError);
