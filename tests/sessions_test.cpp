@@ -191,8 +191,28 @@ TEST_F(Sessions, MapsOnFromAKnownOrASearchedStart) {
   EXPECT_EQ(run("'" + ini + "' '" + log2 + "' -o '" + searched + "' --continue '" + session + "'"), 1);
   EXPECT_THAT(
       err, AllOf(testing::MatchesRegex("(.|\n)*hybrid-slam: error: [^\n]*\n"), HasSubstr("place not found")));
-  EXPECT_THAT(err, HasSubstr("in a frame of their own"));
+  EXPECT_THAT(err, HasSubstr("mapped in a frame of their own"));
   EXPECT_EQ(files::loadTum(searched + "/trajectory.tum").size(), 90u) << "nothing is lost";
+}
+
+TEST_F(Sessions, ARunThatMapsOnIsResumedToTheSameBytes) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string whole = folder.path("whole"), again = folder.path("again");
+  const std::string there = " --continue '" + session + "' --start 0,0,0 --checkpoint-every 0.001";
+  ASSERT_EQ(run("'" + ini + "' '" + log + "' -o '" + whole + "'" + there), 0) << err;
+  const auto expected = resultsIn(whole);
+  EXPECT_EQ(run("--resume '" + whole + "/session.hslam' -o '" + again + "'"), 0) << err;
+  expectSame(expected, again);
+  const std::string killed = folder.path("killed");
+  {
+    test::ChildProgram program(folder, "killed",
+                               {HYBRID_SLAM, ini, log, "-o", killed, "--continue", session, "--start",
+                                "0,0,0", "--checkpoint-every", "0.001"});
+    ASSERT_TRUE(test::happens([&] { return fs::exists(killed + "/session.hslam"); }));
+  }
+  if (fs::exists(killed + "/metrics.json")) GTEST_SKIP() << "it was too fast to be killed";
+  EXPECT_EQ(run("--resume '" + killed + "/session.hslam'"), 0) << err;
+  expectSame(expected, killed);
 }
 
 TEST_F(Sessions, LocalisesWithoutAMapOfItsOwn) {

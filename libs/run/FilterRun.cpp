@@ -110,7 +110,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
 std::string FilterRun::placeNote() const {
   if (!search_) return {};
   return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
-         " scans; the results are in a frame of their own, --start X,Y,DEG gives the place";
+         " scans, mapped in a frame of their own; --start X,Y,DEG gives the place";
 }
 
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {

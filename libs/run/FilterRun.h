@@ -46,13 +46,6 @@ class FilterRun {
   /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
   void resume(SessionReader& session);
-  /// What a session knows of its path; reads all that follows its header.
-  struct Drive {
-    std::vector<double> times;  ///< s, of each update
-    std::vector<Scans> scans;   ///< of each update, if they make up the whole map; else empty
-  };
-  /// @throws InputError for a damaged session
-  static Drive driveOf(SessionReader& session);
   /// Passes over the readings that the session has processed.
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);

@@ -29,10 +29,15 @@ InputError otherLog(const std::string& log) {
 
 }  // namespace
 
+/// The filter first, so that others can read it alone.
 template <class State>
 void FilterRun::visit(State& state) {
-  state(fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_, particlesMax_,
-        firstSlip_, recorder_, uses_, updateTimes_, particleCovariances_);
+  if constexpr (State::kIsReading)
+    hybrid_->load(state);
+  else
+    hybrid_->save(state);
+  state(base_, fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_,
+        particlesMax_, firstSlip_, recorder_, uses_, particleCovariances_);
   visitTable(state, steps_);
   bool hasParticles = particles_.has_value(), hasScanOdometry = scanOdometry_.has_value();
   state(hasParticles, hasScanOdometry);
@@ -40,21 +45,17 @@ void FilterRun::visit(State& state) {
               "it does not belong to its configuration");
   if (particles_) visitTable(state, *particles_);
   if (scanOdometry_) state(*scanOdometry_);
-  if constexpr (State::kIsReading) {
-    hybrid_->load(state);
-    size_t processed = 0, updates = 0;
-    for (const Use use : uses_) {
-      state.check(use == Use::skipped || use == Use::carried || use == Use::update, "a reading has no use");
-      processed += use != Use::skipped;
-      updates += use == Use::update;
-    }
-    state.check(processed == scans_ && recorder_.updates().size() == scans_ &&
-                    updates == hybrid_->updates() && (scans_ == 0 || recorder_.updates().back() == updates) &&
-                    updateTimes_.size() == updates && particleCovariances_.size() == updates,
-                "its readings do not belong to its path");
-  } else {
-    hybrid_->save(state);
+  size_t processed = 0, updates = 0;
+  for (const Use use : uses_) {
+    state.check(use == Use::skipped || use == Use::carried || use == Use::update, "a reading has no use");
+    processed += use != Use::skipped;
+    updates += use == Use::update;
   }
+  state.check(processed == scans_ && recorder_.updates().size() == scans_ && updates == hybrid_->updates() &&
+                  (scans_ == 0 || recorder_.updates().back() == updates) && updateTimes_.size() == updates &&
+                  particleCovariances_.size() == updates &&
+                  (!base_ || base_->grid.resolution() == configuration_.filter.grid.resolution),
+              "its readings do not belong to its path");
 }
 
 void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
@@ -62,7 +63,7 @@ void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
   beforeSession_();
   std::string bytes;
   StateWriter out(bytes);
-  SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses};
+  SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
   writeHeader(out, header);
   const double before = secondsBefore_;
   secondsBefore_ += secondsSince(start_);
@@ -90,6 +91,7 @@ void FilterRun::saveIfDue() {
 }
 
 void FilterRun::saveToDatedFolder() {
+  if (search_) throw std::runtime_error(placeNote());
   const std::string name = files::claimDatedName([this](const std::string& date) {
     return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
   });
@@ -99,6 +101,7 @@ void FilterRun::saveToDatedFolder() {
 }
 
 void FilterRun::saveMapTo(const std::string& path) {
+  if (search_) throw std::runtime_error(placeNote());
   const files::OutputFolder folder(path);
   const auto grid = filter_->bestGrid();
   const auto trajectory = recorder_.trajectory(filter_->bestPath());
@@ -107,44 +110,16 @@ void FilterRun::saveMapTo(const std::string& path) {
   savePicture(folder, grid, trajectory, lines);
   saveRosMap(folder, grid);
   saveLines(folder, lines);
-  if (hybrid_ && !search_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
 }
 
 void FilterRun::resume(SessionReader& session) {
   if (!hybrid_)
     throw InputError("MRPT's filter has no sessions", session.file(), "expected method hybrid or general");
+  updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
   std::error_code ignored;  // what a killed run leaves of its next checkpoint
   std::filesystem::remove(files::PartialFile::partialName(session.file()), ignored);
-}
-
-FilterRun::Drive FilterRun::driveOf(SessionReader& session) {
-  Configuration configuration;
-  configuration.load(session.header().configuration, session.file());
-  Drive drive;
-  HybridFilter filter(configuration.filter);
-  session.readRest([&](StateReader& in) {
-    // In the order of `visit`.
-    decltype(fingerprint_) fingerprint;
-    double seconds, slip;
-    std::array<size_t, 6> counters;
-    TrajectoryRecorder recorder;
-    decltype(uses_) uses;
-    decltype(particleCovariances_) covariances;
-    std::string table;
-    bool hasParticles, hasScanOdometry;
-    in(fingerprint, seconds, counters, slip, recorder, uses, drive.times, covariances, table, hasParticles,
-       hasScanOdometry);
-    if (hasParticles) in(table);
-    ScanOdometry odometry(configuration.filter);
-    if (hasScanOdometry) in(odometry);
-    filter.load(in);
-    const size_t updates = session.header().path.size();
-    in.check(filter.updates() == updates && drive.times.size() == updates,
-             "its readings do not belong to its path");
-  });
-  if (filter.isMapOfUpdates()) drive.scans = filter.updateScans();
-  return drive;
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {

@@ -2,8 +2,9 @@
 
 #include <filesystem>
 
-#include "run/FilterRun.h"
 #include "run/KnownMap.h"
+#include "run/SessionFile.h"
+#include "slam/filter/HybridFilter.h"
 
 namespace hybrid_slam::run {
 
@@ -16,10 +17,14 @@ MapPartFile readMapPart(const std::string& name) {
   read.configuration.emplace().load(session.header().configuration, file);
   read.part.map = session.header().map;
   read.part.path = session.header().path;
+  read.times = session.header().times;
   if (!session.hasRun()) return read;
-  FilterRun::Drive drive = FilterRun::driveOf(session);
-  read.part.scans = std::move(drive.scans);
-  read.times = std::move(drive.times);
+  HybridFilter filter(read.configuration->filter);
+  session.read([&](StateReader& in) {
+    filter.load(in);
+    in.check(filter.updates() == read.part.path.size(), "its filter does not belong to its path");
+  });
+  if (filter.isMapOfUpdates()) read.part.scans = filter.updateScans();
   return read;
 }
 

@@ -90,7 +90,8 @@ MergeOutcome merge(const MergeOptions& options) {
   saveLines(folder, lines);
   folder.write("config.ini", [&](std::ostream& out) { out << configuration.text(); });
 
-  SessionHeader header{HYBRID_SLAM_VERSION, configuration.text(), merged.map, merged.older};
+  SessionHeader header{HYBRID_SLAM_VERSION, configuration.text(), merged.map, merged.older, older.times};
+  header.times.insert(header.times.end(), newer.times.begin(), newer.times.end());
   header.path.insert(header.path.end(), merged.newer.begin(), merged.newer.end());
   std::string bytes;
   StateWriter out(bytes);

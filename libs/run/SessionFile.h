@@ -15,17 +15,19 @@ namespace hybrid_slam::run {
 
 inline const char* const kSessionName = "session.hslam";
 
-/// What every use of a session needs. The state of the run follows in the file (FilterRun), unless the map was
-/// merged of others.
+/// What every use of a session needs. The state of the run follows in the file (FilterRun), unless the map
+/// was merged of others.
 struct SessionHeader {
   std::string version;                    ///< of the program that wrote it
   std::string configuration;              ///< Configuration::text()
   ScanMap map;                            ///< the best so far; of a finished run, the refined one
   std::vector<mrpt::math::TPose2D> path;  ///< a pose for each update (m, rad), in this map
+  std::vector<double> times;              ///< s, of each update
 
   template <class State>
   void visit(State& state) {
-    state(version, configuration, map, path);
+    state(version, configuration, map, path, times);
+    state.check(times.size() == path.size(), "its times do not belong to its path");
   }
 };
 
@@ -51,8 +53,12 @@ class SessionReader {
   const SessionHeader& header() const { return header_; }
   /// Whether the state of a run follows the header, or nothing: a merged map (slam-merge).
   bool hasRun() const { return !in_.isAtEnd(); }
-  /// Reads what follows the header, to the end.
+  /// Reads what follows the header: the filter's state first.
   /// @throws InputError likewise
+  void read(const std::function<void(StateReader&)>& read) {
+    guarded([&] { read(in_); });
+  }
+  /// The same, to the end of the file.
   void readRest(const std::function<void(StateReader&)>& read);
 
  private:

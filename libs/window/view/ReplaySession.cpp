@@ -260,7 +260,6 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
-    for (const auto& lane : pass.lanes) lane->run.requirePlace();
     std::vector<std::string> names;
     for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
     files::StagedFolder staged(folder, names, false);
@@ -270,6 +269,8 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
       std::filesystem::copy(pass.folder.path(name), staged.files().path(name));
     }
     staged.publish();
+    for (const auto& lane : pass.lanes)
+      if (const std::string place = lane->run.placeNote(); !place.empty()) note(place);
     tell("Results of " + std::to_string(pass.scans) + " scans written: " + staged.folder(), false,
          State::ended);
   } catch (const std::exception& e) {

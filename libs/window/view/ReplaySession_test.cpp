@@ -278,7 +278,7 @@ TEST_F(ReplayInAMap, ShowsTheSearchForTheStartAndThenTheRobot) {
     EXPECT_LT((found->path[i] - found->path[i - 1]).norm(), 0.5) << "no jumps";
 }
 
-TEST_F(ReplayInAMap, MapsOnFromAStartThatIsSearchedFor) {
+TEST_F(ReplayInAMap, MapsOnWhereThePlaceIsFound) {
   now.run.continueFrom = session;
   ReplaySession replay(now, {Method::hybrid});
   replay.seek(1);
@@ -287,12 +287,12 @@ TEST_F(ReplayInAMap, MapsOnFromAStartThatIsSearchedFor) {
   EXPECT_TRUE(replay.snapshot()->filters[0]->place);
   replay.saveMap(folder.path("saved"));
   ASSERT_TRUE(test::happens([&] { return replay.snapshot()->messages == 1; }));
-  EXPECT_THAT(replay.snapshot()->message, HasSubstr("start not found"));
+  EXPECT_THAT(replay.snapshot()->message, HasSubstr("place not found"));
   replay.setSpeed(0);
   replay.play();
   ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
   EXPECT_FALSE(replay.snapshot()->filters[0]->place) << "it maps";
-  EXPECT_THAT(replay.snapshot()->note, HasSubstr("hybrid: start found after"));
+  EXPECT_THAT(replay.snapshot()->note, HasSubstr("hybrid: place found after"));
 }
 
 TEST_F(ReplayInAMap, AFileThatIsNoMapFailsWithItsName) {
