@@ -182,8 +182,8 @@ TEST_F(Sessions, MapsOnFromAKnownOrASearchedStart) {
   const auto after = files::loadTum(known + "/trajectory.tum");
   ASSERT_EQ(after.size(), 90u);
   for (size_t i = 0; i < 10; ++i) {  // the scans that both have
-    EXPECT_NEAR(after[i].pose.x, before[110 + i].pose.x, 0.05) << i;
-    EXPECT_NEAR(after[i].pose.y, before[110 + i].pose.y, 0.05) << i;
+    EXPECT_NEAR(after[i].pose.x, before[110 + i].pose.x, 0.1) << i << ": a cell";
+    EXPECT_NEAR(after[i].pose.y, before[110 + i].pose.y, 0.1) << i;
   }
   EXPECT_TRUE(fs::exists(known + "/session.hslam"));
   // The room is symmetric: without a start, the place stays unknown.
