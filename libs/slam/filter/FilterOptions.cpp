@@ -1,5 +1,8 @@
 #include "slam/filter/FilterOptions.h"
 
+#include "base/Errors.h"
+#include "base/Numbers.h"
+
 namespace hybrid_slam {
 
 void ParticleFilterOptions::describe(OptionTable& t) {
@@ -50,6 +53,14 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
   t.addAngle("slip_angle_deg", slipAngle, 1, 180, "search range of the heading");
   t.add("slip_probability", slipProbability, 1e-12, 1, "",
         "prior probability of a slip in a step; a larger value accepts the search result sooner");
+}
+
+// The update of a scan needs a byte for each cell in its range. MRPT's weights need nine, for each particle.
+void checkMemory(const FilterConfiguration& c) {
+  const double most = c.gridWeight.method == GridWeightOptions::Method::penetration ? 10000 : 2000;  // cells
+  if (c.grid.maxRange > (most + 0.5) * c.grid.resolution)
+    throw InputError("range too long for this cell size", "section [grid], keys `max_range`, `resolution`",
+                     "expected at most " + numberText(most) + " cells");
 }
 
 }  // namespace hybrid_slam

@@ -97,4 +97,7 @@ struct FilterConfiguration {
   }
 };
 
+/// @throws InputError for a range of more cells than fit into memory
+void checkMemory(const FilterConfiguration& configuration);
+
 }  // namespace hybrid_slam

@@ -2,26 +2,12 @@
 
 #include <cmath>
 
-#include "base/Errors.h"
-#include "base/Numbers.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 using mrpt::system::CTimeLoggerEntry;
-
-namespace {
-
-/// The update of a scan needs a byte for each cell in its range. MRPT's weights need nine, for each particle.
-void checkMemory(const FilterConfiguration& c) {
-  const double most = c.gridWeight.method == GridWeightOptions::Method::penetration ? 10000 : 2000;  // cells
-  if (c.grid.maxRange > (most + 0.5) * c.grid.resolution)
-    throw InputError("range too long for this cell size", "section [grid], keys `max_range`, `resolution`",
-                     "expected at most " + numberText(most) + " cells");
-}
-
-}  // namespace
 
 HybridFilter::HybridFilter(const FilterConfiguration& configuration)
     : configuration_(configuration),

@@ -36,6 +36,21 @@ CellBox within(const OccupancyGrid& grid, const TPoint2D& around) {
   return box;
 }
 
+constexpr char kUnknown = 2;
+
+/// Sum of the values, each at most 2, if that is at least half of the most; else 0.
+template <class Value>
+int reachesHalf(const std::vector<CellIndex>& ends, const Value& value) {
+  const auto half = static_cast<int>(ends.size());
+  int sum = 0, left = 2 * half;
+  for (const CellIndex& end : ends) {
+    sum += value(end);
+    left -= 2;
+    if (sum + left < half) return 0;
+  }
+  return sum;
+}
+
 std::vector<double> lattice(const std::vector<double>& headings) {
   std::vector<double> all;
   if (headings.empty())
@@ -103,6 +118,13 @@ GlobalSearch::GlobalSearch(const OccupancyGrid& grid, const TPoint2D& around) {
           score = std::max(score, static_cast<char>(i == 0 && j == 0 ? 2 : 1));
         }
     }
+  for (int y = -kBlock; y < height_; ++y)
+    for (int x = -kBlock; x < width_; ++x) {
+      int most = 0;
+      for (int j = 0; j < kBlock; ++j)
+        for (int i = 0; i < kBlock; ++i) most = std::max(most, wall(x + i, y + j));
+      highest_.push_back(static_cast<char>(most));
+    }
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
       if (isFree[index(x, y)]) free_.push_back({x, y});
@@ -113,7 +135,6 @@ std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
                                                           size_t count) const {
   if (scan.rays.empty()) return {};
   const size_t every = (scan.rays.size() + kMostBeams - 1) / kMostBeams;
-  const size_t beams = (scan.rays.size() + every - 1) / every;
   std::vector<Place> places;
   for (const double heading : lattice(headings)) {
     // Beam ends in coarse cells from the robot, which stands in the middle of one.
@@ -125,16 +146,22 @@ std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
       ends.push_back({static_cast<int>(std::floor(0.5 + frame.origin(ray).x + range * frame.dirX(ray))),
                       static_cast<int>(std::floor(0.5 + frame.origin(ray).y + range * frame.dirY(ray)))});
     }
+    // No cell of a block can reach half of the most if the highest values near it do not.
+    std::vector<char> isHopeless(static_cast<size_t>((width_ / kBlock + 1) * (height_ / kBlock + 1)),
+                                 kUnknown);
     for (const CellIndex& cell : free_) {
-      int score = 0, left = static_cast<int>(beams);
-      for (const CellIndex& end : ends) {
-        score += wall(cell.x + end.x, cell.y + end.y);
-        if (score + 2 * --left < static_cast<int>(beams)) break;  // cannot reach half of the most
-      }
-      if (score < static_cast<int>(beams)) continue;
+      const int bx = cell.x / kBlock, by = cell.y / kBlock;
+      char& block = isHopeless[static_cast<size_t>(by * (width_ / kBlock + 1) + bx)];
+      if (block == kUnknown)
+        block = !reachesHalf(
+            ends, [&](const CellIndex& end) { return highest(bx * kBlock + end.x, by * kBlock + end.y); });
+      if (block) continue;
+      const int score =
+          reachesHalf(ends, [&](const CellIndex& end) { return wall(cell.x + end.x, cell.y + end.y); });
+      if (score == 0) continue;
       const TPoint2D at = centre(cell);
       places.push_back(
-          {{at.x, at.y, mrpt::math::wrapToPi(heading)}, 0.5 * score / static_cast<double>(beams)});
+          {{at.x, at.y, mrpt::math::wrapToPi(heading)}, 0.5 * score / static_cast<double>(ends.size())});
     }
   }
   std::stable_sort(places.begin(), places.end(),

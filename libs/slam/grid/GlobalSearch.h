@@ -45,15 +45,24 @@ class GlobalSearch {
   int wall(int x, int y) const {
     return x >= 0 && y >= 0 && x < width_ && y < height_ ? wall_[index(x, y)] : 0;
   }
+  /// Highest value of `wall` in the kBlock x kBlock cells from (x, y) on.
+  int highest(int x, int y) const {
+    x += kBlock, y += kBlock;
+    return x >= 0 && y >= 0 && x < width_ + kBlock && y < height_ + kBlock
+               ? highest_[static_cast<size_t>(y) * static_cast<size_t>(width_ + kBlock) +
+                          static_cast<size_t>(x)]
+               : 0;
+  }
   mrpt::math::TPoint2D centre(const CellIndex& cell) const {
     return {(min_.x + cell.x + 0.5) * size_, (min_.y + cell.y + 0.5) * size_};
   }
 
+  static constexpr int kBlock = 4;
   double size_;  ///< m
   CellIndex min_{0, 0};
   int width_ = 0, height_ = 0;
-  std::vector<char> wall_;
-  std::vector<CellIndex> free_;
+  std::vector<char> wall_, highest_;
+  std::vector<CellIndex> free_;  ///< row by row
 };
 
 }  // namespace hybrid_slam

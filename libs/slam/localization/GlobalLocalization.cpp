@@ -22,12 +22,11 @@ constexpr size_t kNear = 8;            // starting points of the local optimisat
 constexpr double kIndependent = 0.25;  // scans half a metre apart that count as much as independent ones
 constexpr double kUnexplained = -1.2;  // ln w_grid of a scan of a place that is not in the map
 constexpr double kElsewhere = 0.1;     // least belief that no hypothesis is right, until one is declared
-constexpr double kSpacing = 5;         // m, of the places that stand for it
+constexpr size_t kAnywhere = 100;      // places that stand for it, at most
 constexpr double kHopeless = 40;       // ln of the ratio of weights to the best, to be dropped
+constexpr double kImpossible = 10;     // likewise to a place that is not in the map, while it is judged
 constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hypotheses of one place
 constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
-
-constexpr double kImpossible = 10;  // ln of the ratio of weights to a place that is not in the map, likewise
 
 // A place is declared if
 constexpr size_t kScans = 5;              // there are at least so many scans,
@@ -70,7 +69,10 @@ GlobalLocalization::GlobalLocalization(const FilterConfiguration& c, OccupancyGr
       matcher_(c.matcher),
       gridWeight_(c.gridWeight, grid_.resolution()),
       search_(grid_, centreOf(grid_)) {
-  for (const TPoint2D& at : search_.freePlaces(kSpacing))
+  std::vector<TPoint2D> places;
+  for (double spacing = 2; spacing == 2 || places.size() > kAnywhere; spacing *= 1.5)
+    places = search_.freePlaces(spacing);
+  for (const TPoint2D& at : places)
     for (const double heading : {0.0, M_PI / 2, M_PI, -M_PI / 2})
       anywhere_.push_back({{at.x, at.y, heading}, 0});
 }
@@ -116,6 +118,10 @@ Hypothesis GlobalLocalization::judged(const TPose2D& pose, const RecentScans& re
   return hypothesis;
 }
 
+double GlobalLocalization::unexplained(size_t scans) const {
+  return exponent_ * kUnexplained * static_cast<double>(scans);
+}
+
 void GlobalLocalization::weigh(Hypothesis& hypothesis) const {
   hypothesis.logWeight = 0;
   for (const ScanEvidence& scan : hypothesis.evidence) hypothesis.logWeight += exponent_ * scan.logGrid;
@@ -136,9 +142,8 @@ void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& aren
                    [](const Hypothesis& a, const Hypothesis& b) { return a.logWeight > b.logWeight; });
   std::vector<Hypothesis> kept;
   for (Hypothesis& hypothesis : hypotheses_) {
-    if (kept.size() == kHypotheses || hypothesis.logWeight < hypotheses_[0].logWeight - kHopeless ||
-        hypothesis.logWeight == -INFINITY)
-      break;
+    const double least = std::max(hypotheses_[0].logWeight, unexplained(recent.scans().size())) - kHopeless;
+    if (kept.size() == kHypotheses || hypothesis.logWeight < least) break;
     const bool isKnown = std::any_of(kept.begin(), kept.end(), [&hypothesis](const Hypothesis& other) {
       return isSamePlace(hypothesis.pose, other.pose);
     });
@@ -152,8 +157,7 @@ void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& aren
 bool GlobalLocalization::decide() const {
   if (hypotheses_.empty()) return false;
   const Hypothesis& best = hypotheses_[0];
-  const auto scans = static_cast<double>(best.evidence.size());
-  if (best.logWeight < exponent_ * kUnexplained * scans + kMargin) return false;
+  if (best.logWeight < unexplained(best.evidence.size()) + kMargin) return false;
   if (hypotheses_.size() > 1 && hypotheses_[1].logWeight > best.logWeight - kMargin) return false;
   return explains(best);
 }
@@ -172,8 +176,8 @@ std::vector<WeightedPose> GlobalLocalization::poses(const TPose2D& since) const 
       all.push_back({hypothesis.pose + since, hypothesis.logWeight - best});
       sum += std::exp(all.back().logWeight);
     }
-    const double none = exponent_ * kUnexplained * static_cast<double>(hypotheses_[0].evidence.size()) - best;
-    const double elsewhere = std::max(none, std::log(sum * kElsewhere / (1 - kElsewhere)));
+    const double elsewhere = std::max(unexplained(hypotheses_[0].evidence.size()) - best,
+                                      std::log(sum * kElsewhere / (1 - kElsewhere)));
     for (const WeightedPose& place : anywhere_)
       all.push_back({place.pose, elsewhere - std::log(static_cast<double>(anywhere_.size()))});
   } else {

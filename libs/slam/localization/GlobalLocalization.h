@@ -66,6 +66,8 @@ class GlobalLocalization {
   Hypothesis judged(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
   void weigh(Hypothesis& hypothesis) const;
   bool decide() const;
+  /// ln of the weight of so many scans of a place that is not in the map.
+  double unexplained(size_t scans) const;
 
   OccupancyGrid grid_;
   LineDatabase lines_;

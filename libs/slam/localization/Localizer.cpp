@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/Errors.h"
-#include "base/Numbers.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/GridConversion.h"
 
@@ -21,7 +20,7 @@ constexpr double kStdXY = 0.05, kStdPhi = mrpt::DEG2RAD(1.0);   // of the partic
 // Of scans at least 0.5 m or 20 deg apart:
 constexpr size_t kLost = 4;  // in succession that do not fit: the place is unknown
 constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams of such a scan
-constexpr size_t kWindow = 8;
+constexpr size_t kWindow = 8;                            // remembered while the place is known
 constexpr long kDoubtful = 2;  // of these that are not explained: other places may fit
 
 FilterConfiguration checked(FilterConfiguration configuration, const OccupancyGrid& grid) {
@@ -29,6 +28,7 @@ FilterConfiguration checked(FilterConfiguration configuration, const OccupancyGr
   if (configuration.filter.isAuxiliary())
     throw InputError("MRPT's auxiliary filters do not localise", "section [particle_filter], key `proposal`",
                      "expected improved or standard");
+  checkMemory(configuration);
   return configuration;
 }
 
@@ -98,17 +98,17 @@ void Localizer::check(const BeamShares& shares) {
   explained_.push_back(isExplained(shares));
   if (explained_.size() > kWindow) explained_.pop_front();
   recent_.keep(kWindow);
-  if (unsupported_ >= kLost) {
+  const bool isLost = unsupported_ >= kLost;
+  if (isLost) {
     recent_.keep(kLost);
     global_.clear();
   } else {
     if (std::count(explained_.begin(), explained_.end(), false) < kDoubtful) return global_.clear();
     global_.update(recent_, arena_);
     if (!global_.refutes(pose_, recent_)) return;
-    global_.clear();
   }
   isTracking_ = false;
-  search(true);
+  search(isLost);
 }
 
 void Localizer::search(bool isRemembered) {
