@@ -24,16 +24,17 @@ constexpr double kUnexplained = -1.2;  // ln w_grid of a scan of a place that is
 constexpr double kElsewhere = 0.1;     // least belief that no hypothesis is right, until one is declared
 constexpr size_t kAnywhere = 100;      // places that stand for it, at most
 constexpr double kHopeless = 40;       // ln of the ratio of weights to the best, to be dropped
-constexpr double kImpossible = 10;     // likewise to a place that is not in the map, while it is judged
+constexpr size_t kFirst = 4;           // scans that must speak for a new hypothesis,
+constexpr double kSupport = 2;  // with this ln of the ratio of weights to a place that is not in the map
 constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hypotheses of one place
 constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
 
 // A place is declared if
-constexpr size_t kScans = 5;              // there are at least so many scans,
-constexpr double kExplainedScans = 0.75;  // it explains this share of them,
-constexpr long kNewest = 3;               // and these,
-constexpr double kMargin = 10;            // other places are less likely by this ln of the ratio,
-constexpr double kSearched = 0.1;         // and all with a score within this of the best were looked at.
+constexpr size_t kScans = 5;       // there are at least so many scans,
+constexpr long kRecent = 8;        // it explains three quarters of these newest,
+constexpr long kNewest = 3;        // all of these,
+constexpr double kMargin = 10;     // other places are less likely by this ln of the ratio,
+constexpr double kSearched = 0.1;  // and all with a score within this of the best were looked at.
 constexpr double kExplained = 0.7, kContradicted = 0.15;  // share of the beams of an explained scan
 
 TPoint2D centreOf(const OccupancyGrid& grid) {
@@ -42,13 +43,15 @@ TPoint2D centreOf(const OccupancyGrid& grid) {
           0.5 * (box.min.y + box.max.y) * grid.resolution()};
 }
 
-/// Also the newest scans: those before a robot was carried elsewhere would hide them.
+/// The newest scans count: those before would hide that the robot was carried elsewhere, and those outside
+/// the map that it has come back.
 bool explains(const Hypothesis& hypothesis) {
   const auto& evidence = hypothesis.evidence;
-  const auto isOfScan = [](const ScanEvidence& scan) { return isExplained(scan.shares); };
-  const auto explained = static_cast<double>(std::count_if(evidence.begin(), evidence.end(), isOfScan));
-  return evidence.size() >= kScans && explained >= kExplainedScans * static_cast<double>(evidence.size()) &&
-         std::all_of(evidence.end() - kNewest, evidence.end(), isOfScan);
+  if (evidence.size() < kScans) return false;
+  const auto isMissed = [](const ScanEvidence& scan) { return !isExplained(scan.shares); };
+  const auto recent = std::min<long>(kRecent, static_cast<long>(evidence.size()));
+  return 4 * std::count_if(evidence.end() - recent, evidence.end(), isMissed) <= recent &&
+         std::none_of(evidence.end() - kNewest, evidence.end(), isMissed);
 }
 
 bool isSamePlace(const TPose2D& a, const TPose2D& b) {
@@ -102,19 +105,17 @@ void GlobalLocalization::follow(Hypothesis& hypothesis, const RecentScans& recen
 Hypothesis GlobalLocalization::judged(const TPose2D& pose, const RecentScans& recent) const {
   Hypothesis hypothesis;
   TPose2D at = pose;
-  double against = 0;
   for (size_t i = recent.scans().size(); i-- > 0;) {
     hypothesis.evidence.push_back(match(recent.scans()[i].scan, at));
     if (hypothesis.evidence.size() == 1) hypothesis.pose = at;
-    against += exponent_ * (kUnexplained - hypothesis.evidence.back().logGrid);
-    if (against > kImpossible) {
+    weigh(hypothesis);
+    if (hypothesis.evidence.size() == kFirst && hypothesis.logWeight < unexplained(kFirst) + kSupport) {
       hypothesis.logWeight = -INFINITY;
       return hypothesis;
     }
     if (i > 0) at = at + recent.motion(i, i - 1);
   }
   std::reverse(hypothesis.evidence.begin(), hypothesis.evidence.end());
-  weigh(hypothesis);
   return hypothesis;
 }
 
@@ -122,9 +123,11 @@ double GlobalLocalization::unexplained(size_t scans) const {
   return exponent_ * kUnexplained * static_cast<double>(scans);
 }
 
+// A scan may show what is not in the map: then it speaks for no place, but not against one either.
 void GlobalLocalization::weigh(Hypothesis& hypothesis) const {
   hypothesis.logWeight = 0;
-  for (const ScanEvidence& scan : hypothesis.evidence) hypothesis.logWeight += exponent_ * scan.logGrid;
+  for (const ScanEvidence& scan : hypothesis.evidence)
+    hypothesis.logWeight += exponent_ * std::max(scan.logGrid, kUnexplained);
 }
 
 void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& arena) {
