@@ -41,15 +41,16 @@ nlohmann::ordered_json json(const MapPlacement& placement, const TPose2D& frame)
           {"overlap", rounded(placement.agreement.overlap)},
           {"compared_walls_m", rounded(placement.compared)},
           {"second", rounded(placement.second)},
-          {"patches", placement.patches.size()}};
+          {"patches", placement.patches.size()},
+          {"patch_fit", rounded(placement.patchFit)}};
 }
 
 std::string figures(const MapPlacement& placement) {
   const auto percent = [](double share) { return fixedText(100 * share, 0) + " %"; };
   return percent(placement.agreement.fit) + " of " + fixedText(placement.compared, 0) +
          " m of compared walls agree (" + percent(placement.agreement.overlap) + " of B's), " +
-         std::to_string(placement.patches.size()) + " patches, the best place elsewhere scores " +
-         percent(placement.second);
+         std::to_string(placement.patches.size()) + " patches fit by " + percent(placement.patchFit) +
+         ", the best place elsewhere scores " + percent(placement.second);
 }
 
 files::Trajectory trajectoryOf(const MapPartFile& file, const std::vector<TPose2D>& path) {

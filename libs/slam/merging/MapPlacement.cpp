@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "slam/filter/Threads.h"
 #include "slam/grid/GlobalSearch.h"
@@ -22,6 +23,7 @@ constexpr size_t kPlaces = 24;                                     // of a patch
 constexpr double kMinFit = 0.75, kMinOverlap = 0.5;                // of a patch
 constexpr double kElsewhere = 0.6, kElsewhereAngle = 5 * kDegree;  // m, rad: another place
 constexpr double kAgree = 0.4, kAgreeAngle = 3 * kDegree;          // m, rad: a patch agrees with a place
+constexpr double kMinPatchFit = 0.95;  // median of the patches that agree with a place
 constexpr size_t kLeastPatches = 3;
 constexpr double kLeastCompared = 20, kLeastFit = 0.75, kMostSecond = 0.8;
 
@@ -30,6 +32,14 @@ TPose2D inverse(const TPose2D& pose) { return TPose2D() - pose; }
 bool isWithin(const TPose2D& a, const TPose2D& b, double distance, double angle) {
   return std::hypot(a.x - b.x, a.y - b.y) <= distance &&
          std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= angle;
+}
+
+double medianFit(std::vector<PatchMatch> patches) {
+  if (patches.empty()) return 0;
+  const auto middle = patches.begin() + static_cast<ptrdiff_t>(patches.size() / 2);
+  std::nth_element(patches.begin(), middle, patches.end(),
+                   [](const PatchMatch& a, const PatchMatch& b) { return a.fit < b.fit; });
+  return middle->fit;
 }
 
 /// A place of the whole newer map.
@@ -65,7 +75,8 @@ class Placer {
         return isWithin(match.pose, other.older, kAgree, kAgreeAngle);
       });
       if (isKnown || match.agreement.fit < kMinFit || match.agreement.overlap < kMinOverlap) continue;
-      all.push_back({patch.place, match.pose, edgeInformation(match.pose, patch.map, older_.map)});
+      all.push_back(
+          {patch.place, match.pose, match.agreement.fit, edgeInformation(match.pose, patch.map, older_.map)});
     }
     return all;
   }
@@ -87,8 +98,23 @@ class Placer {
     return all;
   }
 
+  /// Those that agree with a place.
+  std::vector<PatchMatch> supporting(const Place& place, const std::vector<PatchMatch>& matches) const {
+    const TPose2D frame = place.middle + inverse(newer_.place);
+    std::vector<PatchMatch> some;
+    for (const PatchMatch& match : matches)
+      if (isWithin(match.older, frame + match.newer, kAgree, kAgreeAngle)) some.push_back(match);
+    return some;
+  }
+
   MapPlacement best(const std::vector<PatchMatch>& matches) {
-    const std::vector<Place> all = places(matches);
+    std::vector<Place> all = places(matches);
+    // Corridors look alike but for small things, which a patch shows and a whole map hides.
+    const auto isPoor = [&](const Place& place) {
+      return medianFit(supporting(place, matches)) < kMinPatchFit;
+    };
+    const auto rest = std::stable_partition(all.begin(), all.end(), std::not_fn(isPoor));
+    if (rest != all.begin()) all.erase(rest, all.end());
     MapPlacement placement;
     const auto best = std::max_element(all.begin(), all.end(), [](const Place& a, const Place& b) {
       return a.agreement.score() < b.agreement.score();
@@ -98,12 +124,11 @@ class Placer {
     placement.agreement = best->agreement;
     placement.compared = best->agreement.overlap * static_cast<double>(newer_.map.ends.rays.size()) *
                          newer_.map.grid.resolution();
+    placement.patches = supporting(*best, matches);
+    placement.patchFit = medianFit(placement.patches);
     for (const Place& place : all)
       if (!isWithin(place.middle, best->middle, kElsewhere, kElsewhereAngle))
         placement.second = std::max(placement.second, place.agreement.score() / best->agreement.score());
-    for (const PatchMatch& match : matches)
-      if (isWithin(match.older, placement.frame + match.newer, kAgree, kAgreeAngle))
-        placement.patches.push_back(match);
     return placement;
   }
 
@@ -126,7 +151,8 @@ std::vector<double> alignedFrames(const LineDatabase& newer, const LineDatabase&
 }  // namespace
 
 bool MapPlacement::hasEvidence() const {
-  return patches.size() >= kLeastPatches && compared >= kLeastCompared && agreement.fit >= kLeastFit;
+  return patches.size() >= kLeastPatches && patchFit >= kMinPatchFit && compared >= kLeastCompared &&
+         agreement.fit >= kLeastFit;
 }
 
 bool MapPlacement::isAmbiguous() const { return second > kMostSecond; }
@@ -136,7 +162,7 @@ MapPlacement placementOf(const ScanMap& newer, const ScanMap& older, int threads
   Placer placer(resampled(newer.grid, {}, cell), resampled(older.grid, {}, cell), threads);
   const std::vector<double> headings = alignedFrames(newer.lines, older.lines);
   MapPlacement placement = placer.search(headings);
-  if (!placement.isFound() && !headings.empty()) placement = placer.search({});
+  if (!placement.hasEvidence() && !headings.empty()) placement = placer.search({});
   return placement;
 }
 

@@ -13,6 +13,7 @@ namespace hybrid_slam {
 struct PatchMatch {
   mrpt::math::TPose2D newer;                              ///< the patch in the newer map (m, rad)
   mrpt::math::TPose2D older;                              ///< the same in the older map
+  double fit = 0;                                         ///< share of the compared walls that agree
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `older`, axes of the older map
 };
 
@@ -23,8 +24,9 @@ struct MapPlacement {
   double compared = 0;              ///< m of wall of the newer map where the older knows something
   double second = 0;                ///< highest score elsewhere, as a fraction of this one's
   std::vector<PatchMatch> patches;  ///< that agree with it
+  double patchFit = 0;              ///< their median share of walls that agree: not affected by drift
 
-  /// At least three patches and 20 m of wall; 75 % of the walls agree.
+  /// At least three patches, with a median fit of 95 %, and 20 m of wall, 75 % of which agree.
   bool hasEvidence() const;
   /// Another place is as good.
   bool isAmbiguous() const;
