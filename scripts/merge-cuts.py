@@ -99,8 +99,8 @@ def table(out):
                                  trajectory(folder / "A/trajectory.tum"), trajectory(folder / "B/trajectory.tum"))
         is_right = statistics.mean(metres) <= 0.05 and statistics.mean(degrees) <= 0.5
         right += is_right
-        print(f"| {log} | {number} | {metrics['fit']:.2f} | {metrics['compared_walls_m']:.0f} | {metrics['second']:.2f} | "
-              f"{statistics.mean(metres):.3f} | {max(metres):.3f} | {statistics.mean(degrees):.2f} | "
+        print(f"| {log} | {number} | {metrics['fit']:.2f} | {metrics['compared_walls_m']:.0f} | "
+              f"{metrics['second']:.2f} | {statistics.mean(metres):.3f} | {max(metres):.3f} | {statistics.mean(degrees):.2f} | "
               f"{'right' if is_right else ''} |")
     print(f"\n{right} of {cuts} within 0.05 m and 0.5 deg.")
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose2D.h>
 
 #include <memory>
 #include <vector>

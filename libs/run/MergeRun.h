@@ -22,9 +22,7 @@ struct MergeOutcome {
 /// Writes the merged map as a run writes its map (doc/results.md), in the frame of the older one: the
 /// session, the map files, the trajectory of both, and the figures in metrics.json. Where the maps do not
 /// overlap, or fit in several places, it writes nothing.
-/// @throws InputError for a file that is no map, for maps of other cell sizes of which one is of a session,
-/// and
-///         for an output that cannot be written
+/// @throws InputError for a file that is no map, and for an output that cannot be written
 MergeOutcome merge(const MergeOptions& options);
 
 }  // namespace hybrid_slam::run
