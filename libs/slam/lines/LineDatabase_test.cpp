@@ -317,5 +317,17 @@ TEST(LineDatabaseOptions, RangesAreChecked) {
   }
 }
 
+TEST(AlignedHeadings, TurnTheSeenWallsToThoseOfTheMap) {
+  const auto wall = [](double direction) {
+    return makeSegment({2, 1}, {2 + 4 * std::cos(direction), 1 + 4 * std::sin(direction)});
+  };
+  const LineDatabase map({{wall(0.3), 3, 0, 0}});
+  const auto headings = alignedHeadings({wall(0.1)}, map);
+  ASSERT_EQ(headings.size(), 4);
+  for (const double heading : headings) EXPECT_NEAR(wrapToRightAngle(heading - 0.2), 0, 1e-9);
+  EXPECT_TRUE(alignedHeadings({}, map).empty());
+  EXPECT_TRUE(alignedHeadings({wall(0.1)}, {}).empty());
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -157,6 +157,20 @@ TEST(Localizer, ClaimsNoPlaceOutsideTheMap) {
   EXPECT_GT(spreadOf(tracked), 1);
 }
 
+TEST(Localizer, FindsARobotThatComesBack) {
+  const Map map = mapOf(room());
+  Drive drive(room(), {1, 1, 0});
+  Localizer localizer(FilterConfiguration(), map.grid, map.lines, TPose2D(1, 1, 0));
+  for (int i = 0; i < 10; ++i) drive.step(localizer);
+  drive.carry(polygon({{-1, -1}, {1, -2}, {4, 0}, {2, 5}, {-2, 2}}), {1, 1, 0});
+  for (int i = 0; i < 80; ++i) drive.step(localizer);
+  EXPECT_FALSE(localizer.isLocalized());
+  drive.carry(room(), {4, 1, 1});
+  for (int i = 0; i < 30; ++i) drive.step(localizer);
+  EXPECT_TRUE(localizer.isLocalized());
+  EXPECT_LT(offBy(localizer.bestPath().back(), drive.at()), 0.1);
+}
+
 TEST(Localizer, IsTheSameForAnyNumberOfThreads) {
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
   const Map map = mapOf(room());
