@@ -182,7 +182,8 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
       expectDone(replay(log, "-q --set particle_filter.ess_threshold=1 -p " + proposal + option));
       std::map<std::string, std::string> files;
       for (const std::string& name : kResults)
-        if (name != "metrics.json" && name != "steps.csv" && name != "session.hslam") files[name] = result(name);
+        if (name != "metrics.json" && name != "steps.csv" && name != "session.hslam")
+          files[name] = result(name);
       files["steps.csv"] =
           std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*((,[^,\n]*){5}\n)"), "$1");
       return files;
