@@ -1,7 +1,8 @@
 #include "slam/merging/MapMerging.h"
 
+#include "slam/filter/HybridFilter.h"
+#include "slam/grid/GlobalSearch.h"
 #include "slam/grid/ScanMatcher.h"
-#include "slam/merging/JoinedPath.h"
 #include "slam/merging/MapPatches.h"
 #include "slam/merging/MapTransform.h"
 
@@ -11,8 +12,9 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr int kPasses = 3;           // of the scans over the common map
-constexpr size_t kMostWalls = 5000;  // matched
+constexpr int kPasses = 3;                               // of the scans over the common map
+constexpr size_t kMostWalls = 5000;                      // matched
+constexpr double kExplained = 0.7, kContradicted = 0.1;  // shares of the beams of a scan in the older map
 
 /// The placement on the cells of the maps themselves.
 TPose2D precise(const TPose2D& frame, const OccupancyGrid& newer, const OccupancyGrid& older,
@@ -39,6 +41,26 @@ void append(std::vector<PosedScans>& all, const std::vector<Scans>& scans, const
   for (size_t i = 0; i < scans.size(); ++i) all.push_back({scans[i], path[i], true});
 }
 
+/// The newer path filtered once more, in the older map from the first scan on that this map explains.
+std::vector<TPose2D> filteredIn(const ScanMap& older, const std::vector<TPose2D>& path,
+                                const std::vector<Scans>& scans, FilterConfiguration configuration) {
+  for (double* const least : {&configuration.filter.updateDistance, &configuration.filter.updateAngle,
+                              &configuration.improved.updateDistance, &configuration.improved.updateAngle})
+    *least = 0;  // each of the scans is an update
+  HybridFilter filter(configuration);
+  filter.expectMap();
+  bool isIn = false;
+  for (size_t i = 0; i < scans.size(); ++i) {
+    filter.process(i > 0 ? path[i] - path[i - 1] : TPose2D(), scans[i]);
+    if (isIn) continue;
+    const ScanBeams beams(toLaserScans(scans[i], configuration.grid.maxRange));
+    const BeamShares shares = beamShares(beams, path[i], older.grid);
+    isIn = shares.explained > kExplained && shares.contradicted < kContradicted;
+    if (isIn) filter.joinMap(older, path[i]);
+  }
+  return isIn ? filter.bestPath() : path;
+}
+
 }  // namespace
 
 MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement& placement,
@@ -54,9 +76,9 @@ MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement&
   if (older.scans.empty()) {
     base = older.map;
   } else {
-    joinPaths(result.older, result.newer, frame, placement.patches);
-    append(scans, older.scans, result.older);
+    append(scans, older.scans, older.path);
   }
+  result.newer = filteredIn(older.map, result.newer, newer.scans, configuration);
   append(scans, newer.scans, result.newer);
   refine(scans, configuration, kPasses, base);
   result.map = mapOf(scans, configuration, base);

@@ -23,10 +23,9 @@ struct MergedMap {
 
 /// Joins two maps.
 ///
-/// Where the scans of both are known, the pose graph of both paths and of the patches that agree spreads what
-/// a rigid motion leaves, all scans are matched to the common map, and the map is built of all scans. Scans
-/// of the newer map alone are matched to the older one. A map without scans keeps its shape: its cells are
-/// added.
+/// Where the newer scans are known, the filter runs over them once more, in the older map from the first scan
+/// on that this map explains: it removes the drift between both that a rigid motion leaves. All known scans
+/// are then matched to the common map. A map without scans keeps its shape: its cells are added.
 ///
 /// @param placement      of the newer map in the older
 /// @param configuration  of the older map

@@ -75,8 +75,7 @@ class Placer {
         return isWithin(match.pose, other.older, kAgree, kAgreeAngle);
       });
       if (isKnown || match.agreement.fit < kMinFit || match.agreement.overlap < kMinOverlap) continue;
-      all.push_back(
-          {patch.place, match.pose, match.agreement.fit, edgeInformation(match.pose, patch.map, older_.map)});
+      all.push_back({patch.place, match.pose, match.agreement.fit});
     }
     return all;
   }

@@ -11,10 +11,9 @@ namespace hybrid_slam {
 
 /// A patch of the newer map that matches the older one.
 struct PatchMatch {
-  mrpt::math::TPose2D newer;                              ///< the patch in the newer map (m, rad)
-  mrpt::math::TPose2D older;                              ///< the same in the older map
-  double fit = 0;                                         ///< share of the compared walls that agree
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `older`, axes of the older map
+  mrpt::math::TPose2D newer;  ///< the patch in the newer map (m, rad)
+  mrpt::math::TPose2D older;  ///< the same in the older map
+  double fit = 0;             ///< share of the compared walls that agree
 };
 
 /// The newer map in the older one, and the evidence for it.
