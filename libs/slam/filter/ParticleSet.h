@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/FilterView.h"
@@ -69,8 +70,9 @@ class ParticleSet : public MrptParticles {
       if constexpr (State::kIsReading) m_particles.emplace_back().d.reset(new Particle());
       state(*m_particles[i].d, m_particles[i].log_w);
       state.check(m_particles[i].d->grid.resolution() == grid_.resolution, "a grid has other cells");
+      state.check(m_particles[i].d->motion.isPlausible(motion_), "a motion model is impossible");
     }
-    state.check(count > 0, "there is no particle");
+    state.check(count > 0 && std::isfinite(logSumOfWeights()), "the particles have no weight");
     state(stepNumber_, slipRecovery_, step_);
   }
 

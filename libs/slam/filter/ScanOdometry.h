@@ -26,6 +26,8 @@ class ScanOdometry {
   template <class State>
   void visit(State& state) {
     state(keyframes_, pose_, lastMotion_, lastDuration_, lastTime_);
+    for (const Keyframe& keyframe : keyframes_)
+      state.check(keyframe.beams.areWithin(grid_.maxRange), "a beam is too long");
     if constexpr (State::kIsReading) makeMap();
   }
 

@@ -45,7 +45,7 @@ class OccupancyGrid {
   template <class State>
   void visit(State& state) {
     state(resolution_, tiles_);
-    state.check(resolution_ > 0, "a cell has no size");
+    state.check(0.001 <= resolution_ && resolution_ <= 10, "a cell has an impossible size");
   }
 
  private:

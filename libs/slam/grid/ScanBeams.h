@@ -5,6 +5,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -49,11 +50,18 @@ struct ScanBeams {
     }
   }
 
+  /// Whether no beam is longer (m): the memory for an insertion grows with the square.
+  bool areWithin(double range) const {
+    return std::all_of(rays.begin(), rays.end(), [range](const Ray& ray) { return ray.range <= range; });
+  }
+
   template <class State>
   void visit(State& state) {
     state(origins, rays);
     state.check(origins.size() <= kMaxLasers, "too many lasers");
     for (const Ray& ray : rays) state.check(ray.laser < origins.size(), "a beam of no laser");
+    for (const mrpt::math::TPoint2D& at : origins)
+      state.check(at.norm() <= 100, "a laser is not on the robot");
   }
 
  private:

@@ -1,6 +1,9 @@
 #include "slam/grid/TileGrid.h"
 
 #include <algorithm>
+#include <string>
+
+#include "base/Errors.h"
 
 namespace hybrid_slam {
 
@@ -17,7 +20,11 @@ void TileGrid::growTo(int bx, int by) {
   const int endX = empty ? bx + 1 : std::max(firstX_ + columns_, bx + 1);
   const int endY = empty ? by + 1 : std::max(firstY_ + rows_, by + 1);
   const int columns = endX - firstX;
-  std::vector<CowPtr<Block>> blocks(static_cast<size_t>(columns) * static_cast<size_t>(endY - firstY));
+  const size_t count = static_cast<size_t>(columns) * static_cast<size_t>(endY - firstY);
+  if (count > kMostBlocks)
+    throw InputError("the map is too large", "poses of the robot",
+                     "expected at most " + std::to_string(kMostBlocks) + " blocks of 512 x 512 cells");
+  std::vector<CowPtr<Block>> blocks(count);
   for (int row = 0; row < rows_; ++row)
     std::copy_n(blocks_.begin() + row * columns_, columns_,
                 blocks.begin() + (row + firstY_ - firstY) * columns + (firstX_ - firstX));

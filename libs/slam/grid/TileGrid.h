@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -33,6 +32,7 @@ struct CellBox {
 class TileGrid {
  public:
   static constexpr int kBlockBits = 4, kBlockSize = 1 << kBlockBits;
+  static constexpr size_t kMostBlocks = size_t{1} << 24;  ///< of the window, 256 MB of pointers
 
   /// The log-odds of a cell; 0 if never written.
   int8_t at(CellIndex cell) const {
@@ -49,6 +49,7 @@ class TileGrid {
     return block && *block ? (*block)->tiles[inBlock(tx, ty)].get() : nullptr;
   }
   /// The same tile for writing: created if missing, unshared if shared.
+  /// @throws InputError if the map would be too large: 100 km x 100 km with cells of 5 cm
   Tile& writableTile(int tx, int ty);
 
   /// The cells of all tiles that exist.
@@ -60,9 +61,10 @@ class TileGrid {
   void visit(State& state) {
     state(firstX_, firstY_, columns_, rows_, blocks_);
     constexpr int kMost = 1 << 20;  // blocks, so that cells fit into an int
-    state.check(std::abs(firstX_) <= kMost && std::abs(firstY_) <= kMost && columns_ >= 0 &&
-                    columns_ <= kMost && rows_ >= 0 && rows_ <= kMost &&
-                    static_cast<int64_t>(columns_) * rows_ == static_cast<int64_t>(blocks_.size()),
+    const auto isNear = [](int first) { return -kMost <= first && first <= kMost; };
+    state.check(isNear(firstX_) && isNear(firstY_) && columns_ >= 0 && columns_ <= kMost && rows_ >= 0 &&
+                    rows_ <= kMost && blocks_.size() <= kMostBlocks &&
+                    static_cast<size_t>(columns_) * static_cast<size_t>(rows_) == blocks_.size(),
                 "a grid has the wrong size");
   }
 

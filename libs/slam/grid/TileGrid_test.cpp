@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/Errors.h"
 #include "base/RandomStream.h"
 
 namespace hybrid_slam {
@@ -35,6 +36,15 @@ TEST(TileGrid, IsUnknownWhereNothingWasWritten) {
   EXPECT_EQ(grid.at({-1000000, 1000000}), 0);
   EXPECT_EQ(grid.tileAt(0, 0), nullptr);
   EXPECT_TRUE(grid.bounds().empty());
+}
+
+TEST(TileGrid, AMapThatIsTooLargeIsAnError) {
+  TileGrid grid;
+  grid.set({0, 0}, 1);
+  EXPECT_THROW(grid.set({1 << 28, 1 << 28}, 1), InputError);
+  EXPECT_EQ(grid.at({0, 0}), 1);
+  grid.set({1 << 28, 0}, 1);  // long, but thin
+  EXPECT_EQ(grid.at({1 << 28, 0}), 1);
 }
 
 TEST(TileGrid, GrowsInEveryDirectionAndKeepsItsContent) {

@@ -7,17 +7,8 @@
 #include <utility>
 
 namespace hybrid_slam {
-namespace {
 
 using mrpt::math::TPoint2D;
-
-double totalEvidenceOf(const std::vector<DatabaseLine>& lines) {
-  double total = 0;
-  for (const DatabaseLine& line : lines) total += evidence(line);
-  return total;
-}
-
-}  // namespace
 
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
   double sine = 0, cosine = 0, total = 0;
@@ -110,10 +101,13 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
   return result;
 }
 
-LineDatabase::LineDatabase(std::vector<DatabaseLine> lines)
-    : lines_(std::move(lines)),
-      dominatingDirection_(directionModuloRightAngle(lines_)),
-      totalEvidence_(totalEvidenceOf(lines_)) {}
+LineDatabase::LineDatabase(std::vector<DatabaseLine> lines) : lines_(std::move(lines)) { sum(); }
+
+void LineDatabase::sum() {
+  dominatingDirection_ = directionModuloRightAngle(lines_);
+  totalEvidence_ = 0;
+  for (const DatabaseLine& line : lines_) totalEvidence_ += evidence(line);
+}
 
 void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDatabaseOptions& options,
                           const AssociationOptions& association) {
@@ -125,8 +119,7 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
       lines_.push_back({line, 1, updates_, 0});
   }
   if (updates_ % options.pruneInterval == 0) prune(options);
-  dominatingDirection_ = directionModuloRightAngle(lines_);
-  totalEvidence_ = totalEvidenceOf(lines_);
+  sum();
   setDirections(lines_, options.directionWindow);
 }
 

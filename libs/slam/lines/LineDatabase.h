@@ -25,6 +25,9 @@ struct LineDatabaseOptions : Options {
   void describe(OptionTable& table) override;
 };
 
+/// Of a run, far below the greatest int.
+constexpr int kMostUpdates = 1'000'000'000;
+
 struct DatabaseLine : LineSegment {
   int count = 1;     ///< number of observations, including the first
   int inserted = 0;  ///< update that inserted it
@@ -37,7 +40,9 @@ struct DatabaseLine : LineSegment {
   void visit(State& state) {
     LineSegment::visit(state);
     state(count, inserted, direction);
-    state.check(count >= 1 && std::abs(direction) < 4, "a line is impossible");
+    state.check(1 <= count && count <= kMostUpdates && -kMostUpdates <= inserted &&
+                    inserted <= kMostUpdates && std::abs(direction) < 4,
+                "a line is impossible");
   }
 };
 
@@ -103,10 +108,14 @@ class LineDatabase {
   template <class State>
   void visit(State& state) {
     state(lines_, dominatingDirection_, totalEvidence_, updates_);
+    state.check(0 <= updates_ && updates_ <= kMostUpdates, "the lines have an impossible age");
+    if constexpr (State::kIsReading) sum();
   }
 
  private:
   void prune(const LineDatabaseOptions& options);
+  /// What follows from the lines.
+  void sum();
 
   std::vector<DatabaseLine> lines_;
   std::optional<double> dominatingDirection_;

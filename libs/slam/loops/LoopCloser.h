@@ -50,8 +50,9 @@ class LoopCloser {
     bool isWhole =
         variances_.size() == count && wallDirections_.size() == count && known_.size() == loops_.size();
     for (size_t i = 0; i < count && isWhole; ++i)
-      isWhole =
-          keyframes_[i].update < updates_ && (i == 0 || keyframes_[i - 1].update < keyframes_[i].update);
+      isWhole = keyframes_[i].update < updates_ &&
+                (i == 0 || keyframes_[i - 1].update < keyframes_[i].update) && variances_[i].isOfMotion() &&
+                keyframes_[i].beams.areWithin(grid_.maxRange);
     const auto isEdge = [count](size_t from, size_t to) { return from < to && to < count; };
     for (const PoseEdge& edge : loops_) isWhole = isWhole && isEdge(edge.from, edge.to);
     for (const KnownPair& pair : known_) isWhole = isWhole && isEdge(pair.earlier, pair.later);

@@ -13,11 +13,15 @@ namespace hybrid_slam {
 struct StepVariance {
   double position = 0;  ///< m^2, in x and in y
   double heading = 0;   ///< rad^2
+  static constexpr double kMost = 1e6;
+  /// Whether it has an inverse: of a motion, not of none.
+  bool isOfMotion() const { return position > 1e-9 && heading > 1e-9; }
 
   template <class State>
   void visit(State& state) {
     state(position, heading);
-    state.check(position >= 0 && heading >= 0, "a variance is negative");
+    state.check(0 <= position && position <= kMost && 0 <= heading && heading <= kMost,
+                "a variance is impossible");
   }
 };
 
@@ -33,6 +37,9 @@ struct KnownPair {
   template <class State>
   void visit(State& state) {
     state(earlier, later, covariance);
+    state.check(covariance.allFinite() && covariance.diagonal().minCoeff() >= 0 &&
+                    covariance.diagonal().maxCoeff() <= StepVariance::kMost,
+                "a covariance is impossible");
   }
 };
 

@@ -18,6 +18,9 @@ struct PoseEdge {
   template <class State>
   void visit(State& state) {
     state(from, to, relative, information);
+    state.check(information.allFinite() && information.maxCoeff() <= 1e6 &&
+                    information.llt().info() == Eigen::Success,
+                "an information is impossible");
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <cmath>
+
 namespace hybrid_slam {
 
 MotionTerm MotionBelief::Term::model(MotionTerm prior) const {
@@ -37,6 +39,21 @@ MotionModelOptions MotionBelief::model(const MotionModelOptions& options) const 
   learnt.drift = drift_.model(options.drift);
   learnt.turn = turn_.model(options.turn);
   return learnt;
+}
+
+bool MotionBelief::isPlausible(const MotionModelOptions& options) const {
+  constexpr double kMost = 1000;  // more than the settings allow
+  const auto is = [](const MotionTerm& term) {
+    return std::abs(term.meanD) <= kMost && std::abs(term.meanT) <= kMost && 0 <= term.varianceD &&
+           term.varianceD <= kMost && 0 <= term.varianceT && term.varianceT <= kMost &&
+           term.covariance * term.covariance <= 1.000001 * term.varianceD * term.varianceT;
+  };
+  const auto isSum = [](const Term& term) {
+    return term.dd >= 0 && term.tt >= 0 && term.dt * term.dt <= 1.000001 * term.dd * term.tt;
+  };
+  const MotionModelOptions learnt = model(options);
+  return isSum(distance_) && isSum(drift_) && isSum(turn_) && is(learnt.distance) && is(learnt.drift) &&
+         is(learnt.turn);
 }
 
 void MotionBelief::learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,

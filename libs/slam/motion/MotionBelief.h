@@ -21,6 +21,9 @@ class MotionBelief {
   void learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
              const MotionModelOptions& options);
 
+  /// Whether model() is that of a robot: what damaged bytes say may not be.
+  bool isPlausible(const MotionModelOptions& options) const;
+
   template <class State>
   void visit(State& state) {
     state(distance_, drift_, turn_);
