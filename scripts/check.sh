@@ -7,7 +7,9 @@
 # LIB is a folder of libs/ (libs/base); without one, `sanitize` runs the whole suite and `tsan` every such library.
 source "$(dirname "$0")/lib.sh"
 
-threaded=(libs/slam/grid libs/slam/filter libs/live libs/live_run libs/window/view)
+threaded=(
+  libs/slam/grid libs/slam/filter libs/slam/localization libs/slam/merging libs/live libs/live_run libs/window/view
+)
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
 
