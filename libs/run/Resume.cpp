@@ -23,8 +23,8 @@ void adopt(Configuration& configuration, const SessionReader& session) {
   earlier.load(session.header().configuration, session.file());
   const files::Sections given = configuration.sections();
   for (const auto& [section, options] : earlier.sections()) {
-    const auto ours =
-        std::find_if(given.begin(), given.end(), [&](const auto& s) { return s.first == section; });
+    const auto ours = std::find_if(given.begin(), given.end(),
+                                   [&name = section](const auto& s) { return s.first == name; });
     const std::vector<Option> now = ours->second->table(), then = options->table();
     for (size_t i = 0; i < then.size(); ++i) {
       const std::string& key = then[i].key;
