@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <tuple>
+#include <vector>
 
 #include "slam/grid/GlobalSearch.h"
 
@@ -18,22 +19,37 @@ constexpr double kLeastWall = 4;            // m
 constexpr size_t kMost = 250;
 constexpr int8_t kWall = 7;  // 0.6, in units of a cell
 
+struct KnownCell {
+  int y, x;
+  int8_t value;
+};
+
+/// The known cells of a box, row by row. By the tiles that exist: a map may have few, far apart.
+std::vector<KnownCell> knownCells(const TileGrid& tiles, const CellBox& box) {
+  std::vector<KnownCell> cells;
+  tiles.forEachTile([&](int tx, int ty, const Tile& tile) {
+    const int left = tx * Tile::kSize, low = ty * Tile::kSize;
+    for (int y = std::max(low, box.min.y); y <= std::min(low + Tile::kSize - 1, box.max.y); ++y)
+      for (int x = std::max(left, box.min.x); x <= std::min(left + Tile::kSize - 1, box.max.x); ++x)
+        if (const int8_t value = tile.cells()[Tile::index(x, y)]; value != 0) cells.push_back({y, x, value});
+  });
+  std::sort(cells.begin(), cells.end(),
+            [](const KnownCell& a, const KnownCell& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
+  return cells;
+}
+
 /// The known cells of a box, and their walls as beam ends.
 MapPatch cut(const OccupancyGrid& grid, const CellBox& box, const CellIndex& origin) {
   const double size = grid.resolution();
   MapPatch patch{{origin.x * size, origin.y * size, 0}, {0, OccupancyGrid(size), ScanBeams()}};
   patch.map.ends.origins.emplace_back(0, 0);
-  TileReader reader(grid.tiles());
-  for (int y = box.min.y; y <= box.max.y; ++y)
-    for (int x = box.min.x; x <= box.max.x; ++x) {
-      const int8_t value = reader.at(x, y);
-      if (value == 0) continue;
-      const CellIndex cell{x - origin.x, y - origin.y};
-      patch.map.grid.tiles().set(cell, value);
-      if (value < kWall) continue;
-      const double ex = (cell.x + 0.5) * size, ey = (cell.y + 0.5) * size, range = std::hypot(ex, ey);
-      patch.map.ends.rays.push_back({ex / range, ey / range, range, 0});
-    }
+  for (const auto& [y, x, value] : knownCells(grid.tiles(), box)) {
+    const CellIndex cell{x - origin.x, y - origin.y};
+    patch.map.grid.tiles().set(cell, value);
+    if (value < kWall) continue;
+    const double ex = (cell.x + 0.5) * size, ey = (cell.y + 0.5) * size, range = std::hypot(ex, ey);
+    patch.map.ends.rays.push_back({ex / range, ey / range, range, 0});
+  }
   return patch;
 }
 
