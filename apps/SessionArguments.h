@@ -21,7 +21,7 @@ struct SessionArguments {
   /// --checkpoint-every
   void addCheckpoints(CLI::App& app) {
     app.add_option("--checkpoint-every", checkpointEvery,
-                   "save session.hslam to the output folder every so many seconds")
+                   "interval at which session.hslam is saved to the output folder")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.001, 1e9));
   }

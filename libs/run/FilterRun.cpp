@@ -95,7 +95,7 @@ bool FilterRun::filter(const readings::Reading& reading) {
   return isUpdate;
 }
 
-// Until the place in the map of the earlier run is found, the filter maps in a frame of its own.
+// Until the place in the map of the earlier run is found, the filter maps in its own frame.
 void FilterRun::searchPlace(const readings::Reading& reading) {
   search_->process(reading.motion, reading.scans);
   if (!search_->isLocalized()) return;
@@ -110,7 +110,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
 std::string FilterRun::placeNote() const {
   if (!search_) return {};
   return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
-         " scans, mapped in a frame of their own; --start X,Y,DEG gives the place";
+         " scans, mapped in their own frame; --start X,Y,DEG gives the place";
 }
 
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {

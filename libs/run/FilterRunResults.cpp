@@ -84,7 +84,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
 
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
-  if (search_) base_.reset();  // the map is in a frame of its own
+  if (search_) base_.reset();  // the map is in its own frame
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};

@@ -30,7 +30,7 @@ constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hy
 constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
 
 // A place is declared if
-constexpr size_t kScans = 5;       // there are at least so many scans,
+constexpr size_t kScans = 5;       // number of remembered scans reaches this,
 constexpr long kRecent = 8;        // it explains three quarters of these newest,
 constexpr long kNewest = 3;        // all of these,
 constexpr double kMargin = 10;     // other places are less likely by this ln of the ratio,

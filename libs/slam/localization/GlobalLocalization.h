@@ -66,7 +66,7 @@ class GlobalLocalization {
   Hypothesis judged(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
   void weigh(Hypothesis& hypothesis) const;
   bool decide() const;
-  /// ln of the weight of so many scans of a place that is not in the map.
+  /// ln of the weight that this number of scans would have at a place outside the map.
   double unexplained(size_t scans) const;
 
   OccupancyGrid grid_;

@@ -38,6 +38,22 @@ std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
   return directionModuloRightAngle(lines);
 }
 
+/// Inverse of the covariance of a match, at least 5 cm and 0.5 deg. The matcher's information is tempered:
+/// its beams are not independent.
+Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match) {
+  const Eigen::Matrix3d floor =
+      Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * kDegree * kDegree).asDiagonal();
+  const Eigen::Matrix3d regular = 0.1 * match + Eigen::Vector3d(0.01, 0.01, 1).asDiagonal().toDenseMatrix();
+  return (regular.inverse() + floor).inverse();
+}
+
+/// Of (x, y, phi) when the axes of x and y turn.
+Eigen::Matrix3d rotationBy(double angle) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  return rotation;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopClosingOptions& options, const GridOptions& grid)
@@ -124,7 +140,7 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
     // The filter has closed it: hold what it found, by its own relative pose.
-    hold(visit, {older.reference, here, expected, edgeInformation(near.pose, stretch, older)});
+    hold(visit, {older.reference, here, expected, edgeInformation(informationOf(near.pose, stretch, older))});
     candidates_.clear();
     return Outcome::held;
   }
@@ -141,22 +157,21 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
                             mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
-  remember(visit, {{older.reference, here, best->pose, edgeInformation(best->pose, stretch, older)},
-                   best->agreement,
-                   best->second});
+  remember(visit,
+           {{older.reference, here, best->pose, edgeInformation(informationOf(best->pose, stretch, older))},
+            best->agreement,
+            best->second});
   return Outcome::found;
 }
 
 void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
-  Eigen::Matrix3d toMap = Eigen::Matrix3d::Identity();
-  toMap.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(visit.poses[edge.from].phi).toRotationMatrix();
+  const Eigen::Matrix3d toMap = rotationBy(visit.poses[edge.from].phi);
   loops_.push_back(edge);
   known_.push_back({edge.from, edge.to, toMap * edge.information.inverse() * toMap.transpose()});
 }
 
 void LoopCloser::turn(double angle) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  const Eigen::Matrix3d rotation = rotationBy(angle);
   for (KnownPair& pair : known_) pair.covariance = rotation * pair.covariance * rotation.transpose();
 }
 

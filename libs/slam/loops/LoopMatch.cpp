@@ -87,15 +87,6 @@ Eigen::Matrix3d informationOf(const TPose2D& pose, const LocalMap& newer, const 
   return scanInformation(likelihood, pose);
 }
 
-Eigen::Matrix3d edgeInformation(const TPose2D& pose, const LocalMap& newer, const LocalMap& older) {
-  const double degree = M_PI / 180;
-  const Eigen::Matrix3d floor =
-      Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * degree * degree).asDiagonal();
-  const Eigen::Matrix3d regular =
-      0.1 * informationOf(pose, newer, older) + Eigen::Vector3d(0.01, 0.01, 1).asDiagonal().toDenseMatrix();
-  return (regular.inverse() + floor).inverse();
-}
-
 LoopMatch matchFrom(const TPose2D& start, const LocalMap& newer, const LocalMap& older) {
   return matched(start, thinned(newer.ends), newer, older);
 }

@@ -34,11 +34,6 @@ Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const mrpt::
 /// Information of the beams of the newer map on its pose in the older map.
 Eigen::Matrix3d informationOf(const mrpt::math::TPose2D& pose, const LocalMap& newer, const LocalMap& older);
 
-/// Inverse of the covariance of a match: at least 5 cm and 0.25 deg, and the information is tempered, since
-/// beams are not independent.
-Eigen::Matrix3d edgeInformation(const mrpt::math::TPose2D& pose, const LocalMap& newer,
-                                const LocalMap& older);
-
 /// Matches locally, from `start`.
 LoopMatch matchFrom(const mrpt::math::TPose2D& start, const LocalMap& newer, const LocalMap& older);
 

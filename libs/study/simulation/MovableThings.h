@@ -33,7 +33,7 @@ class MovableThings {
 
   bool empty() const { return doors_.empty() && boxes_.empty(); }
   /// Closed doors and all boxes of a session. The same seed and session give the same result; each thing has
-  /// a random stream of its own.
+  /// its own random stream.
   std::vector<PlacedThing> inSession(uint64_t seed, uint64_t session) const;
   /// All doors closed and every box at all its places: what a route has to avoid in any session.
   std::vector<Wall> everywhere() const;
