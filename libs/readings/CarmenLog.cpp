@@ -1,6 +1,7 @@
 /// @file CarmenLog.cpp
 /// @brief CARMEN's logger: rows `ODOM`, `FLASER`, `RLASER`, `ROBOTLASER1`, `PARAM`.
 #include <cmath>
+#include <optional>
 
 #include "readings/LogFields.h"
 #include "readings/LogFormats.h"
@@ -8,18 +9,40 @@
 namespace hybrid_slam::readings {
 namespace {
 
+/// The front laser's pose on the robot, from the two poses of its rows. CARMEN writes the mounting that was
+/// in force into every row, so rows that agree are believed rather than `PARAM`, which may be of another
+/// robot. A corrected log has a mapper's pose in place of the laser's: its rows soon disagree.
+class FrontLaserMounting {
+ public:
+  /// Null once the rows have disagreed.
+  std::optional<mrpt::math::TPose2D> of(const mrpt::math::TPose2D& laser, const mrpt::math::TPose2D& robot) {
+    const mrpt::math::TPose2D mounting = laser - robot;
+    if (!first_) first_ = mounting;
+    const mrpt::math::TPose2D change = mounting - *first_;
+    constexpr double kFarthest = 2, kDistance = 0.005, kAngle = 0.005;  // m, m, rad
+    if (mounting.norm() > kFarthest || change.norm() > kDistance || std::abs(change.phi) > kAngle)
+      agree_ = false;
+    return agree_ ? first_ : std::nullopt;
+  }
+
+ private:
+  std::optional<mrpt::math::TPose2D> first_;
+  bool agree_ = true;
+};
+
 class CarmenParser : public LogParser {
  public:
   using LogParser::LogParser;
 
  private:
   LogRecord record(std::string_view name, LogFields& fields) override;
-  LogRecord laser(std::string_view name, LogFields& fields) const;
+  LogRecord laser(std::string_view name, LogFields& fields);
   LogRecord robotLaser(std::string_view name, LogFields& fields) const;
   void parameter(LogFields& fields);
   double time(LogFields& fields) const;
 
-  double frontOffset_ = 0, rearOffset_ = 0;  ///< m, of the lasers ahead of the robot's centre
+  double frontOffset_ = 0, rearOffset_ = 0;  ///< m, of the lasers ahead of the robot's centre, by `PARAM`
+  FrontLaserMounting frontMounting_;
 };
 
 LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
@@ -40,20 +63,23 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
   return otherRecord(name);
 }
 
-LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) const {
+LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const size_t beams = fields.count(1);
   fields.expectLeft(beams + 9, std::to_string(beams) +
                                    " ranges, the laser's and the robot's pose, "
                                    "ipc_time host logger_time");
   LaserRecord record = scan(name, beams, fields);
-  // Ignore the laser pose: in corrected logs it is a mapper's result, not the mounting.
-  fields.pose();
+  const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
   if (name == "RLASER")
-    record.laserPose = {rearOffset_, 0, M_PI};
+    record.laserPose = {rearOffset_, 0,
+                        M_PI};  // logs differ in whether the row's heading includes the half turn
+  else if (options_.laserX)
+    record.laserPose = {*options_.laserX, 0, 0};
   else
-    record.laserPose = {options_.laserX.value_or(frontOffset_), 0, 0};
+    record.laserPose =
+        frontMounting_.of(laser, *record.odometry).value_or(mrpt::math::TPose2D(frontOffset_, 0, 0));
   return record;
 }
 

@@ -38,10 +38,12 @@ std::string odom(const std::string& pose, const std::string& time) {
 }
 
 /// A row of `beams` ranges: 1 m, 2 m, 3 m, ...
-std::string laser(const std::string& name, size_t beams, const std::string& pose, const std::string& time) {
+/// @param poses  the laser's and the robot's, or one for both
+std::string laser(const std::string& name, size_t beams, const std::string& poses, const std::string& time) {
   std::string row = name + " " + std::to_string(beams);
   for (size_t i = 0; i < beams; ++i) row += " " + std::to_string(i + 1);
-  return row + " " + pose + " " + pose + " " + time + " host 0\n";
+  const bool both = std::count(poses.begin(), poses.end(), ' ') == 5;
+  return row + " " + poses + (both ? "" : " " + poses) + " " + time + " host 0\n";
 }
 
 struct Converted {
@@ -144,7 +146,7 @@ TEST(LogConversion, BeamsPointWhereTheLaserSentThem) {
 TEST(LogConversion, MountsTheLaser) {
   auto result =
       convert("PARAM robot_frontlaser_offset 0.40 nohost 0\nPARAM robot_rearlaser_offset -0.3 x 0\n" +
-              laser("FLASER", 181, "0 0 0", "1") + laser("RLASER", 180, "0 0 0", "1"));
+              laser("FLASER", 181, "9 9 0 0 0 0", "1") + laser("RLASER", 180, "9 9 0 0 0 0", "1"));
   const LaserScan front = toLaserScan(*result.scan(1), 80), rear = toLaserScan(*result.scan(2), 80);
   EXPECT_NEAR(front.sensorPose.x, 0.4, 1e-12);
   EXPECT_NEAR(front.sensorPose.phi, 0, 1e-7);

@@ -93,6 +93,26 @@ TEST(LogParserCarmen, ParametersApplyToLaterRows) {
   expectPose(parseAs<LaserRecord>(*parser, "R" + kFlaser.substr(1)).laserPose, -0.25, 0, M_PI);
 }
 
+/// An `FLASER` row of a robot at (x, y) that faces +y.
+std::string facingLeft(const std::string& laser, const std::string& robot) {
+  return "FLASER 3 1 2 3 " + laser + " 1.5707963267948966 " + robot + " 1.5707963267948966 5 host 1";
+}
+
+TEST(LogParserCarmen, RowsThatAgreeTellTheMounting) {
+  const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+  parser->parse("PARAM robot_frontlaser_offset 0.40 nohost 0");
+  expectPose(parseAs<LaserRecord>(*parser, facingLeft("1.9 1.3", "2 1")).laserPose, 0.3, 0.1, 0);
+  expectPose(parseAs<LaserRecord>(*parser, facingLeft("6.9 8.3", "7 8")).laserPose, 0.3, 0.1, 0);
+}
+
+TEST(LogParserCarmen, CorrectedRowsDoNotTellTheMounting) {
+  const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+  parser->parse("PARAM robot_frontlaser_offset 0.40 nohost 0");
+  expectPose(parseAs<LaserRecord>(*parser, facingLeft("0 0", "0 0")).laserPose, 0, 0, 0);
+  expectPose(parseAs<LaserRecord>(*parser, facingLeft("1 0", "1.01 0")).laserPose, 0.4, 0, 0);
+  expectPose(parseAs<LaserRecord>(*parser, facingLeft("2 0", "2 0")).laserPose, 0.4, 0, 0);
+}
+
 TEST(LogParserCarmen, LaserXOverridesTheFrontOffsetAlone) {
   LogParserOptions options = threeBeamOptions();
   options.laserX = 0.1;

@@ -15,7 +15,7 @@ CellBox boxOf(int tx, int ty, double size, const TPose2D& frame, const Occupancy
   CellBox box;
   for (int corner = 0; corner < 4; ++corner) {
     const TPoint2D at = frame.composePoint(
-        TPoint2D(Tile::kSize * size * (tx + corner % 2), Tile::kSize * size * (ty + corner / 2)));
+        TPoint2D(Tile::kSize * size * (tx + (corner & 1)), Tile::kSize * size * (ty + (corner >> 1))));
     const CellIndex cell = target.cellOf(at.x, at.y);
     if (corner == 0) box = {cell, cell};
     box.min = {std::min(box.min.x, cell.x), std::min(box.min.y, cell.y)};
@@ -42,8 +42,8 @@ OccupancyGrid resampled(const OccupancyGrid& grid, const TPose2D& frame, double 
       for (int x = box.min.x; x <= box.max.x; ++x) {
         int8_t highest = 0;
         for (int k = 0; k < samples * samples; ++k) {
-          const int8_t value =
-              valueAt(x * cell + (k % samples + 0.5) * step, y * cell + (k / samples + 0.5) * step);
+          const int column = k % samples, row = k / samples;
+          const int8_t value = valueAt(x * cell + (column + 0.5) * step, y * cell + (row + 0.5) * step);
           if (value != 0 && (highest == 0 || value > highest)) highest = value;
         }
         if (highest != 0) result.tiles().set({x, y}, highest);

@@ -12,7 +12,7 @@ using State = LiveSnapshot::State;
 LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   auto* const row = new wxBoxSizer(wxHORIZONTAL);
   const auto add = [&](wxWindow* control, int share = 0) {
-    row->Add(control, share, wxALIGN_CENTRE_VERTICAL | wxALL, FromDIP(4));
+    row->Add(control, wxSizerFlags(share).CentreVertical().Border(wxALL, FromDIP(4)));
   };
   add(new wxStaticText(this, wxID_ANY, "observation-server"));
   server_ = new wxTextCtrl(this, wxID_ANY, "127.0.0.1:4550", wxDefaultPosition, FromDIP(wxSize(180, -1)));
@@ -33,7 +33,7 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   column->Add(row, 0, wxEXPAND);
   column->Add(canvas_, 1, wxEXPAND);
   column->Add(plots_, 0, wxEXPAND);
-  column->Add(events_, 0, wxEXPAND | wxALL, FromDIP(4));
+  column->Add(events_, wxSizerFlags().Expand().Border(wxALL, FromDIP(4)));
   SetSizer(column);
   button_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { connectOrStop(); });
 }

@@ -187,7 +187,7 @@ void MainFrame::applyChanges(const std::vector<std::string>& changes) {
   if (settings_ && !changes.empty()) orTell(this, [&] { use(settings_->copy(changes)); });
 }
 
-void MainFrame::use(std::shared_ptr<Settings> settings) {
+void MainFrame::use(const std::shared_ptr<Settings>& settings) {
   settings_ = settings;
   live_->setSettings(settings);
   const std::string& rawlog = settings->configuration.run.rawlog;

@@ -75,7 +75,7 @@ class MainFrame : public wxFrame {
   void bindFileMenu();
   void bindReplayMenu();
   void bindViewMenu();
-  void use(std::shared_ptr<Settings> settings);
+  void use(const std::shared_ptr<Settings>& settings);
   void openIni();
   void openRawlog();
   void saveIni();

@@ -18,7 +18,9 @@ namespace hybrid_slam::window {
 MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
     : wxDialog(parent, wxID_ANY, "Map of an earlier run") {
   auto* const column = new wxBoxSizer(wxVERTICAL);
-  const auto add = [&](wxWindow* control) { column->Add(control, 0, wxEXPAND | wxALL, FromDIP(8)); };
+  const auto add = [&](wxWindow* control) {
+    column->Add(control, wxSizerFlags().Expand().Border(wxALL, FromDIP(8)));
+  };
   add(new wxStaticText(this, wxID_ANY, "Session, map.yaml or gridmap"));
   file_ = new wxFilePickerCtrl(
       this, wxID_ANY, "", "Open map",
@@ -35,7 +37,7 @@ MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
   add(new wxStaticText(this, wxID_ANY, "Start in this map: x, y (m), heading (deg); empty: searched for"));
   start_ = new wxTextCtrl(this, wxID_ANY);
   add(start_);
-  column->Add(CreateButtonSizer(wxOK | wxCANCEL), 0, wxEXPAND | wxALL, FromDIP(8));
+  column->Add(CreateButtonSizer(wxOK | wxCANCEL), wxSizerFlags().Expand().Border(wxALL, FromDIP(8)));
   SetSizerAndFit(column);
   set(now);
   Bind(

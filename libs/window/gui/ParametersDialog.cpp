@@ -79,9 +79,9 @@ ParametersDialog::ParametersDialog(wxWindow* parent, const Settings& settings)
     help->Wrap(help->GetClientSize().x);
   });
   auto* const column = new wxBoxSizer(wxVERTICAL);
-  column->Add(grid_, 1, wxEXPAND | wxALL, FromDIP(6));
-  column->Add(help, 0, wxEXPAND | wxALL, FromDIP(6));
-  column->Add(CreateStdDialogButtonSizer(wxOK | wxCANCEL), 0, wxEXPAND | wxALL, FromDIP(6));
+  column->Add(grid_, wxSizerFlags(1).Expand().Border(wxALL, FromDIP(6)));
+  column->Add(help, wxSizerFlags().Expand().Border(wxALL, FromDIP(6)));
+  column->Add(CreateStdDialogButtonSizer(wxOK | wxCANCEL), wxSizerFlags().Expand().Border(wxALL, FromDIP(6)));
   SetSizer(column);
 }
 

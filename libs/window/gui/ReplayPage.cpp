@@ -32,11 +32,11 @@ ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
   auto* const panes = new wxBoxSizer(wxHORIZONTAL);
   for (const char* title : {"hybrid filter: File, Open rawlog", "general filter: the same without lines"}) {
     canvases_.push_back(new MapCanvas(this, title, view_, [this] { redraw(); }));
-    panes->Add(canvases_.back(), 1, wxEXPAND | wxALL, FromDIP(2));
+    panes->Add(canvases_.back(), wxSizerFlags(1).Expand().Border(wxALL, FromDIP(2)));
   }
   column->Add(panes, 1, wxEXPAND);
   plots_ = new PlotPanel(this);
-  column->Add(plots_, 0, wxEXPAND | wxTOP, FromDIP(2));
+  column->Add(plots_, wxSizerFlags().Expand().Border(wxTOP, FromDIP(2)));
   addControls(column);
   SetSizer(column);
 }
@@ -44,7 +44,7 @@ ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
 void ReplayPage::addControls(wxSizer* to) {
   auto* const row = new wxBoxSizer(wxHORIZONTAL);
   const auto add = [&](wxWindow* control, int share = 0) {
-    row->Add(control, share, wxALIGN_CENTRE_VERTICAL | wxALL, FromDIP(4));
+    row->Add(control, wxSizerFlags(share).CentreVertical().Border(wxALL, FromDIP(4)));
   };
   auto* const again = new wxButton(this, wxID_ANY, "Restart");
   play_ = new wxButton(this, wxID_ANY, "Play");

@@ -34,9 +34,9 @@ struct ScanLine {
 
 /// The 1-sigma ellipse of the particle positions.
 struct UncertaintyEllipse {
-  mrpt::math::TPoint2D centre;  ///< m, map frame: the weighted mean
-  double major = 0, minor = 0;  ///< m, semi-axes
-  double direction = 0;         ///< rad, of the major axis
+  mrpt::math::TPoint2D centre{0, 0};  ///< m, map frame: the weighted mean
+  double major = 0, minor = 0;        ///< m, semi-axes
+  double direction = 0;               ///< rad, of the major axis
 };
 
 struct FilterSnapshot {
