@@ -4,6 +4,7 @@
   scripts/experiment-tables.py weights FOLDER      of scripts/sweep-weights.sh: weights.md, weights.svg in FOLDER
   scripts/experiment-tables.py search FOLDER       of scripts/search-settings.sh: search.md in FOLDER
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
+  scripts/experiment-tables.py frames FOLDER       of scripts/frames.sh: frames.md in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 Also prints the tables. Needs gnuplot for the figures."""
@@ -14,7 +15,8 @@ import sys
 from pathlib import Path
 
 WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
-          "sheared-6": "CSIE, sheared 6 deg", "wing": "wing at 30 deg", "intel": "Intel", "csail": "MIT CSAIL",
+          "sheared-6": "CSIE, sheared 6 deg", "wing": "wing at 30 deg", "octagon": "octagon",
+          "round": "round hall", "clutter": "clutter", "intel": "Intel", "csail": "MIT CSAIL",
           "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
 ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first available in a world
 
@@ -114,6 +116,20 @@ set key off
     print(text)
 
 
+def frames(folder):
+    """The default against no lines, paired over seeds."""
+    rows = []
+    for world in WORLDS:
+        for proposal in ("standard", "improved"):
+            runs = {g.name: g for g in groups(folder / f"{world}-{proposal}")}
+            if runs:
+                rows.append([WORLDS[world], proposal, runs["hybrid"].cell(), runs["general"].cell(), runs["general"].paired()])
+    text = "<!-- made by: scripts/frames.sh -->\n" + markdown(
+        ["world", "proposal", "lines", "no lines", "no lines against lines"], rows)
+    (folder / "frames.md").write_text(text)
+    print(text)
+
+
 def legend(lines, levels):
     """The legend in a separate panel, to save space in the plots."""
     entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
@@ -187,7 +203,7 @@ set grid lc '#dddddd'
 
 
 def main():
-    commands = {"weights": weights, "search": search, "particles": particles}
+    commands = {"weights": weights, "search": search, "particles": particles, "frames": frames}
     if len(sys.argv) == 5 and sys.argv[1] == "always":
         sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
                          for g in groups(sys.argv[2])))

@@ -1,7 +1,7 @@
 # The worlds of the experiments; sourced by the scripts that use them (after lib.sh, with `bin` set). Simulates logs
 # and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md).
 
-simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)
+simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)  # the script may choose others
 public_worlds=()
 [[ -z ${HYBRID_SLAM_DATASETS:-} ]] || public_worlds=(intel csail killian fr079 dpslam)
 
@@ -19,6 +19,7 @@ make_worlds() {
     case $world in
       csie) cp $csie/csie.plan "$folder/csie.plan"; cp $csie/csie-loop.route "$folder/csie.route" ;;
       wing) cp $csie/wing.plan $csie/wing.route "$folder" ;;
+      octagon | round | clutter) scripts/make-worlds.py "$world" "$folder" ;;
       *)
         scripts/shear-world.py "${world#*-}" <$csie/csie.plan >"$folder/$world.plan"
         scripts/shear-world.py "${world#*-}" <$csie/csie-loop.route >"$folder/$world.route"

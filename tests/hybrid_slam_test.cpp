@@ -89,7 +89,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   EXPECT_EQ(
       result("steps.csv").substr(0, result("steps.csv").find('\n')),
       "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift,degeneracy");
+      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift,degeneracy,frames_deg");
   EXPECT_EQ(steps.size(), metrics["updates"].get<size_t>() + 1);
   size_t resamplings = 0;
   for (size_t i = 1; i < steps.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "run/StepsTable.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include "base/Numbers.h"
 
 namespace hybrid_slam::run {
@@ -7,7 +9,7 @@ namespace hybrid_slam::run {
 void writeStepsHeader(std::ostream& out) {
   out << "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
          "lines_seen,lines_matched,step_ms,matched,slipped,"
-         "loops_closed,loop_shift,degeneracy\n";
+         "loops_closed,loop_shift,degeneracy,frames_deg\n";
 }
 
 void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double milliseconds) {
@@ -32,6 +34,9 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& s, double 
   if (s.slipped) out << (*s.slipped ? 1 : 0);
   out << ',' << (s.loop ? 1 : 0) << ',' << fixedText(s.loop ? s.loop->shift : 0, 6) << ',';
   if (s.degeneracy) out << fixedText(*s.degeneracy, 4);
+  out << ',';
+  for (size_t i = 0; i < s.frames.size(); ++i)
+    out << (i > 0 ? " " : "") << fixedText(mrpt::RAD2DEG(s.frames[i].direction), 2);
   out << '\n';
 }
 

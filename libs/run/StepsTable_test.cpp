@@ -13,7 +13,7 @@ TEST(StepsTable, HeaderIsTheDocumentedOne) {
   EXPECT_EQ(
       out.str(),
       "timestamp,particles,ess,resampled,std_x,std_y,std_phi,std_along,std_across,w_grid_best,w_line_best,"
-      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift,degeneracy\n");
+      "lines_seen,lines_matched,step_ms,matched,slipped,loops_closed,loop_shift,degeneracy,frames_deg\n");
 }
 
 TEST(StepsTable, ARow) {
@@ -27,19 +27,20 @@ TEST(StepsTable, ARow) {
   step.matched = 0.875, step.slipped = true;
   step.loop.emplace().shift = 4.25;
   step.degeneracy = 0.0625;
+  step.frames = {{mrpt::DEG2RAD(30.0), 6, 3}, {mrpt::DEG2RAD(-5.5), 5, 2}};
   std::ostringstream out;
   writeStep(out, 1137834225.713386, step, 12.3456);
   EXPECT_EQ(
       out.str(),
       "1137834225.713386,50,0.250000,1,0.100000,0.200000,0.300000,0.400000,0.500000,0.600000,0.700000,4,3,"
-      "12.346,0.875,1,1,4.250000,0.0625\n");
+      "12.346,0.875,1,1,4.250000,0.0625,30.00 -5.50\n");
 }
 
 TEST(StepsTable, MissingValuesAreEmpty) {
   std::ostringstream out;
   writeStep(out, 1, FilterStep(), 2);
   EXPECT_EQ(out.str(),
-            "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000,,,0,0.000000,\n");
+            "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000,,,0,0.000000,,\n");
 }
 
 TEST(ParticlesTable, ARowForEachParticle) {

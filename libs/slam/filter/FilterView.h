@@ -37,11 +37,12 @@ struct FilterStep {
   std::optional<double> gridWeight;     ///< w_grid of the best particle before tempering
   std::optional<double> lineWeight;     ///< w_line of the best particle
   int linesSeen = 0, linesMatched = 0;  ///< of the best particle
-  std::optional<double> matched;     ///< fraction of particles whose scan match was used; improved proposal
-  std::optional<bool> slipped;       ///< odometry rejected, motion found by a search; improved proposal
-  std::optional<double> degeneracy;  ///< of the scan at the best particle's pose: ScanMatcher.h
-  std::vector<WeightedPose> poses;   ///< the particles, as for the spreads
-  std::optional<LoopClosure> loop;   ///< closed in this update by the pose graph
+  std::optional<double> matched;       ///< fraction of particles whose scan match was used; improved proposal
+  std::optional<bool> slipped;         ///< odometry rejected, motion found by a search; improved proposal
+  std::optional<double> degeneracy;    ///< of the scan at the best particle's pose: ScanMatcher.h
+  std::vector<DirectionFrame> frames;  ///< of the best particle's database
+  std::vector<WeightedPose> poses;     ///< the particles, as for the spreads
+  std::optional<LoopClosure> loop;     ///< closed in this update by the pose graph
 
   /// @name Only for our own filter, from its second update on
   /// @{
@@ -52,7 +53,7 @@ struct FilterStep {
   double logLikelihood = 0;
   /// @}
 
-  /// Without `loop`, `odometry` and `motions`, which the next step replaces.
+  /// Without `frames`, `loop`, `odometry` and `motions`, which the next step replaces.
   template <class State>
   void visit(State& state) {
     state(particles, ess, resampled, stdX, stdY, stdPhi, stdAlong, stdAcross, gridWeight, lineWeight,

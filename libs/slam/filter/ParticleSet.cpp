@@ -218,6 +218,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   if (useLines_) step_.lineWeight = bestParticle.lineWeight.value;
   step_.linesSeen = bestParticle.lineWeight.seen;
   step_.linesMatched = bestParticle.lineWeight.matched;
+  step_.frames = bestParticle.lines->frames();
   setSpread(step_, poses(), bestParticle.path.back().phi);
 }
 

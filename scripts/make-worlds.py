@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Floor plan and route of a building without right angles, or without walls that give lines: invented, for experiments.
+usage: make-worlds.py octagon|round|clutter FOLDER     writes FOLDER/WORLD.plan and FOLDER/WORLD.route
+
+octagon   a loop of corridors, 2.5 m wide, around an octagon: walls at 0 and 45 deg, modulo 90 deg
+round     a ring hall, 4 m wide, with columns along both walls: no straight wall
+clutter   a warehouse: pallets at any angle inside a ragged wall, no straight piece longer than 1.2 m
+"""
+import math
+import random
+import sys
+
+
+def polar(radius, degrees):
+    return radius * math.cos(math.radians(degrees)), radius * math.sin(math.radians(degrees))
+
+
+def row(word, *numbers):
+    return " ".join([word] + [f"{n:.4f}" for n in numbers])
+
+
+def closed(points):
+    return [c for p in points + points[:1] for c in p]
+
+
+def square(x, y, side, degrees):
+    """A square about (x, y)."""
+    return closed([(x + dx, y + dy) for dx, dy in (polar(side / math.sqrt(2), degrees + 90 * k) for k in range(4))])
+
+
+def octagon(draw):
+    outer, inner, middle = ([polar(r / math.cos(math.pi / 8), 22.5 + 45 * k) for k in range(8)] for r in (20, 17.5, 18.75))
+    plan = [row("polygon", *closed(outer)), row("polygon", *closed(inner))]
+    for side in range(8):  # pillars at both walls
+        for radius in (19.8, 17.7):
+            for part in (-1, 1):
+                along = part * draw.uniform(1.5, 6)
+                x, y = polar(radius, 45 * side + 45)
+                dx, dy = polar(along, 45 * side + 135)
+                plan.append(row("polygon", *square(x + dx, y + dy, draw.uniform(0.2, 0.5), draw.uniform(0, 90))))
+    x, y = middle[7]
+    route = [row("start", *[(a + b) / 2 for a, b in zip(middle[7], middle[0])], 90)]
+    route += [row("via", *corner, 0.8) for corner in middle]
+    return plan, route, [(a + b) / 2 for a, b in zip(middle[0], middle[1])], middle
+
+
+def round_hall(draw):
+    plan = [row("circle", 0, 0, 13), row("circle", 0, 0, 9)]
+    for radius in (12.5, 9.5):
+        angle = 0
+        while angle < 350:
+            angle += draw.uniform(12, 30)
+            plan.append(row("circle", *polar(radius, angle), draw.uniform(0.1, 0.3)))
+    ring = [polar(11, 7.5 + 15 * k) for k in range(24)]
+    route = [row("start", *polar(11 * math.cos(math.radians(7.5)), 0), 90)]
+    route += [row("via", *p, 1.5) for p in ring]
+    return plan, route, polar(11 * math.cos(math.radians(7.5)), 75), ring
+
+
+def clutter(draw):
+    # A ragged wall about a rectangle of 30 m x 20 m.
+    points, at = [], 0
+    while at < 100:
+        x, y = (at, 0) if at < 30 else (30, at - 30) if at < 50 else (80 - at, 20) if at < 80 else (0, 100 - at)
+        points.append((x + draw.uniform(-0.5, 0.5), y + draw.uniform(-0.5, 0.5)))
+        at += draw.uniform(0.4, 0.8)
+    plan = [row("polygon", *closed(points))]
+    corners = [(4, 4), (26, 4), (26, 16), (4, 16)]
+
+    def from_route(x, y):
+        return min(abs(max(abs(x - 15) - 11, abs(y - 10) - 6)), math.inf)
+
+    pallets = []
+    while len(pallets) < 70:
+        x, y, side = draw.uniform(1.5, 28.5), draw.uniform(1.5, 18.5), draw.uniform(0.3, 1.0)
+        if from_route(x, y) < 1.4 or any(math.hypot(x - a, y - b) < 1.5 for a, b in pallets):
+            continue
+        pallets.append((x, y))
+        plan.append(row("polygon", *square(x, y, side, draw.uniform(0, 90))))
+    route = [row("start", 6, 4, 0)] + [row("via", *c, 0.8) for c in corners[1:] + corners[:1]]
+    return plan, route, (18, 4), corners
+
+
+def main():
+    if len(sys.argv) != 3 or sys.argv[1] not in ("octagon", "round", "clutter"):
+        sys.exit(__doc__)
+    world, folder = sys.argv[1:]
+    make = {"octagon": octagon, "round": round_hall, "clutter": clutter}[world]
+    plan, route, end, turns = make(random.Random(1))
+    if world == "round":  # on past the start, along the ring
+        route += [row("via", *p, 1.5) for p in turns[:5]]
+        end = [(a + b) / 2 for a, b in zip(turns[4], turns[5])]
+        route[-1] = row("via", *turns[4], 1.5)
+    elif world == "octagon":
+        route.append(row("via", *turns[0], 0.8))
+    route.insert(1, "speed 0.65\nturn_speed 40")
+    with open(f"{folder}/{world}.plan", "w") as f:
+        f.write("\n".join(plan) + "\n")
+    with open(f"{folder}/{world}.route", "w") as f:
+        f.write("\n".join(route + [row("go", *end)]) + "\n")
+
+
+main()
