@@ -22,9 +22,11 @@ struct LineExtractor {
   std::vector<LineSegment> (*extract)(const LaserScan& scan, const LineExtractionOptions& options);
 };
 
-extern const LineExtractor kSplitExtractor, kIncrementalExtractor;
+extern const LineExtractor kSplitExtractor, kIncrementalExtractor, kRegressionExtractor, kRansacExtractor,
+    kHoughExtractor, kEmExtractor;
 inline std::vector<const LineExtractor*> lineExtractors() {
-  return {&kSplitExtractor, &kIncrementalExtractor};
+  return {&kSplitExtractor,  &kIncrementalExtractor, &kRegressionExtractor,
+          &kRansacExtractor, &kHoughExtractor,       &kEmExtractor};
 }
 
 /// Section [line_extraction], and the sections of the steps that the methods share.

@@ -66,6 +66,116 @@ TEST_P(EveryExtractor, FindsNothingInAnEmptyScan) {
   EXPECT_TRUE(extractLines(scan, options).empty());
   scan.beams.resize(541);  // all invalid
   EXPECT_TRUE(extractLines(scan, options).empty());
+  scan.beams.assign(1, {0, 1, true});
+  EXPECT_TRUE(extractLines(scan, options).empty());
+}
+
+TEST_P(EveryExtractor, FindsTheFourWallsOfARoomWithoutNoise) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(11, 0, 0);
+  const TPose2D robot(0.4, 0.3, 0.2);
+  const auto lines = extractLines(roomScan(robot, 0, random), options);
+  ASSERT_EQ(lines.size(), 4u);
+  for (size_t k = 0; k < 4; ++k) {  // in beam order
+    const LineSegment line = transformed(lines[k], robot),
+                      wall = makeSegment(kRoom[k].first, kRoom[k].second);
+    EXPECT_LT(test::angleBetween(line.theta, wall.theta), 0.1 * test::kDegree) << k;
+    EXPECT_NEAR(signedDistance(middle(line), wall.rho, wall.theta), 0, 0.005) << k;
+    EXPECT_NEAR(line.length, wall.length, 0.3) << k;
+  }
+}
+
+TEST_P(EveryExtractor, ADoorDividesAWall) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(12, 0, 0);
+  // Two pieces of x = 3 with a door of 1 m between them, and the wall of the next room behind it.
+  const test::Walls walls{{{3, -3}, {3, -0.5}}, {{3, 0.5}, {3, 3}}, {{6, -2}, {6, 2}}};
+  for (int i = 0; i < 20; ++i) {
+    const auto lines =
+        extractLines(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random), options);
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_NEAR(lines[0].rho, 3, 0.02);
+    EXPECT_NEAR(lines[0].length, 2.5, 0.15);
+    EXPECT_NEAR(lines[1].rho, 6, 0.02);
+    EXPECT_NEAR(lines[1].length, 2, 0.15);
+    EXPECT_NEAR(lines[2].rho, 3, 0.02);
+    EXPECT_NEAR(lines[2].length, 2.5, 0.15);
+  }
+}
+
+TEST_P(EveryExtractor, FindsNoLinesInPillarsAndClouds) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(13, 0, 0);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<TPoint2D> corners;
+    for (int k = 0; k < 60; ++k)
+      corners.emplace_back(2 + 0.4 * std::cos(6 * k * test::kDegree), 0.4 * std::sin(6 * k * test::kDegree));
+    LaserScan scan = test::scanOf(test::polygon(corners), {}, {}, 541, 270 * test::kDegree, 0.01, random);
+    EXPECT_TRUE(extractLines(scan, options).empty()) << "pillar";
+    for (Beam& beam : scan.beams) beam = {beam.angle, 4 + 0.15 * random.gaussian(), true};
+    EXPECT_TRUE(extractLines(scan, options).empty()) << "cloud";
+  }
+}
+
+TEST_P(EveryExtractor, SurvivesScansOfOneRange) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(14, 0, 0);
+  for (const double range : {1e-9, 0.05, 1.0, 20.0}) {
+    LaserScan scan = test::scanOf({}, {}, {}, 541, 270 * test::kDegree, 0, random);
+    for (Beam& beam : scan.beams) beam = {beam.angle, range, true};
+    for (const LineSegment& line : extractLines(scan, options)) {  // chords of the circle
+      EXPECT_LE(line.rho, range);
+      EXPECT_LE(line.length, 2 * range);
+    }
+    for (Beam& beam : scan.beams) beam = {0, range, true};  // the same point again and again
+    EXPECT_TRUE(extractLines(scan, options).empty());
+  }
+}
+
+/// Random walls: every line is on one of them, long enough and the same when the scan is extracted again,
+/// whatever was extracted in between.
+TEST_P(EveryExtractor, FindsLinesOnWallsAgainAndAgain) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(15, 0, 0);
+  std::vector<LaserScan> scans;
+  std::vector<std::vector<LineSegment>> lines;
+  double total = 0, onWalls = 0;
+  for (int i = 0; i < 100; ++i) {
+    test::Walls walls;
+    for (int k = 0; k < 6; ++k) {
+      const LineSegment wall = test::randomSegment(random, 8);
+      walls.emplace_back(wall.start, wall.end);
+    }
+    scans.push_back(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random));
+    lines.push_back(extractLines(scans.back(), options));
+    for (const LineSegment& line : lines.back()) {
+      EXPECT_GE(line.length, options.segmentation.minLength);
+      total += line.length;
+      double nearest = 1;
+      for (const auto& [a, b] : walls) {
+        const LineSegment wall = makeSegment(a, b);
+        if (test::angleBetween(wall.theta, line.theta) < 3 * test::kDegree)
+          nearest = std::min(nearest, std::abs(signedDistance(middle(line), wall.rho, wall.theta)));
+      }
+      if (nearest < 0.03) onWalls += line.length;
+    }
+  }
+  EXPECT_GT(total, 1000);
+  EXPECT_GT(onWalls, 0.95 * total);
+  for (size_t i = scans.size(); i-- > 0;) {
+    const auto again = extractLines(scans[i], options);
+    ASSERT_EQ(again.size(), lines[i].size());
+    for (size_t k = 0; k < again.size(); ++k) {
+      EXPECT_EQ(again[k].rho, lines[i][k].rho);
+      EXPECT_EQ(again[k].theta, lines[i][k].theta);
+      EXPECT_EQ(again[k].length, lines[i][k].length);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryExtractor, testing::ValuesIn(lineExtractors()),
@@ -137,15 +247,6 @@ TEST(LineExtractor, LinesShorterThanTheMinimumAreDropped) {
   EXPECT_EQ(extractLines(scan, options).size(), 1u);
   options.segmentation.minLength = 1.1;
   EXPECT_TRUE(extractLines(scan, options).empty());
-}
-
-TEST(LineExtractor, AnEmptyScanGivesNoLines) {
-  LaserScan scan;
-  EXPECT_TRUE(extractLines(scan, kDefault).empty());
-  scan.beams.resize(541);  // all invalid
-  EXPECT_TRUE(extractLines(scan, kDefault).empty());
-  scan.beams.assign(1, {0, 1, true});
-  EXPECT_TRUE(extractLines(scan, kDefault).empty());
 }
 
 /// The same walls through sensors that are offset, turned, upside down or clockwise give the same lines.
