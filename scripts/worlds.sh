@@ -45,21 +45,22 @@ log_of() {
   esac
 }
 
-# compare WORLD FOLDER OPTION...: slam-compare on a world of FOLDER with its ground truth. A run on a public log
-# succeeds if the mean translation error is below 0.1 m (Killian Court, 1.9 km with timestamps accurate to 0.02 m: 0.3
-# m); on DP-SLAM's loop, which has no reference, by the revisit error.
+# compare WORLD FOLDER OPTION...: slam-compare on a world of FOLDER with its ground truth, with the settings of $ini
+# (default: csie-lms100.ini for simulated worlds, paper.ini for logs). A run on a public log succeeds if the mean
+# translation error is below 0.1 m (Killian Court, 1.9 km with timestamps accurate to 0.02 m: 0.3 m); on DP-SLAM's loop,
+# which has no reference, by the revisit error.
 compare() {
   local world=$1 folder=$2 log truth
   shift 2
   log=${HYBRID_SLAM_DATASETS:-}/$(log_of "$world")
-  truth=(config-ini/paper.ini "$folder/$world.rawlog" --relations "$log.relations")
+  truth=("${ini:-config-ini/paper.ini}" "$folder/$world.rawlog" --relations "$log.relations")
   case $world in
     csail) ;;
     intel | fr079) truth+=(--odometry "$log.odom.gz") ;;
     killian) truth+=(--odometry "$log.odom.gz" --success-relations 0.3) ;;
-    dpslam) truth=(config-ini/paper.ini "$folder/$world.rawlog" --revisits 8) ;;
+    dpslam) truth=("${ini:-config-ini/paper.ini}" "$folder/$world.rawlog" --revisits 8) ;;
     *)
-      truth=(config-ini/csie-lms100.ini "$folder/$world.rawlog" --reference "$folder/$world.tum"
+      truth=("${ini:-config-ini/csie-lms100.ini}" "$folder/$world.rawlog" --reference "$folder/$world.tum"
         --floorplan "$folder/$world.plan")
       ;;
   esac
