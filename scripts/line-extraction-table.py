@@ -14,21 +14,25 @@ import statistics
 import sys
 
 SETUPS = {"paper": "the paper's set-up", "default": "the default settings"}
-WORLDS = {"csie": "CSIE", "intel": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079", "killian": "MIT Killian Court"}
+WORLDS = {"csie": "CSIE", "intel": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079"}
 METHODS = ["split", "incremental", "regression", "ransac", "hough", "em"]
 FIRST = METHODS[0]
 
 
 def runs(folder):
-    """{method: {seed: (error, success, cpu_s)}} of a results.csv; failed runs have an infinite error."""
+    """{method: {seed: (error, success, cpu_s)}} of a results.csv, for the seeds that all methods have run; failed runs have
+    an infinite error."""
     found = {method: {} for method in METHODS}
     file = folder / "results.csv"
     for row in csv.DictReader(file.open()) if file.is_file() else ():
+        if row["status"] == "missing":
+            continue
         error = row["trans_mean_m"] or row["ate_rmse_m"]
         done = row["status"] == "done"
         found[row["variant"] or FIRST][row["seed"]] = (
             float(error) if done else math.inf, done and row["success"] == "1", float(row["cpu_s"]) if done else math.inf)
-    return found
+    common = set.intersection(*(set(seeds) for seeds in found.values()))
+    return {method: {seed: seeds[seed] for seed in sorted(common)} for method, seeds in found.items()}
 
 
 def sign_test(better, worse):
@@ -38,7 +42,7 @@ def sign_test(better, worse):
 
 def paired(worlds, method):
     """(ratios of the errors to the first method's, pairs in which the method is better, worse)."""
-    pairs = [(run[0], world[FIRST][seed][0]) for world in worlds for seed, run in world[method].items() if seed in world[FIRST]]
+    pairs = [(run[0], world[FIRST][seed][0]) for world in worlds for seed, run in world[method].items()]
     ratios = [a / b for a, b in pairs if math.isfinite(a) and math.isfinite(b)]
     return ratios, sum(a < b for a, b in pairs), sum(a > b for a, b in pairs)
 
@@ -60,6 +64,8 @@ def table(out, setup):
     """Prints the table of a set-up; the methods better than the first one."""
     worlds = {world: runs(out / f"{setup}-{world}") for world in WORLDS}
     worlds = {world: found for world, found in worlds.items() if found[FIRST]}
+    if not worlds:
+        return []
     print(f"| method, {SETUPS[setup]} | " + " | ".join(WORLDS[world] for world in worlds) +
           " | CPU time (s) | error against `split` | better / worse | p |")
     print("|---" * (len(worlds) + 5) + "|")

@@ -3,7 +3,7 @@
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/line-extraction.sh [OUT]     OUT defaults to out/line-extraction
 #   scripts/line-extraction.sh lines [OUT]     only the lines, in a minute; without HYBRID_SLAM_DATASETS the simulation
 # Runs of the filter: SEEDS=5 with the default settings, PAPER_SEEDS=10 with the paper's set-up and 20 particles, from
-# FIRST_SEED=1 on. Takes about 20 minutes of one core. Resumes after an interruption.
+# FIRST_SEED=1 on, JOBS=1 at a time. Takes about 15 minutes of one core. Resumes after an interruption.
 source "$(dirname "$0")/lib.sh"
 only=
 [[ ${1:-} != lines ]] || { only=lines && shift; }
@@ -21,16 +21,16 @@ echo
 if [[ -n ${HYBRID_SLAM_DATASETS:-} ]]; then
   echo "| log | method | scans/s | lines a scan | seen again % | sigma of angle (deg) |"
   echo "|---|---|---|---|---|---|"
-  for world in intel csail fr079; do
-    "$bin/hybrid-slam-lines" log "$HYBRID_SLAM_DATASETS/$(log_of $world).clf.gz" $world
-  done
+  "$bin/hybrid-slam-lines" log "$HYBRID_SLAM_DATASETS/intel-lab.clf.gz" Intel
+  "$bin/hybrid-slam-lines" log "$HYBRID_SLAM_DATASETS/csail.clf.gz" "MIT CSAIL"
+  "$bin/hybrid-slam-lines" log "$HYBRID_SLAM_DATASETS/fr079.clf.gz" "Freiburg 079"
   echo
 fi
 [[ -z $only ]] || exit 0
 
 : "${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}"
 simulated_worlds=(csie)
-public_worlds=(intel csail fr079 killian)
+public_worlds=(intel csail fr079)
 make_worlds "$out/worlds"
 options=(--methods hybrid --first-seed "$first" -j "${JOBS:-1}" -q)
 for method in incremental regression ransac hough em; do
@@ -40,7 +40,7 @@ done
 filter() {
   compare "$3" "$out/worlds" "${options[@]}" --seeds "$2" "${@:4}" -o "$out/$1-$3" >&2
 }
-for world in csie intel killian; do filter paper "${PAPER_SEEDS:-10}" $world -n 20; done
+for world in csie intel; do filter paper "${PAPER_SEEDS:-10}" $world -n 20; done
 ini=config-ini/lms-logs.ini
 for world in csie intel csail fr079; do filter default "${SEEDS:-5}" $world; done
 exec scripts/line-extraction-table.py "$out"
