@@ -105,6 +105,24 @@ TEST_P(EveryExtractor, ADoorDividesAWall) {
   }
 }
 
+TEST_P(EveryExtractor, APillarDividesAWall) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  RandomStream random(16, 0, 0);
+  // 0.3 m deep: less than the gap that ends a run at this range.
+  test::Walls walls = test::polygon({{4.7, -0.25}, {5, -0.25}, {5, 0.25}, {4.7, 0.25}});
+  walls.push_back({{5, -3}, {5, 3}});
+  for (int i = 0; i < 20; ++i) {
+    const auto lines =
+        extractLines(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random), options);
+    ASSERT_EQ(lines.size(), 2u);
+    for (const LineSegment& line : lines) {
+      EXPECT_NEAR(line.rho, 5, 0.02);
+      EXPECT_NEAR(line.length, 2.7, 0.3);  // regression may lose half a window at the pillar
+    }
+  }
+}
+
 TEST_P(EveryExtractor, FindsNoLinesInPillarsAndClouds) {
   LineExtractionOptions options;
   options.method = GetParam();
