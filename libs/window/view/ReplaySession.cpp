@@ -78,13 +78,14 @@ struct ReplaySession::Pass {
   double start = 0, time = 0;  ///< s: time of the first scan; time since
   size_t scans = 0;
   bool isOutdated = true;  ///< the published maps are not current
+  bool hasFailed = false;  ///< the filter or the log, at the next scan
   Clock::time_point lastScan, lastPicture;
   std::vector<std::shared_ptr<const FilterSnapshot>> pictures;
 
   bool isFinished() const {
     return std::any_of(lanes.begin(), lanes.end(), [](const auto& lane) { return lane->isFinished; });
   }
-  bool isOver() const { return isFinished() || !next; }
+  bool isOver() const { return isFinished() || hasFailed || !next; }
 };
 
 ReplaySession::ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods)
@@ -182,7 +183,17 @@ void ReplaySession::runPass() {
     tell(
         "log " + pass.log.defect + ": " + pass.log.defectPlace(pass.file) + "; the replay ends at this entry",
         true, State::paused);
-  while (hasWork(pass)) advance(pass);
+  while (hasWork(pass)) {
+    try {
+      advance(pass);
+    } catch (const std::exception& e) {
+      if (pass.scans == 0) throw;
+      pass.hasFailed = true;
+      tell("run failed: " + messageOf(e) + ", " + pass.source.place() +
+               "; the results up to this point can be exported",
+           true, State::ended);
+    }
+  }
 }
 
 /// Waits until the next scan is due. @return false to abort this pass

@@ -155,6 +155,46 @@ TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayRestartsIt) {
   EXPECT_EQ(session.snapshot()->run, 2u);
 }
 
+/// Laps, then a step of 70 m: MRPT's filter takes no motion with a covariance of so large a determinant.
+test::Log lapsAndAJump() {
+  test::Log log = test::laps(40);
+  log.push_back(test::odometry(1008, {70, 0, 0}));
+  log.push_back(test::scan(1008));
+  const test::Log after = test::laps(60);
+  log.insert(log.end(), after.begin() + 82, after.end());
+  return log;
+}
+
+TEST_F(ReplaySessionTest, AfterAFailureOfTheFilterTheResultsUpToItCanBeExported) {
+  run::Configuration c = configuration(test::writeGzipped(folder.path("jump.rawlog"), lapsAndAJump()));
+  ReplaySession session(c, {Method::stock, Method::general});
+  session.setSpeed(0);
+  session.play();
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 1; }));
+  const auto failed = session.snapshot();
+  EXPECT_EQ(failed->state, State::ended);
+  EXPECT_TRUE(failed->isError);
+  EXPECT_THAT(failed->message, AllOf(HasSubstr("run failed: "), HasSubstr("entry "), HasSubstr("export")));
+  EXPECT_EQ(failed->scans, 40u);
+
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
+  EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
+  c.run.method = Method::stock;
+  c.run.output = folder.path("offline");
+  const std::atomic<bool> stop{false};
+  EXPECT_FALSE(run::replay(c, true, stop).incomplete.empty());
+  for (const char* name : {"trajectory.tum", "map.pgm", "covariance.csv"})
+    EXPECT_EQ(test::contentOf(folder.path(std::string("out/stock/") + name)),
+              test::contentOf(folder.path(std::string("offline/") + name)))
+        << name;
+  for (const char* method : {"stock", "general"})
+    EXPECT_THAT(test::contentOf(folder.path(std::string("out/") + method + "/metrics.json")),
+                HasSubstr("\"complete\": false"));
+  session.play();  // from the beginning
+  EXPECT_TRUE(test::happens([&] { return session.snapshot()->run == 2; }));
+}
+
 TEST_F(ReplaySessionTest, ResultsThatCouldNotBeWrittenStayAFailure) {
   const run::Configuration c = laps();
   ReplaySession session(c, {Method::hybrid});
