@@ -220,6 +220,29 @@ TEST_F(HybridSlam, KilledAtAnyTimeTheFolderHasTheResultsOfOneRun) {
     EXPECT_TRUE(fs::exists(left + "/metrics.json")) << "unfinished results are cleared away by the last run";
 }
 
+TEST_F(HybridSlam, WhereTheMapsOfMrptsFilterFillTheMemoryTheResultsEndThere) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer needs its address space";
+#endif
+  test::Log log;
+  for (int i = 0; i < 60; ++i) {  // 20 m steps to the north-east
+    log.push_back(test::odometry(1000 + i, {14. * i, 14. * i, 0}));
+    log.push_back(test::scan(1000 + i));
+  }
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  test::ChildProgram program(folder, "run",
+                             {"/bin/sh", "-c",
+                              "ulimit -v 2000000; exec '" HYBRID_SLAM "' -q -m stock -n 5 -o '" + output +
+                                  "' '" + ini + "' '" + path + "' --set motion_model.turn_var_d=0"});
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.err(),
+              HasSubstr("run failed: maps of 5 particles too large for MRPT's filter: over 1.0 GB"));
+  EXPECT_THAT(program.err(), HasSubstr("results cover the log up to this point"));
+  EXPECT_TRUE(fs::exists(output + "/map.png"));
+  EXPECT_GT(files::loadTum(output + "/trajectory.tum").size(), 5u);
+  EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], false);
+}
+
 TEST_F(HybridSlam, ARunUnderNohupOutlivesItsTerminal) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(400));
   test::ChildProgram program(

@@ -8,6 +8,7 @@
 #include "base/Numbers.h"
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
+#include "run/ResourceUse.h"
 #include "run/ResultFiles.h"
 #include "run/StepsTable.h"
 #include "slam/filter/StockMapBuilder.h"
@@ -44,11 +45,15 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
               configuration.run.resume.empty() ? "" : kSessionName),
       folder_(staged_.files()),
-      steps_(folder_.path("steps.csv")) {
+      steps_(folder_.path("steps.csv")),
+      cell_(configuration.filter.grid.resolution) {
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
   if (configuration.run.method == Method::stock) {
-    filter_ = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
-                                                static_cast<uint32_t>(configuration.filter.filter.seed));
+    auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
+                                                   static_cast<uint32_t>(configuration.filter.filter.seed),
+                                                   memoryLimit() / 2);
+    cell_ = stock->cellSize();
+    filter_ = std::move(stock);
   } else if (!configuration.run.localizeIn.empty()) {
     auto localizer =
         std::make_unique<Localizer>(configuration.filter, map->grid, map->lines, configuration.run.start);
@@ -139,9 +144,8 @@ std::string FilterRun::slipNote() const {
 }
 
 std::string FilterRun::mapNote() const {
-  const double cell = configuration_.filter.grid.resolution;
-  if (configuration_.run.method == Method::stock || savedCell_ < 1.5 * cell) return {};
-  return "the map files have cells of " + fixedText(savedCell_, 2) + " m instead of " + fixedText(cell, 2) +
+  if (savedCell_ < 1.5 * cell_) return {};
+  return "the map files have cells of " + fixedText(savedCell_, 2) + " m instead of " + fixedText(cell_, 2) +
          " m: the map is too large for MRPT's grid";
 }
 

@@ -147,6 +147,7 @@ class FilterRun {
   size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
   bool wasLocated_ = false;             ///< at the last update
   double firstSlip_ = 0;                ///< s
+  double cell_;                         ///< m, of the filter
   double savedCell_ = 0;                ///< m, of the map files
   Verdict verdict_;
 };

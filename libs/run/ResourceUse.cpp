@@ -1,7 +1,9 @@
 #include "run/ResourceUse.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -22,6 +24,13 @@ double peakMegabytes() {
   for (std::string word; status >> word;)
     if (word == "VmHWM:") status >> kilobytes;
   return kilobytes / 1024;
+}
+
+double memoryLimit() {
+  rlimit space{};
+  getrlimit(RLIMIT_AS, &space);
+  return std::min(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
+                  static_cast<double>(space.rlim_cur));
 }
 
 }  // namespace hybrid_slam::run

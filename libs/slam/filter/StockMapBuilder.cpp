@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/Numbers.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam {
@@ -15,9 +16,18 @@ namespace hybrid_slam {
 using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
+namespace {
+
+/// Of a cell of MRPT's grid: its value, and its likelihood, kept as a double.
+constexpr double kBytesPerCell = 9;
+
+size_t cellsOf(const COccupancyGridMap2D& grid) { return size_t{grid.getSizeX()} * grid.getSizeY(); }
+
+}  // namespace
+
 StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion,
-                                 uint32_t seed)
-    : CMetricMapBuilderRBPF(construction), motion_(motion), random_(seed) {}
+                                 uint32_t seed, double mostBytes)
+    : CMetricMapBuilderRBPF(construction), motion_(motion), mostBytes_(mostBytes), random_(seed) {}
 
 void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
   mrpt::obs::CActionCollection action;
@@ -29,9 +39,7 @@ void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
 
 void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& action,
                                                mrpt::obs::CSensoryFrame& observations) {
-  if (const auto grid = mapPDF.m_particles[0].d->mapTillNow.mapByClass<COccupancyGridMap2D>();
-      grid && size_t{grid->getSizeX()} * grid->getSizeY() > kMostCells)
-    throw std::runtime_error("map too large for MRPT's filter: over 2^28 cells");
+  checkSize();
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
   oneThread_.execute([&] {
     // MRPT draws from its thread's generator.
@@ -45,6 +53,20 @@ void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& act
   step_.particles = mapPDF.m_particles.size();
   step_.ess = mapPDF.ESS();
   setSpread(step_, particlePoses(), bestPath().back().phi);
+}
+
+void StockMapBuilder::checkSize() const {
+  double cells = 0;
+  for (const auto& particle : mapPDF.m_particles)
+    if (const auto grid = particle.d->mapTillNow.mapByClass<COccupancyGridMap2D>()) {
+      const size_t own = cellsOf(*grid);
+      if (own > kMostCells) throw std::runtime_error("map too large for MRPT's filter: over 2^28 cells");
+      cells += static_cast<double>(own);
+    }
+  if (kBytesPerCell * cells > mostBytes_)
+    throw std::runtime_error("maps of " + std::to_string(mapPDF.m_particles.size()) +
+                             " particles too large for MRPT's filter: over " +
+                             fixedText(mostBytes_ / 1e9, 1) + " GB, half of the memory");
 }
 
 size_t StockMapBuilder::bestParticle() const {
@@ -64,13 +86,19 @@ std::vector<TPose2D> StockMapBuilder::bestPath() const {
 
 COccupancyGridMap2D StockMapBuilder::bestGrid() const {
   const auto& map = mapPDF.m_particles[bestParticle()].d->mapTillNow;
-  if (const auto grid = map.mapByClass<COccupancyGridMap2D>()) return *grid;
+  if (const auto grid = map.mapByClass<COccupancyGridMap2D>())
+    return cellsOf(*grid) > kMostCells ? toMrpt(fromMrpt(*grid)) : *grid;
   // A point map only (MRPT's ICP set-ups): insert its scans into a grid along the best path.
-  COccupancyGridMap2D grid(-1, 1, -1, 1, 0.05f);
+  COccupancyGridMap2D grid(-1, 1, -1, 1, static_cast<float>(cellSize()));
   mrpt::maps::CSimpleMap scans;
   getCurrentlyBuiltMap(scans);
   grid.loadFromSimpleMap(scans);
   return grid;
+}
+
+double StockMapBuilder::cellSize() const {
+  const auto grid = mapPDF.m_particles[0].d->mapTillNow.mapByClass<COccupancyGridMap2D>();
+  return grid ? grid->getResolution() : 0.05;
 }
 
 std::vector<WeightedPose> StockMapBuilder::particlePoses() const {

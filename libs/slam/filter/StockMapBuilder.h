@@ -6,6 +6,8 @@
 #include <mrpt/slam/CMetricMapBuilderRBPF.h>
 #include <tbb/task_arena.h>
 
+#include <limits>
+
 #include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
 
@@ -15,7 +17,11 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
  public:
   /// @param seed  same seed, same result, in any thread and beside any other filter
   /// @param motion  of the actions that `process` makes of odometry
-  StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed);
+  /// @param mostBytes  `process` throws std::runtime_error if the maps of all particles are larger, or one
+  /// has
+  ///                   over 2^28 cells
+  StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed,
+                  double mostBytes = std::numeric_limits<double>::infinity());
 
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
@@ -28,12 +34,15 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
   std::vector<mrpt::math::TPose2D> bestPath() const override;
   mrpt::maps::COccupancyGridMap2D bestGrid() const override;
   std::vector<DatabaseLine> bestLines() const override { return {}; }
+  double cellSize() const;  ///< m; that of `bestGrid` is a multiple if the map has over 2^28 cells
   std::vector<WeightedPose> particlePoses() const override;
 
  private:
+  void checkSize() const;
   size_t bestParticle() const;
 
   MotionModelOptions motion_;
+  double mostBytes_;
   mrpt::random::CRandomGenerator random_;
   tbb::task_arena oneThread_{1};  ///< MRPT 2.14.7 would weigh the particles on all cores, 2.5.8 does on one
   size_t updates_ = 0;

@@ -85,6 +85,15 @@ TEST(StockMapBuilder, MapsTheRoomThroughTheSameInterface) {
   EXPECT_GT(occupied, 300u);  // 39 m of walls in cells of 0.1 m
 }
 
+TEST(StockMapBuilder, EndsBeforeItsMapsFillTheMemory) {
+  const auto steps = test::drive(2);
+  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1, 1.9e6);
+  EXPECT_THROW(feed(builder, builder, steps), std::runtime_error);
+  EXPECT_GT(builder.updates(), 0u);
+  EXPECT_LT(builder.updates(), steps.size());
+  EXPECT_EQ(builder.bestPath().size(), builder.updates()) << "what it has done is there";
+}
+
 TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
   const auto steps = test::drive(1);
   StockMapBuilder alone(stockOptions(configuration()), MotionModelOptions(), 1);
