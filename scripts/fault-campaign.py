@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Kills, full disks and restarts; the counts of doc/reliability.md.
 
-  scripts/fault-campaign.py BIN OUT [--kills 50] [--limits 20] [--restarts 100] [--seed 1]
+  scripts/fault-campaign.py BIN OUT [--kills 50] [--limits 20] [--restarts 100] [--steps 20]
+                            [--only FAULT] [--seed 1]
 
 BIN: a folder of programs (build/release/bin). Kills hybrid-slam, hybrid-slam-live, observation-server and slam-compare at
 random moments, limits the size of the files that each program writes (which ends a write as a full disk does), writes
-where nothing can be written, and restarts the server of a live run. After each, what stands under a final name must be
-complete, and the next run must succeed. Exit status 1 if something is not so.
+where nothing can be written, and, in live runs, restarts the server, unplugs the network and has clocks step. After
+each, what stands under a final name must be complete, and the next run must succeed. Exit status 1 if something is not so.
 """
 import argparse
 import json
@@ -64,16 +65,20 @@ class Campaign:
         self.short_log()
 
     def short_log(self):
+        self.text = self.write_log(self.short, lambda i: 0)
+
+    def write_log(self, rawlog, clock_error):
+        """A drive of 10 m and 40 s; clock_error(i): added to the stamps of step i of 200, s. Returns the text log."""
         lines = []
         for i in range(200):
-            stamp, pose = 100 + 0.2 * i, f"{0.05 * i:.3f} 0 0"
+            stamp, pose = 10000 + 0.2 * i + clock_error(i), f"{0.05 * i:.3f} 0 0"
             ranges = " ".join(f"{2 + 0.01 * ((7 * i + j) % 5):.2f}" for j in range(181))
             lines.append(f"ODOM {pose} 0.5 0 0 {stamp:.3f} robot {stamp:.3f}")
             lines.append(f"FLASER 181 {ranges} {pose} {pose} {stamp:.3f} robot {stamp:.3f}")
-        text = self.out / "short.log"
+        text = rawlog.with_suffix(".log")
         text.write_text("\n".join(lines) + "\n")
-        assert run(self.bin / "log2rawlog", text, self.short)[0] == 0
-        self.text = text
+        assert run(self.bin / "log2rawlog", text, rawlog)[0] == 0
+        return text
 
     def expect(self, condition, what):
         if not condition:
@@ -156,10 +161,10 @@ class Campaign:
         self.expect((folder / "runs/hybrid-5-1/trajectory.tum").read_bytes() == reference, "another trajectory")
         self.row("slam-compare killed", count, f"no part of a run was kept; {finished} reached the report, as did the last")
 
-    def server(self, port=0):
+    def server(self, port=0, log=LOG, rate=40, **options):
         config = self.out / "server.ini"
-        config.write_text(f"[server]\nport = {port}\nrawlog = {LOG}\nreplay_rate = 40\nwait_for_clients = 1\n")
-        child = start(self.bin / "observation-server", config, stdout=subprocess.PIPE)
+        config.write_text(f"[server]\nport = {port}\nrawlog = {log}\nreplay_rate = {rate}\nwait_for_clients = 1\n")
+        child = start(self.bin / "observation-server", config, stdout=subprocess.PIPE, **options)
         return child, int(re.search(r"(\d+)\s*$", child.stdout.readline()).group(1))
 
     def end(self, child, number=signal.SIGKILL):
@@ -167,10 +172,11 @@ class Campaign:
         _, err = child.communicate(timeout=120)
         return child.returncode, err
 
-    def live(self, port, folder):
+    def live(self, port, folder, timeout=5, **options):
         config = self.out / "live.ini"
-        config.write_text("[live]\n")
-        return start(self.bin / "hybrid-slam-live", config, "--server", f"127.0.0.1:{port}", "-q", "-n", "5", "-o", folder)
+        config.write_text(f"[live]\ntimeout = {timeout}\n")
+        return start(self.bin / "hybrid-slam-live", config, "--server", f"127.0.0.1:{port}", "-q", "-n", "5", "-o", folder,
+                     **options)
 
     def kill_lives(self, count):
         readable = recorded = 0
@@ -209,6 +215,71 @@ class Campaign:
             scans = json.loads((folder / "metrics.json").read_text())["scans"]
         self.expect(scans > 0, "no scans from restarted servers")
         self.row("observation-server killed and started again in a live run", count, f"{scans} scans mapped, exit {code}")
+
+    def unplug(self, count):
+        """Stops one of the two programs: as with an unplugged cable, packets cease and no connection is closed."""
+        server, port = self.server(rate=5)
+        folder = self.out / "unplugged"
+        live = self.live(port, folder, timeout=1.5)
+        time.sleep(2)
+        for _ in range(count):
+            stopped = self.rng.choice((server, server, live))
+            stopped.send_signal(signal.SIGSTOP)
+            time.sleep(self.rng.uniform(0.5, 4))
+            stopped.send_signal(signal.SIGCONT)
+            time.sleep(self.rng.uniform(0.5, 2.5))
+        code, err = self.end(live, signal.SIGINT)
+        self.end(server)
+        silences = err.count("silent for 1 s")
+        if self.expect(code == 0 and is_complete(folder), f"live with an unplugged network: {code} {err[-300:]}"):
+            metrics = json.loads((folder / "metrics.json").read_text())
+            self.expect(silences > 0 and metrics["scans"] > 2 * count, f"{silences} silences, {metrics['scans']} scans")
+            self.row("network unplugged for 0.5 to 4 s in a live run", count, f"{silences} connections given up after 1.5 s "
+                     f"and made again, {metrics['scans']} scans mapped, {metrics['lost_cycles']} lost, exit {code}")
+
+    def is_steady_path(self, folder):
+        """Whether a live run of the short drive, with wrong clocks, has the path of a replay with right ones."""
+        steady = self.out / "steady"
+        if not steady.exists():
+            self.expect(run(self.bin / "hybrid-slam", self.short, "-q", "-n", "5", "-o", steady)[0] == 0, "replay fails")
+        paths = [[line.split()[1:] for line in (f / "trajectory.tum").read_text().splitlines()] for f in (folder, steady)]
+        return self.expect(paths[0] == paths[1] and len(paths[0]) == 200, f"{folder.name}: another path")
+
+    def step_stamps(self, count):
+        """The clock of the robot steps by an hour, back and forth."""
+        steps, log, folder = sorted(self.rng.sample(range(1, 199), count)), self.out / "steps.rawlog", self.out / "steps"
+        self.write_log(log, lambda i: 3600 * (sum(step <= i for step in steps) % 2))
+        server, port = self.server(log=log)
+        live = self.live(port, folder)
+        _, err = live.communicate(timeout=120)
+        self.end(server)
+        if (self.expect(live.returncode == 0 and is_complete(folder), f"live with stepping stamps: {err[-300:]}")
+                and self.is_steady_path(folder)):
+            self.row("clock of the robot steps by +-1 h in a live run", count, "the path of a run with a steady clock, exit 0")
+
+    def step_clocks(self, count):
+        """The clocks of both programs step by an hour, back and forth (Debian's faketime)."""
+        library = next(iter(pathlib.Path("/usr/lib").glob("*/faketime/libfaketime.so.1")), None)
+        if library is None:
+            return print("clocks do not step: package faketime is missing")
+        clock, folder = self.out / "clock", self.out / "clocks"
+        clock.write_text("+0\n")
+        environment = {**os.environ, "LD_PRELOAD": str(library), "FAKETIME_TIMESTAMP_FILE": str(clock),
+                       "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
+        server, port = self.server(rate=10, log=self.short, env=environment)
+        live = self.live(port, folder, env=environment)
+        begin = time.monotonic()
+        for _ in range(count):
+            time.sleep(18 / count)
+            clock.write_text(self.rng.choice(("+1h\n", "-1h\n", "+0\n")))
+        _, err = live.communicate(timeout=120)
+        wall = time.monotonic() - begin
+        self.end(server)
+        self.expect(wall < 30 and "silent" not in err, f"stepping clocks: {wall:.0f} s, {err[-300:]}")
+        if (self.expect(live.returncode == 0 and is_complete(folder), f"live with stepping clocks: {err[-300:]}")
+                and self.is_steady_path(folder)):
+            self.row("clocks of both machines step by +-1 h in a live run", count,
+                     "the path of a run with steady clocks, no time-out, exit 0")
 
     def fill_disks(self, count):
         config = self.out / "simulation.ini"
@@ -255,6 +326,12 @@ class Campaign:
         self.row("output that cannot be written", 3, "one error line each")
 
 
+# Method of Campaign, and the option with its number of times.
+FAULTS = {"write_nowhere": None, "fill_disks": "limits", "kill_sessions": "kills", "kill_replays": "kills",
+          "kill_comparisons": "kills", "kill_lives": "kills", "restart_server": "restarts", "unplug": "steps",
+          "step_stamps": "steps", "step_clocks": "steps"}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
@@ -262,16 +339,14 @@ def main():
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--limits", type=int, default=20)
     parser.add_argument("--restarts", type=int, default=100)
+    parser.add_argument("--steps", type=int, default=20, help="of a clock, and unplugged cables")
+    parser.add_argument("--only", help="one of: " + ", ".join(FAULTS))
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     campaign = Campaign(arguments)
-    campaign.write_nowhere()
-    campaign.fill_disks(arguments.limits)
-    campaign.kill_sessions(arguments.kills)
-    campaign.kill_replays(arguments.kills)
-    campaign.kill_comparisons(arguments.kills)
-    campaign.kill_lives(arguments.kills)
-    campaign.restart_server(arguments.restarts)
+    for fault, times in FAULTS.items():
+        if arguments.only in (None, fault):
+            getattr(campaign, fault)(*([getattr(arguments, times)] if times else []))
     print("\n| fault | times | outcome |\n|---|---|---|")
     for row in campaign.rows:
         print("| " + " | ".join(map(str, row)) + " |")
