@@ -306,6 +306,18 @@ TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
   EXPECT_THAT(errorOf("[A]\ndriver = CNoSuchThing\nprocess_rate = 5\n"),
               HasSubstr("unknown driver `CNoSuchThing`"));
   EXPECT_THAT(errorOf("[A]\ndriver = CHokuyoURG\nCOM_port_LIN = x\n"), HasSubstr("section [A]"));
+  const std::string laser = "[L]\ndriver = CLMS100Eth\nprocess_rate = 5\n";
+  EXPECT_EQ(errorOf(laser), "no error") << "192.168.0.1";
+  for (const char* address :
+       {"127.0.0.1", "10.1.2.3", "172.16.0.1", "172.31.255.255", "192.168.1.7", "169.254.9.9"})
+    EXPECT_EQ(errorOf(laser + "ip_address = " + address + "\n"), "no error") << address;
+  for (const char* address :
+       {"8.8.8.8", "172.32.0.1", "172.15.0.1", "192.169.0.1", "laser.example", "10.1", "::1"}) {
+    const std::string error = errorOf(laser + "ip_address = " + address + "\n");
+    EXPECT_THAT(error, testing::AllOf(HasSubstr(address), HasSubstr("section [L], key `ip_address`")))
+        << address;
+    EXPECT_EQ(errorOf(laser + "ip_address = " + address + "\ntrust_address = true\n"), "no error") << address;
+  }
   const std::string pioneer = "[P]\ndriver = PioneerOdometry\n";
   EXPECT_EQ(errorOf(pioneer + "host = robot\n"), "no error");
   EXPECT_THAT(errorOf(pioneer), HasSubstr("expected exactly one of the two"));

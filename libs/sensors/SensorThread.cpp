@@ -1,5 +1,6 @@
 #include "sensors/SensorThread.h"
 
+#include <arpa/inet.h>
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/system/COutputLogger.h>
@@ -31,6 +32,24 @@ std::atomic<size_t> countLeftBehind{0};
 bool isEmptyScan(const CObservation& observation) {
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
   return scan && scan->getScanSize() == 0;
+}
+
+/// Of this machine, or reachable from the local network alone: RFC 1918 and link-local IPv4 addresses.
+bool isPrivate(const std::string& address) {
+  in_addr ip{};
+  if (::inet_pton(AF_INET, address.c_str(), &ip) != 1) return false;
+  const uint32_t bits = ntohl(ip.s_addr);
+  return bits >> 24 == 127 || bits >> 24 == 10 || bits >> 20 == 0xAC1 || bits >> 16 == 0xC0A8 ||
+         bits >> 16 == 0xA9FE;
+}
+
+/// MRPT's driver reads past its buffer if the device sends noise (doc/security.md).
+void checkLaserAddress(const mrpt::config::CConfigFileMemory& config, const std::string& section) {
+  const std::string address = config.read_string(section, "ip_address", "192.168.0.1");
+  if (isPrivate(address) || config.read_bool(section, "trust_address", false)) return;
+  throw InputError(
+      "`" + address + "` is no private address", "section [" + section + "], key `ip_address`",
+      "expected the laser in the robot's own network, such as 192.168.0.1, or trust_address = true");
 }
 
 std::string oneLine(std::string text) {
@@ -181,6 +200,7 @@ SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const 
     throw InputError(
         "unknown driver `" + work_->driver + "`", where + ", key `driver`",
         "expected PioneerOdometry or one of MRPT's, such as CLMS100Eth, CHokuyoURG, CSickLaserSerial");
+  if (work_->driver == "CLMS100Eth") checkLaserAddress(config, section);
   try {
     work_->timeOffset = config.read_double(section, "time_offset", 0);
     if (config.keyExists(section, "right_to_left"))
