@@ -26,7 +26,7 @@ laps() {
   local n
   for n in 1 2 5 10; do
     "$bin/hybrid-slam-laps" "$out/intel.rawlog" "$n" "$out/intel-$n.rawlog"
-    "$bin/hybrid-slam" "$config/paper.ini" "$out/intel-$n.rawlog" -q --overwrite -j 1 -o "$out/laps-$n" 2>/dev/null
+    "$bin/hybrid-slam" "$config/paper.ini" "$out/intel-$n.rawlog" -q --overwrite -j 1 -o "$out/laps-$n"
     awk -v n="$n" -v scans="$(metric scans "$out/laps-$n")" -v cpu="$(metric cpu_s "$out/laps-$n")" \
       -v peak="$(metric peak_rss_mb "$out/laps-$n")" -v session="$(megabytes "$out/laps-$n/session.hslam")" \
       'BEGIN { printf "| %d | %d | %.0f | %.1f | %.0f | %s |\n", n, scans, cpu, cpu / n, peak, session }'
@@ -104,7 +104,7 @@ floor_of() {
 drive_row() {
   local km=$1 name=$2 folder=$out/drive-$1-$2
   shift 2
-  "$bin/hybrid-slam" "$out/drive-$km.rawlog" "$@" -q --overwrite -j 1 -o "$folder" 2>/dev/null
+  "$bin/hybrid-slam" "$@" "$out/drive-$km.rawlog" -q --overwrite -j 1 -o "$folder"
   awk -v km="$km" -v name="$name" -v scans="$(metric scans "$folder")" -v cpu="$(metric cpu_s "$folder")" \
     -v peak="$(metric peak_rss_mb "$folder")" -v session="$(megabytes "$folder/session.hslam")" \
     -v simple="$(megabytes "$folder/map.simplemap.gz")" -v all="$(megabytes "$folder"/*)" \
