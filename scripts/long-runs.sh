@@ -6,7 +6,7 @@
 # with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
 source "$(dirname "$0")/lib.sh"
 [[ $# -gt 0 ]] || set -- laps day drive
-install_packages "${packages[@]}" time
+install_packages "${packages[@]}"
 build release hybrid-slam hybrid-slam-live hybrid-slam-laps observation-server log2rawlog simul-floorplan >&2
 bin=$PWD/build/release/bin
 config=$PWD/config-ini

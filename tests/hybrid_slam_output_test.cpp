@@ -221,8 +221,8 @@ TEST_F(HybridSlam, KilledAtAnyTimeTheFolderHasTheResultsOfOneRun) {
 }
 
 TEST_F(HybridSlam, WhereTheMapsOfMrptsFilterFillTheMemoryTheResultsEndThere) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "AddressSanitizer needs its address space";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need their address space";
 #endif
   test::Log log;
   for (int i = 0; i < 60; ++i) {  // 20 m steps to the north-east
