@@ -24,15 +24,14 @@ mrpt::maps::COccupancyGridMap2D readGridMap(const std::string& file) {
     ObjectWalk walk(in.bytes(), false, kMostGridMapBytes);
     walk.object(ObjectKind::gridMap);
     const bool hasMore = in.bytes().has(walk.at() + 1);  // to the checksum of gzip
-    if (in.isDamaged()) throw ObjectCut("");
+    if (!in.damage().empty()) throw ObjectCut("");
     if (hasMore) throw ObjectError("bytes after the map");
     const auto object = buildObject(walk.rest());
     return std::move(dynamic_cast<mrpt::maps::COccupancyGridMap2D&>(*object));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const ObjectCut&) {
-    throw InputError(in.isDamaged() ? "gzip file damaged or cut off" : "grid map cut off", file,
-                     kGridMapExpected);
+    throw InputError(in.damage().empty() ? "grid map cut off" : in.damage(), file, kGridMapExpected);
   } catch (const std::exception& e) {
     throw InputError("not a readable grid map (" + messageOf(e) + ")", file, kGridMapExpected);
   }

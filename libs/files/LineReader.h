@@ -1,23 +1,28 @@
 /// @file LineReader.h
-/// @brief The lines of a text file, plain or gzipped, one at a time.
+/// @brief The lines of a text file, plain or compressed, one at a time.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-struct gzFile_s;
-
 namespace hybrid_slam::files {
 
-/// Reads a text file as a stream with constant memory. Gzip is detected from the content, not the name.
+class CompressedFile;
+
+/// Reads a text file as a stream with constant memory. Compression (CompressedFile.h) is detected from
+/// the content, not the name.
 class LineReader {
  public:
   /// @throws InputError if the file is missing, not a file, or not readable
   explicit LineReader(const std::string& path);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
 
   /// The next line without its line break; false after the last one. The last line may lack a line break.
-  /// @throws InputError for a truncated or damaged gzip file, a read error, and a line longer than 1 MiB (no
+  /// @throws InputError for a truncated or damaged compressed file, a read error, and a line longer than 1
+  /// MiB (no
   ///         text log has one)
   bool next(std::string& line);
   /// Number of the last line read, from 1.
@@ -29,14 +34,14 @@ class LineReader {
   bool fill();
 
   std::string path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::unique_ptr<CompressedFile> file_;
   std::vector<char> buffer_;
   size_t position_ = 0, end_ = 0;  // unread part of the buffer
   size_t number_ = 0;
 };
 
-/// Whether a file, plain or gzipped, starts with text: no byte of its first 512 is zero. A rawlog has zeros
-/// there. False for an empty or unreadable file.
+/// Whether a file, plain or compressed, starts with text: no byte of its first 512 is zero. A rawlog has
+/// zeros there. False for an empty or unreadable file.
 bool isText(const std::string& path);
 
 }  // namespace hybrid_slam::files

@@ -81,7 +81,7 @@ TEST(LineReader, LinesLongerThanTheBufferAndZeroBytesPass) {
 TEST(LineReader, UnreadableFilesGiveTheReason) {
   const TemporaryFolder folder;
   EXPECT_EQ(errorOf(folder.path("none")),
-            "no such file: " + folder.path("none") + "; expected a log, plain or gzipped");
+            "no such file: " + folder.path("none") + "; expected a log, plain or compressed");
   EXPECT_THAT(errorOf(folder.path("")), HasSubstr("a folder, not a file"));
   EXPECT_THAT(errorOf(folder.write("binary", std::string(3 << 20, 'x'))),
               HasSubstr("line 1; expected lines of at most 1 MiB"));

@@ -38,7 +38,7 @@ class ObjectBytes {
 
  private:
   bool readMore() {
-    constexpr size_t kStep = 8192;  // no more than zlib buffers: it loses what it reads with an error
+    constexpr size_t kStep = 8192;
     if (!source_) return false;
     if (first_ >= kStep) {
       std::memmove(&bytes_[0], &bytes_[first_], last_ - first_);

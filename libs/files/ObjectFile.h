@@ -1,13 +1,11 @@
 /// @file ObjectFile.h
-/// @brief A file of serialised objects, plain or gzipped.
+/// @brief A file of serialised objects, plain or compressed.
 #pragma once
 
-#include <memory>
 #include <string>
 
+#include "files/CompressedFile.h"
 #include "files/ObjectBytes.h"
-
-struct gzFile_s;
 
 namespace hybrid_slam::files {
 
@@ -20,12 +18,12 @@ class ObjectFile {
   ObjectFile& operator=(const ObjectFile&) = delete;
 
   ObjectBytes& bytes() { return bytes_; }
-  /// Whether the gzip file is damaged or cut off, as far as it was read: MRPT's own gzip stream does not
+  /// "gzip file damaged or cut off", as far as it was read; else empty. MRPT's own gzip stream does not
   /// distinguish this from its end.
-  bool isDamaged() const;
+  std::string damage() const;
 
  private:
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  CompressedFile file_;
   ObjectBytes bytes_;
 };
 

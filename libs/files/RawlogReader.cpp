@@ -20,7 +20,7 @@ RawlogReader::~RawlogReader() = default;
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
   while (!isAtEnd_ && defect_.empty()) {
-    isAtEnd_ = !stream_->bytes().has(1) && !stream_->isDamaged();
+    isAtEnd_ = !stream_->bytes().has(1) && stream_->damage().empty();
     if (isAtEnd_ && entry_ == 0) throw InputError("empty file", file_, kExpected);
     if (isAtEnd_) break;
     try {
@@ -35,9 +35,9 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     } catch (const std::exception& e) {
       if (entry_ == 0) throw InputError("not a rawlog", file_, kExpected);
       const bool isCut = dynamic_cast<const ObjectCut*>(&e) != nullptr;
-      defect_ = !isCut                 ? "unreadable object (" + messageOf(e) + ")"
-                : stream_->isDamaged() ? "gzip file damaged or cut off"
-                                       : "cut off in the middle of an object";
+      defect_ = !isCut                       ? "unreadable object (" + messageOf(e) + ")"
+                : !stream_->damage().empty() ? stream_->damage()
+                                             : "cut off in the middle of an object";
     }
   }
   return nullptr;

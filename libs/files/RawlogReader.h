@@ -13,7 +13,7 @@ namespace hybrid_slam::files {
 
 class ObjectFile;
 
-/// Reads a rawlog, plain or gzipped, as a stream with constant memory. Every object is
+/// Reads a rawlog, plain or compressed, as a stream with constant memory. Every object is
 /// checked before it is built.
 class RawlogReader {
  public:

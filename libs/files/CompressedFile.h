@@ -1,0 +1,47 @@
+/// @file CompressedFile.h
+/// @brief The bytes of a file, plain or compressed.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/Decoder.h"
+
+namespace hybrid_slam::files {
+
+/// Reads a file as a stream with constant memory. Gzip, bzip2, zstd and LZ4 are detected from the content,
+/// not the name.
+class CompressedFile {
+ public:
+  /// @param expected  end of the error messages: "expected a readable log"
+  /// @throws InputError if the file is missing, not a regular file, or not readable
+  CompressedFile(const std::string& path, const std::string& expected);
+  ~CompressedFile();
+
+  /// At most `count` bytes.
+  /// @return how many; 0: the content has ended, or the file is defective from here on
+  size_t read(char* to, size_t count);
+  /// "gzip file cut off", "damaged gzip file", "cannot read"; empty while the file is intact.
+  const std::string& defect() const { return defect_; }
+  const std::string& reason() const { return reason_; }  ///< of the defect; may be empty
+  std::optional<Compression> compression() const { return compression_; }
+  void rewind();
+
+ private:
+  void refill();
+  void fail(const std::string& defect, const std::string& reason);
+
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::vector<char> buffer_;
+  std::string_view unread_;  ///< part of the buffer
+  std::optional<Compression> compression_;
+  std::unique_ptr<Decoder> decoder_;
+  bool isBetweenStreams_ = false;
+  std::string defect_, reason_;
+};
+
+}  // namespace hybrid_slam::files

@@ -1,0 +1,137 @@
+#include "files/CompressedFile.h"
+
+#include <bzlib.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <lz4frame.h>
+#include <zstd.h>
+
+#include "base/Errors.h"
+#include "files/Gzip.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam::files {
+namespace {
+
+using testing::AnyOf;
+
+constexpr Compression kAll[] = {Compression::gzip, Compression::bzip2, Compression::zstd, Compression::lz4};
+
+std::string compressed(Compression compression, const std::string& text) {
+  if (compression == Compression::gzip) return gzipped(text);
+  std::string out(2 * text.size() + 1000, '\0');
+  size_t length = out.size();
+  if (compression == Compression::bzip2) {
+    auto size = static_cast<unsigned>(out.size());
+    BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(text.data()),
+                             static_cast<unsigned>(text.size()), 1, 0, 0);
+    length = size;
+  } else if (compression == Compression::zstd) {
+    // Like the program zstd, with a checksum.
+    const std::unique_ptr<ZSTD_CCtx, size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+    length = ZSTD_compress2(context.get(), out.data(), out.size(), text.data(), text.size());
+  } else {
+    LZ4F_preferences_t preferences{};
+    preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    length = LZ4F_compressFrame(out.data(), out.size(), text.data(), text.size(), &preferences);
+  }
+  return out.substr(0, length);
+}
+
+/// Does not compress well.
+std::string noise(size_t length) {
+  std::string text;
+  for (uint64_t state = 1; text.size() < length;
+       state = state * 6364136223846793005ULL + 1442695040888963407ULL)
+    text += std::to_string(state) + "\n";
+  return text;
+}
+
+struct Outcome {
+  std::string content, defect;
+};
+
+Outcome read(const std::string& path) {
+  CompressedFile file(path, "expected a test");
+  Outcome outcome;
+  std::string block(777, '\0');
+  while (const size_t got = file.read(block.data(), block.size())) outcome.content.append(block, 0, got);
+  outcome.defect = file.defect();
+  return outcome;
+}
+
+TEST(CompressedFile, PlainBytesAreThemselves) {
+  const TemporaryFolder folder;
+  for (const std::string& text : {std::string(), std::string("BZh9 is a text"), noise(200000)}) {
+    const Outcome outcome = read(folder.write("plain", text));
+    EXPECT_EQ(outcome.content, text);
+    EXPECT_EQ(outcome.defect, "");
+  }
+}
+
+TEST(CompressedFile, ContentDecidesWhichCompression) {
+  const TemporaryFolder folder;
+  const std::string text = noise(300000);
+  for (const Compression compression : kAll) {
+    const std::string path = folder.write("any.txt", compressed(compression, text));
+    EXPECT_EQ(read(path).content, text) << nameOf(compression);
+    CompressedFile file(path, "");
+    std::string again(10, ' ');
+    file.read(again.data(), 10);
+    file.rewind();
+    file.read(again.data(), 10);
+    EXPECT_EQ(again, text.substr(0, 10));
+    EXPECT_EQ(read(folder.write("empty", compressed(compression, ""))).content, "");
+  }
+}
+
+TEST(CompressedFile, StreamsOneAfterAnotherAreOneContent) {
+  const TemporaryFolder folder;
+  for (const Compression compression : kAll) {
+    const std::string one = compressed(compression, "one"), two = compressed(compression, "two");
+    const Outcome outcome = read(folder.write("both", one + two + std::string(512, '\0')));
+    EXPECT_EQ(outcome.content, "onetwo") << nameOf(compression);
+    EXPECT_EQ(outcome.defect, "");
+  }
+}
+
+TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {
+  const TemporaryFolder folder;
+  const std::string text = noise(300000);
+  for (const Compression compression : kAll) {
+    const std::string bytes = compressed(compression, text);
+    for (const size_t kept : {size_t{12}, bytes.size() / 2, bytes.size() - 1}) {
+      const Outcome outcome = read(folder.write("cut", bytes.substr(0, kept)));
+      EXPECT_EQ(outcome.content, text.substr(0, outcome.content.size()));
+      EXPECT_EQ(outcome.defect, std::string(nameOf(compression)) + " file cut off") << kept;
+    }
+  }
+}
+
+TEST(CompressedFile, DamageIsFound) {
+  const TemporaryFolder folder;
+  for (const Compression compression : kAll) {
+    std::string bytes = compressed(compression, noise(100000));
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+    const std::string name = nameOf(compression);
+    EXPECT_THAT(read(folder.write("damaged", bytes)).defect,
+                AnyOf("damaged " + name + " file", name + " file cut off"));
+  }
+}
+
+TEST(CompressedFile, ContentInMemoryMustHaveTheSizeThatIsClaimed) {
+  const std::string text = noise(3000000);
+  for (const Compression compression : kAll) {
+    const std::string bytes = compressed(compression, text);
+    EXPECT_EQ(decoded(compression, bytes, text.size()), text) << nameOf(compression);
+    EXPECT_THROW(decoded(compression, bytes, text.size() - 1), Damaged);
+    EXPECT_THROW(decoded(compression, bytes, text.size() + 1), Damaged);
+    EXPECT_THROW(decoded(compression, bytes.substr(0, bytes.size() - 2), text.size()), Damaged);
+    EXPECT_THROW(decoded(compression, "not compressed", size_t{1} << 40), Damaged);
+    EXPECT_THROW(decoded(compression, "", 0), Damaged);
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files
