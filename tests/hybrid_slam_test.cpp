@@ -308,14 +308,13 @@ TEST_F(HybridSlam, TheIniFileIsOptional) {
 /// is ahead of the robot's centre: both have to come out the same.
 std::string carmenLog() {
   std::ostringstream log;
-  log << "# made for a test\nPARAM robot_frontlaser_offset 0.4\nFLASER 180 broken\n";
+  log << "# made for a test\nPARAM robot_frontlaser_offset 0.1\nFLASER 180 broken\n";
   for (int i = 0; i < 40; ++i) {
     const double x = 0.25 * i - 4.5;
     log << "FLASER 180";
     for (int beam = 0; beam < 180; ++beam)
       log << ' ' << 0.01 * std::round(100 * test::rangeInRoom(x + 0.4, 0.3, (beam - 90) * M_PI / 180));
-    const std::string pose = std::to_string(x) + " 0.3 0 ";
-    log << ' ' << pose << pose << 1000 + i << " host " << i << '\n';
+    log << ' ' << std::to_string(x + 0.4) << " 0.3 0 " << std::to_string(x) << " 0.3 0 " << 1000 + i << " host " << i << '\n';
   }
   return log.str();
 }

@@ -1,5 +1,6 @@
 /// @file CarmenLog.cpp
-/// @brief CARMEN's logger: rows `ODOM`, `FLASER`, `RLASER`, `ROBOTLASER1`, `PARAM`.
+/// @brief CARMEN's logger: rows `ODOM`, of its lasers, and `PARAM`.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -30,17 +31,45 @@ class FrontLaserMounting {
   bool agree_ = true;
 };
 
+/// Rows of a laser, the most useful first. A log may hold the same scan in rows of two kinds.
+enum class Rows {
+  posed,     ///< with the robot's pose: FLASER, RLASER, ROBOTLASERn
+  mounted,   ///< LASERn and RAWLASERn of the front (1) and the rear laser (2)
+  unmounted  ///< LASERn and RAWLASERn of others: the log does not tell where on the robot they are
+};
+
+/// `LASER3`: 3; 0 for another name.
+int laserNumber(std::string_view name, std::string_view kind) {
+  const bool isKind = name.size() == kind.size() + 1 && name.substr(0, kind.size()) == kind;
+  return isKind && name.back() >= '1' && name.back() <= '9' ? name.back() - '0' : 0;
+}
+
+std::optional<Rows> rowsOf(std::string_view name) {
+  if (name == "FLASER" || name == "RLASER" || laserNumber(name, "ROBOTLASER") > 0) return Rows::posed;
+  const int number = std::max(laserNumber(name, "LASER"), laserNumber(name, "RAWLASER"));
+  if (number == 0) return std::nullopt;
+  return number <= 2 ? Rows::mounted : Rows::unmounted;
+}
+
 class CarmenParser : public LogParser {
  public:
   using LogParser::LogParser;
+  void preview(std::string_view line) override;
 
  private:
   LogRecord record(std::string_view name, LogFields& fields) override;
   LogRecord laser(std::string_view name, LogFields& fields);
+  LogRecord plainLaser(std::string_view name, LogFields& fields) const;
+  LogRecord rawLaser(std::string_view name, LogFields& fields) const;
   LogRecord robotLaser(std::string_view name, LogFields& fields) const;
+  /// The laser's configuration and ranges, up to its remissions.
+  static LaserRecord configuredScan(std::string_view name, LogFields& fields);
+  /// Of the laser with this number.
+  mrpt::math::TPose2D mounting(int number) const;
   void parameter(LogFields& fields);
   double time(LogFields& fields) const;
 
+  Rows used_ = Rows::unmounted;              ///< rows of later kinds are skipped
   double frontOffset_ = 0, rearOffset_ = 0;  ///< m, of the lasers ahead of the robot's centre, by `PARAM`
   FrontLaserMounting frontMounting_;
 };
@@ -54,13 +83,27 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
     row.time = time(fields);
     return row;
   }
+  const auto rows = rowsOf(name);
+  if (rows && *rows > used_) return otherRecord(name);
   if (name == "FLASER" || name == "RLASER") return laser(name, fields);
-  if (name == "ROBOTLASER1") return robotLaser(name, fields);
+  if (rows == Rows::posed) return robotLaser(name, fields);
+  if (rows) return laserNumber(name, "LASER") > 0 ? plainLaser(name, fields) : rawLaser(name, fields);
   if (name == "PARAM") {
     parameter(fields);
     return {};
   }
   return otherRecord(name);
+}
+
+void CarmenParser::preview(std::string_view line) {
+  LogFields fields(line);
+  if (const auto rows = fields.empty() ? std::nullopt : rowsOf(fields.word())) used_ = std::min(used_, *rows);
+}
+
+mrpt::math::TPose2D CarmenParser::mounting(int number) const {
+  if (number == 1) return {options_.laserX.value_or(frontOffset_), 0, 0};
+  if (number == 2) return {rearOffset_, 0, M_PI};
+  return {};
 }
 
 LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
@@ -72,18 +115,33 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
-  if (name == "RLASER")
-    record.laserPose = {rearOffset_, 0,
-                        M_PI};  // logs differ in whether the row's heading includes the half turn
-  else if (options_.laserX)
-    record.laserPose = {*options_.laserX, 0, 0};
-  else
-    record.laserPose =
-        frontMounting_.of(laser, *record.odometry).value_or(mrpt::math::TPose2D(frontOffset_, 0, 0));
+  // Logs differ in whether the heading of a rear laser's row includes the half turn: PARAM tells where it is.
+  record.laserPose = mounting(name == "RLASER" ? 2 : 1);
+  if (name == "FLASER" && !options_.laserX)
+    record.laserPose = frontMounting_.of(laser, *record.odometry).value_or(record.laserPose);
   return record;
 }
 
-LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) const {
+LogRecord CarmenParser::plainLaser(std::string_view name, LogFields& fields) const {
+  const size_t beams = fields.count(1);
+  fields.expectLeft(beams + 3, std::to_string(beams) + " ranges, ipc_time host logger_time");
+  LaserRecord record = scan(name, beams, fields);
+  record.time = time(fields);
+  record.laserPose = mounting(laserNumber(name, "LASER"));
+  return record;
+}
+
+LogRecord CarmenParser::rawLaser(std::string_view name, LogFields& fields) const {
+  LaserRecord record = configuredScan(name, fields);
+  const size_t remissions = fields.count(0);
+  fields.expectLeft(remissions + 3, std::to_string(remissions) + " remissions, ipc_time host logger_time");
+  fields.skip(remissions);
+  record.time = time(fields);
+  record.laserPose = mounting(laserNumber(name, "RAWLASER"));
+  return record;
+}
+
+LaserRecord CarmenParser::configuredScan(std::string_view name, LogFields& fields) {
   LaserRecord record;
   record.label = name;
   fields.number();  // laser type
@@ -97,6 +155,11 @@ LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) con
   const size_t beams = fields.count(1);
   if (fields.left() <= beams) throw BrokenLine("truncated line: " + std::to_string(beams) + " ranges");
   record.ranges = ranges(beams, fields);
+  return record;
+}
+
+LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) const {
+  LaserRecord record = configuredScan(name, fields);
   const size_t remissions = fields.count(0);
   fields.expectLeft(remissions + 14, std::to_string(remissions) +
                                          " remissions, the laser's and the robot's pose, tv rv, three safety "
@@ -126,13 +189,12 @@ double CarmenParser::time(LogFields& fields) const {
 
 bool isCarmen(std::string_view name, size_t fields) {
   // x y theta tv rv acceleration ipc_time host logger_time
-  return (name == "ODOM" && fields == 9) || name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" ||
-         name == "PARAM";
+  return (name == "ODOM" && fields == 9) || rowsOf(name) || name == "PARAM";
 }
 
 }  // namespace
 
-const LogFormat kCarmenLog{"carmen", "CARMEN", "FLASER, RLASER, ROBOTLASER1",
+const LogFormat kCarmenLog{"carmen", "CARMEN", "FLASER, RLASER, LASER1-9, RAWLASER1-9, ROBOTLASER1-9",
                            80,       isCarmen, makeParser<CarmenParser>};
 
 }  // namespace hybrid_slam::readings

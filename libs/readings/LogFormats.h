@@ -21,9 +21,11 @@ struct LogFormat {
   std::unique_ptr<LogParser> (*makeParser)(const LogParserOptions& options);
 };
 
-extern const LogFormat kCarmenLog, kGfsLog, kDpslamLog;
+extern const LogFormat kCarmenLog, kGfsLog, kDpslamLog, kTinyslamLog;
 /// All formats, in the order in which they are tried.
-inline std::vector<const LogFormat*> logFormats() { return {&kCarmenLog, &kGfsLog, &kDpslamLog}; }
+inline std::vector<const LogFormat*> logFormats() {
+  return {&kCarmenLog, &kGfsLog, &kDpslamLog, &kTinyslamLog};
+}
 
 /// The format that a line implies; null if it could be in any.
 const LogFormat* formatOf(std::string_view line);

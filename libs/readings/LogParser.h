@@ -64,6 +64,9 @@ class LogParser {
   /// @throws BrokenLine for a wrong number of fields, a field that is not a number, no ranges, or a number of
   ///         beams with unknown angles
   LogRecord parse(std::string_view line);
+  /// Called for the first lines of a log (kPreviewLines), before they are parsed.
+  virtual void preview(std::string_view /*line*/) {}
+  static constexpr size_t kPreviewLines = 2000;
 
  protected:
   /// @param fields  those after the record's name

@@ -151,7 +151,62 @@ TEST(LogParserCarmen, CommentsBlanksAndOtherRecordsAreSkipped) {
   for (const char* line : {"", "   \t\r", "# message_name [message contents]", "#FLASER 1"})
     parseAs<std::monostate>(formatNamed("carmen"), line);
   EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "SYNC tag 0 host 0").name, "SYNC");
-  EXPECT_EQ(parseAs<OtherRecord>(formatNamed("carmen"), "RAWLASER2 0 1 2").name, "RAWLASER2");
+}
+
+/// CARMEN logs the same scan as RAWLASER1 and, with the robot's pose, as ROBOTLASER1.
+TEST(LogParserCarmen, LasersWithoutThePoseOfTheRobotAreUsedWhereThereAreNoOthers) {
+  const std::string raw = "RAWLASER2 0 -1.0 2.0 0.5 30.0 0.01 0 3 4 5 6 1 17 100.25 host 7.5";
+  const std::string plain = "LASER3 3 1 2 3 100.5 host 7.5";
+  const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+  parser->parse("PARAM robot_rearlaser_offset -0.25 nohost 0");
+  auto record = parseAs<LaserRecord>(*parser, raw);
+  EXPECT_EQ(record.label, "RAWLASER2");
+  EXPECT_EQ(record.time, 100.25);
+  EXPECT_THAT(record.ranges, ElementsAre(4, 5, 6));
+  EXPECT_EQ(record.angles.first, -1.0);
+  EXPECT_EQ(record.maxRange, 30.0);
+  EXPECT_FALSE(record.odometry);
+  expectPose(record.laserPose, -0.25, 0, M_PI);
+  record = parseAs<LaserRecord>(*parser, plain);
+  EXPECT_EQ(record.label, "LASER3");
+  EXPECT_THAT(record.ranges, ElementsAre(1, 2, 3));
+  expectPose(record.laserPose, 0, 0, 0);
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), "LASER3 3 1 2 100.5 host 7.5"), HasSubstr("fields where"));
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), raw + " 1"), HasSubstr("fields where"));
+
+  parser->preview(raw);  // where on the robot LASER3 is, the log does not tell
+  parseAs<LaserRecord>(*parser, raw);
+  EXPECT_EQ(parseAs<OtherRecord>(*parser, plain).name, "LASER3");
+  parser->preview(kFlaser);
+  EXPECT_EQ(parseAs<OtherRecord>(*parser, raw).name, "RAWLASER2");
+  parseAs<LaserRecord>(*parser, kFlaser);
+}
+
+std::string tinyslamRow(int microseconds, int left, int right) {
+  std::string row =
+      std::to_string(microseconds) + " 14554 " + std::to_string(left) + " " + std::to_string(right);
+  for (int i = 4; i < 24; ++i) row += " 7";
+  for (int i = 0; i < 683; ++i) row += i == 341 ? " 1500" : " 0";
+  return row;
+}
+
+/// A wheel turns once in 2000 ticks, 2 pi 0.077 m; the wheels are 0.33 m apart.
+TEST(LogParserTinyslam, OdometryIsThatOfTheWheels) {
+  const auto parser = formatNamed("tinyslam")->makeParser({});
+  const auto first = parseAs<LaserRecord>(*parser, tinyslamRow(1500000, 234835, 231727));
+  EXPECT_EQ(first.time, 1.5);
+  EXPECT_EQ(first.ranges.size(), 682u);
+  EXPECT_FLOAT_EQ(first.ranges[341], 1.5f);
+  EXPECT_NEAR(first.angles.first + 341 * first.angles.step, 0, 1e-12);
+  expectPose(first.laserPose, 0.145, 0, 0);
+  expectPose(*first.odometry, 0, 0, 0);
+  expectPose(*parseAs<LaserRecord>(*parser, tinyslamRow(1600000, 236835, 233727)).odometry, 2 * M_PI * 0.077,
+             0, 0);
+  const auto turned = parseAs<LaserRecord>(*parser, tinyslamRow(1700000, 236735, 233827));
+  expectPose(*turned.odometry, 2 * M_PI * 0.077, 0, 0.2 * M_PI * 0.077 / 0.33);
+  EXPECT_THAT(whyBroken(formatNamed("tinyslam"), "1 2 3 4"), HasSubstr("fields where"));
+  EXPECT_EQ(formatOf(tinyslamRow(1, 2, 3)), formatNamed("tinyslam"));
+  EXPECT_EQ(formatOf(tinyslamRow(1, 2, 3) + " 0"), nullptr);
 }
 
 TEST(LogParserCarmen, WindowsLineEndsAndTabsAreAccepted) {

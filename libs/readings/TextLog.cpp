@@ -50,6 +50,13 @@ std::string formatList() {
   return all;
 }
 
+/// Shows the parser how the log begins.
+void preview(files::LineReader& lines, LogParser& parser) {
+  std::string line;
+  for (size_t i = 0; i < LogParser::kPreviewLines && lines.next(line); ++i) parser.preview(line);
+  lines.rewind();
+}
+
 const LogFormat* recogniseFormat(files::LineReader& lines) {
   std::string line;
   while (lines.next(line)) {
@@ -147,6 +154,7 @@ TextLog::TextLog(const std::string& file, const LogConversionOptions& options, B
     : lines_(file), strict_(options.strict), report_(std::move(report)) {
   const LogFormat* const format = options.format ? options.format : recogniseFormat(lines_);
   parser_ = format->makeParser(options);
+  preview(lines_, *parser_);
   conversion_ = std::make_unique<Conversion>(ready_, options.maxRange.value_or(format->maxRange),
                                              options.actionObservation);
   conversion_->summary.format = format;
