@@ -29,6 +29,8 @@ struct InputFiles {
 
 /// The log's formats, for --help.
 inline const char* const kLogMeans =
-    "rawlog, or text log of CARMEN, GMapping (.gfs) or DP-SLAM; plain or gzipped";
+    "rawlog, bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, GMapping (.gfs), "
+    "DP-SLAM "
+    "or tinySLAM; plain or compressed with gzip, bzip2, zstd or LZ4";
 
 }  // namespace hybrid_slam

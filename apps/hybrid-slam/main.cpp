@@ -10,6 +10,7 @@
 #include "SessionArguments.h"
 #include "Settings.h"
 #include "Stop.h"
+#include "TopicArguments.h"
 #include "run/Replay.h"
 
 namespace {
@@ -20,6 +21,7 @@ struct CommandLine {
   InputFiles files;
   std::string output;
   FilterArguments filter;
+  TopicArguments topics;
   SessionArguments session;
   std::vector<std::string> settings;
   int refine = 0;
@@ -37,6 +39,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--refine", line.refine,
                  "after the run, match every scan to the final map and rebuild the map, N times")
       ->type_name("N");
+  line.topics.add(app);
   line.session.addResume(app);
   line.session.addMap(app);
   addSettings(app, line.settings);
@@ -60,6 +63,7 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   if (!line.files.log.empty()) set(settings, "run.rawlog", line.files.log);
   if (!line.output.empty()) set(settings, "run.output", line.output);
   line.filter.addTo(settings, app);
+  line.topics.addTo(settings);
   if (app.count("--refine")) set(settings, "run.refine", std::to_string(line.refine));
   return settings;
 }
@@ -77,6 +81,10 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (configuration.run.rawlog.empty() && line.session.resume.empty())
     return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
   warn(configuration.warnings);
+  if (line.topics.wantsList) {
+    printTopics(configuration.run.rawlog);
+    return 0;
+  }
   const auto outcome = run::replay(configuration, line.isQuiet, stop, line.wantsProfile);
   warn(outcome.warnings);
   if (!line.isQuiet) std::cout << outcome.summary << "\n" << outcome.verdict.line() << "\n";

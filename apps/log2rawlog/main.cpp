@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief log2rawlog: CARMEN, GMapping and DP-SLAM logs to rawlogs, with their own timestamps.
+/// @brief log2rawlog: text logs and bags to rawlogs, with their own timestamps.
 #include <mrpt/core/bits_math.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,9 @@
 #include <map>
 #include <optional>
 
+#include "InputFiles.h"
 #include "Program.h"
+#include "TopicArguments.h"
 #include "base/Numbers.h"
 #include "readings/LogConversion.h"
 
@@ -29,10 +31,10 @@ CLI::Validator within(double low, double high) {
           range};
 }
 
-void printSummary(const std::string& output, const readings::LogSummary& s) {
-  std::printf("%s: %s log, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken lines",
-              output.c_str(), s.format->name, s.scans, s.odometryReadings, s.latest - s.earliest,
-              s.pathLength, s.brokenLines);
+void printSummary(const std::string& output, const readings::LogSummary& s, bool isBag) {
+  std::printf("%s: %s%s, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken %s",
+              output.c_str(), s.format.c_str(), isBag ? "" : " log", s.scans, s.odometryReadings,
+              s.latest - s.earliest, s.pathLength, s.brokenLines, isBag ? "messages" : "lines");
   const char* separator = "; skipped: ";
   for (const auto& [name, count] : s.otherRecords) {
     std::printf("%s%zu %s", separator, count, name.c_str());
@@ -50,11 +52,11 @@ void warnOfShortMode(const std::string& input, float longestRange) {
             << "; --max-range 8.18 drops them\n";
 }
 
-void warnOfJumps(const std::string& input, const readings::LogSummary& s) {
-  const auto warnOf = [&input](size_t count, const std::string& what, size_t line) {
+void warnOfJumps(const std::string& input, const readings::LogSummary& s, const std::string& unit) {
+  const auto warnOf = [&](size_t count, const std::string& what, size_t number) {
     if (count > 0)
-      warn({std::to_string(count) + " " + what + ": first in " + input + ", line " + std::to_string(line) +
-            "; kept as logged"});
+      warn({std::to_string(count) + " " + what + ": first in " + input + ", " + unit + " " +
+            std::to_string(number) + "; kept as logged"});
   };
   warnOf(s.odometryJumps, "odometry jumps of over 100 m", s.firstOdometryJump);
   warnOf(s.timeJumps, "time jumps of over a day", s.firstTimeJump);
@@ -69,11 +71,12 @@ int convert(int argc, char** argv) {
   std::vector<std::string> keys;
   for (const readings::LogFormat* known : readings::logFormats()) keys.push_back(known->key);
 
-  CLI::App app{
-      "Converts a robot's text log (CARMEN, GMapping .gfs, DP-SLAM; plain or gzipped) into a rawlog."};
+  TopicArguments topics;
+  CLI::App app{"Converts a robot's log into a rawlog."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
-  app.add_option("input", input, "the log")->required()->type_name("in.clf[.gz]");
-  app.add_option("output", output, "the rawlog to write")->required()->type_name("out.rawlog");
+  app.add_option("input", input, kLogMeans)->required()->type_name("in.clf[.gz]|in.bag|...");
+  app.add_option("output", output, "the rawlog to write")->type_name("out.rawlog");
+  topics.add(app);
   app.add_option("--format", format, "log format (default: detected from the content)")
       ->check(CLI::IsMember(keys));
   app.add_option("--time", time,
@@ -101,21 +104,32 @@ int convert(int argc, char** argv) {
       ->check(within(-100., 100.));
   app.add_flag("--action-observation", options.actionObservation,
                "write (action, sensory frame) pairs instead of one observation per row");
-  app.add_flag("--strict", options.strict, "stop at the first broken line");
+  app.add_flag("--strict", options.strict,
+               "stop at the first broken line or message, and at the cut of a bag");
 
   if (const auto code = parse(app, argc, argv)) return *code;
   options.format = readings::formatNamed(format);  // null: detected
   options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
   if (angularStepDeg) options.angularStep = mrpt::DEG2RAD(*angularStepDeg);
 
-  const auto summary =
-      readings::convertLog(input, output, options, [&input](size_t number, const std::string& why) {
-        std::cerr << "log2rawlog: warning: broken line: " << input << ", line " << number << "; " << why
-                  << '\n';
-      });
+  if (topics.wantsList) {
+    printTopics(input);
+    return 0;
+  }
+  if (output.empty()) throw InputError("no output", "command line", "expected log2rawlog LOG out.rawlog");
+
+  const bool isBag = bags::isBag(input);
+  const std::string unit = isBag ? "message" : "line";
+  const auto report = [&](size_t number, const std::string& why) {
+    warn({"broken " + unit + ": " + input + ", " + unit + " " + std::to_string(number) + "; " + why});
+  };
+  const auto summary = readings::convertLog(input, output, options, report, topics.bag);
+  warn(summary.notes);
+  if (!summary.defect.empty())
+    warn({summary.format + " " + summary.defect + ": " + input + "; converted up to this point"});
   warnOfShortMode(input, summary.longestRange);
-  warnOfJumps(input, summary);
-  printSummary(output, summary);
+  warnOfJumps(input, summary, unit);
+  printSummary(output, summary, isBag);
   return 0;
 }
 

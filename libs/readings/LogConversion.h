@@ -1,18 +1,21 @@
 /// @file LogConversion.h
-/// @brief Converts a robot's text log into a rawlog.
+/// @brief Converts a robot's text log or bag into a rawlog.
 #pragma once
 
 #include <string>
 
+#include "readings/BagPlan.h"
 #include "readings/TextLog.h"
 
 namespace hybrid_slam::readings {
 
-/// Converts `logPath` (plain or gzipped) into the rawlog `rawlogPath`, whose objects are those of TextLog.
+/// Converts `logPath` (plain or compressed) into the rawlog `rawlogPath`, whose objects are those of TextLog
+/// or BagLog. A bag that is cut or damaged is converted up to there, unless `strict` (LogSummary::defect).
 ///
 /// @throws InputError for an input that is missing, unreadable, truncated, not a log, or without scans, for
 ///         an unwritable output, and for a broken line if `strict`; no file is then left at `rawlogPath`
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
-                      const LogConversionOptions& options, const BrokenLineReport& report);
+                      const LogConversionOptions& options, const BrokenLineReport& report,
+                      const BagOptions& bag = {});
 
 }  // namespace hybrid_slam::readings

@@ -197,7 +197,7 @@ TEST(LogConversion, DpslamsLaserEndsAtEightMetres) {
   EXPECT_THAT(result.entries(), ElementsAre("ODOMETRY 0", "LASER 0", "ODOMETRY 1", "LASER 1"));
   EXPECT_THAT(validity(*result.scan(1)), ElementsAre(true, false, true));
   EXPECT_NEAR(result.scan(1)->sensorPose.x(), 0.4, 1e-12);
-  EXPECT_EQ(result.summary.format, formatNamed("dpslam"));
+  EXPECT_EQ(result.summary.format, "DP-SLAM");
 }
 
 TEST(LogConversion, GfsLogFromItsContent) {
@@ -213,7 +213,7 @@ TEST(LogConversion, GfsLogFromItsContent) {
   EXPECT_THAT(result.entries(), ElementsAre("ODOMETRY 100", "ODOMETRY 100", "ODOMETRY 101",
                                             "LASER_READING 101", "ODOMETRY 102"));
   EXPECT_THAT(validity(*result.scan(3)), ElementsAre(true, true, false));
-  EXPECT_EQ(result.summary.format, formatNamed("gfs"));
+  EXPECT_EQ(result.summary.format, "GMapping .gfs");
   EXPECT_EQ(result.summary.otherRecords.at("FRAME"), 2u);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
+#include <mrpt/math/TPose3D.h>
 
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ struct LaserRecord {
   std::vector<float> ranges;  ///< m, as logged: no return, NaN and negative readings included
   BeamAngles angles;
   mrpt::math::TPose2D laserPose;                ///< in the robot frame
+  std::optional<mrpt::math::TPose3D> mounting;  ///< instead of laserPose, where its height and tilt are known
+  double minRange = 0;                          ///< m; nearer readings are no returns
   std::optional<double> maxRange;               ///< m, if in the row
   std::optional<mrpt::math::TPose2D> odometry;  ///< the robot at the scan's time, if in the row
 };

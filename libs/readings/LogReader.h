@@ -1,5 +1,5 @@
 /// @file LogReader.h
-/// @brief The objects of a log in any format that can be replayed: a rawlog, or a robot's text log.
+/// @brief The objects of a log in any format that can be replayed: a rawlog, a robot's text log, a bag.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
@@ -13,14 +13,18 @@ class RawlogReader;
 
 namespace hybrid_slam::readings {
 
+class BagLog;
 class TextLog;
+struct BagPlan;
 
-/// Reads a log, plain or gzipped, as a stream. The format is detected from the content. A text log gives the
-/// objects that log2rawlog writes without options.
+/// Reads a log, plain or compressed, as a stream. The format is detected from the content. A text log or bag
+/// gives the objects that log2rawlog writes without options.
 class LogReader {
  public:
-  /// @throws InputError if the file is missing or unreadable, or if a text file is not a log
-  explicit LogReader(const std::string& file);
+  /// @param plan  of a bag; null: what is clear
+  /// @throws InputError if the file is missing or unreadable, if a text file is not a log, or if it is not
+  ///         clear what to use of a bag
+  explicit LogReader(const std::string& file, std::shared_ptr<const BagPlan> plan = nullptr);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
@@ -30,17 +34,18 @@ class LogReader {
   mrpt::serialization::CSerializable::Ptr next();
 
   size_t entry() const;               ///< of the last object: its number, or its line's
-  const char* unit() const;           ///< of `entry`: "entry" or "line"
+  const char* unit() const;           ///< of `entry`: "entry", "line" or "message"
   const std::string& defect() const;  ///< empty for an intact log
-  /// Null for a text log.
+  /// Null for a text log or bag.
   const files::RawlogReader* rawlog() const { return rawlog_.get(); }
-  size_t brokenLines() const { return brokenLines_; }  ///< of a text log, skipped
-  size_t firstBroken() const { return firstBroken_; }  ///< line of the first
+  size_t brokenLines() const { return brokenLines_; }  ///< of a text log, or messages of a bag; skipped
+  size_t firstBroken() const { return firstBroken_; }  ///< number of the first
 
  private:
   std::string file_;
   std::unique_ptr<files::RawlogReader> rawlog_;
   std::unique_ptr<TextLog> text_;
+  std::unique_ptr<BagLog> bag_;
   std::string textDefect_;
   size_t brokenLines_ = 0, firstBroken_ = 0;
 };

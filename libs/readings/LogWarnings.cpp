@@ -1,5 +1,7 @@
 #include "readings/LogWarnings.h"
 
+#include "readings/BagPlan.h"
+
 namespace hybrid_slam::readings {
 
 std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string& file) {
@@ -9,7 +11,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
       all.push_back(std::to_string(odd.count) + " " + what + ": first at " + log.unit + " " +
                     std::to_string(odd.first) + " of " + file + "; " + done);
   };
-  add(log.brokenLines, "broken lines", "skipped");
+  add(log.brokenLines, "broken " + log.unit + "s", "skipped");
   add(log.passedOver, "observations of classes that are not read (" + log.passedOverClasses + ")", "skipped");
   add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
   add(log.misplaced, "scans with a sensor pose over 100 m from the robot", "skipped");
@@ -20,6 +22,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
   add(log.noOdometry, "actions without odometry", "taken as no motion");
   add(log.jumps, "odometry jumps of over 100 m", "taken as no motion");
+  if (log.bag) all.insert(all.end(), log.bag->notes.begin(), log.bag->notes.end());
   all.insert(all.end(), log.ignored.begin(), log.ignored.end());
   return all;
 }

@@ -7,6 +7,7 @@
 
 #include "base/Errors.h"
 #include "files/RawlogReader.h"
+#include "readings/BagPlan.h"
 #include "readings/Timestamps.h"
 
 namespace hybrid_slam::readings {
@@ -50,7 +51,10 @@ void noteIgnored(RawlogSummary& summary, const Uses& lasers) {
 
 void InputOptions::describe(OptionTable& t) {
   t.add("sensor_label", sensorLabel,
-        "label of the laser to use, or a list `FRONT, REAR`; empty: all that are mounted horizontally");
+        "label of the laser to use (bag: topic), or a list `FRONT, REAR`; empty: all that are mounted "
+        "horizontally");
+  t.add("odometry_topic", odometryTopic,
+        "bag: topic of the odometry; empty: the only one, or the transforms");
   t.add("require_odometry", requireOdometry,
         "false: odometry is ignored; motion is predicted from the previous step and corrected by scan "
         "matching");
@@ -62,7 +66,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                         const std::function<bool()>& isStopped) {
   RawlogSummary summary;
   const std::vector<std::string> wanted = labelsOf(options.sensorLabel);
-  LogReader reader(file);
+  if (bags::isBag(file))
+    summary.bag =
+        std::make_shared<const BagPlan>(planOf(contentsOf(file), {wanted, options.odometryTopic}, file));
+  LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
   ScanGrouper grouper(wanted, options.maxOdometryGap);
   Uses uses;
@@ -152,7 +159,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : file_(file),
-      reader_(file),
+      reader_(file, summary.bag),
       assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap) {}
 
 std::string RawlogSource::place() const { return placeOf(reader_, file_); }

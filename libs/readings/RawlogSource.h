@@ -1,8 +1,9 @@
 /// @file RawlogSource.h
-/// @brief Scans with odometry from a rawlog, in either format, or a text log.
+/// @brief Scans with odometry from a rawlog, in either format, a text log, or a bag.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,9 +13,12 @@
 
 namespace hybrid_slam::readings {
 
+struct BagPlan;
+
 /// Section [input].
 struct InputOptions : Options {
-  std::string sensorLabel;  ///< list of labels, see labelsOf
+  std::string sensorLabel;    ///< list of labels, see labelsOf; of a bag: topics
+  std::string odometryTopic;  ///< of a bag
   bool requireOdometry = true;
   double maxOdometryGap = 1;
   void describe(OptionTable& table) override;
@@ -34,15 +38,16 @@ struct RawlogSummary {
   Oddity wrongOdometry;                                                   ///< NaN or infinite
   Oddity noOdometry;                                                      ///< actions
   Oddity jumps;                                                           ///< of the odometry, over kMaxStep
-  Oddity brokenLines;                                                     ///< of a text log
+  Oddity brokenLines;             ///< of a text log; messages of a bag
   Oddity passedOver;              ///< observations of classes that are not read
   std::string passedOverClasses;  ///< a list
   bool hasActions = false, hasOdometryReadings = false;
-  bool hasMotion = false;  ///< the odometry changes
-  double duration = 0;     ///< s, from the earliest scan to the latest
-  size_t entries = 0;      ///< lines of a text log
-  std::string unit;        ///< of `entries` and `Oddity::first`: "entry" or "line"
-  std::string defect;      ///< how the log is truncated; empty if complete
+  bool hasMotion = false;              ///< the odometry changes
+  double duration = 0;                 ///< s, from the earliest scan to the latest
+  size_t entries = 0;                  ///< lines of a text log, messages of a bag
+  std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"
+  std::shared_ptr<const BagPlan> bag;  ///< what is used of a bag; null for other logs
+  std::string defect;                  ///< how the log is truncated; empty if complete
   /// Scans and odometry readings that are not used because they cannot be true.
   size_t skippedReadings() const {
     return empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;

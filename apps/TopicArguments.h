@@ -1,0 +1,48 @@
+/// @file TopicArguments.h
+/// @brief Command-line options that choose the topics of a bag.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "Settings.h"
+#include "base/Errors.h"
+#include "readings/BagPlan.h"
+
+namespace hybrid_slam {
+
+struct TopicArguments {
+  readings::BagOptions bag;
+  bool wantsList = false;
+
+  /// --topic, --odometry-topic, --list
+  void add(CLI::App& app) {
+    app.add_option("--topic", bag.topics,
+                   "bag: topic of a laser's scans, repeatable (default: what is clear)")
+        ->type_name("TOPIC")
+        ->allow_extra_args(false);
+    app.add_option("--odometry-topic", bag.odometryTopic,
+                   "bag: topic of the odometry, nav_msgs/Odometry or transforms (default: what is clear)")
+        ->type_name("TOPIC");
+    app.add_flag("--list", wantsList, "print the topics of a bag: messages, name, type");
+  }
+  /// Appends the given options to the settings.
+  void addTo(std::vector<std::string>& settings) const {
+    std::string labels;
+    for (const std::string& topic : bag.topics) labels += (labels.empty() ? "" : ", ") + topic;
+    if (!labels.empty()) set(settings, "input.sensor_label", labels);
+    if (!bag.odometryTopic.empty()) set(settings, "input.odometry_topic", bag.odometryTopic);
+  }
+};
+
+/// Prints the topics of a bag, and on standard error why they are incomplete.
+inline void printTopics(const std::string& file) {
+  const readings::BagContents contents = readings::contentsOf(file);
+  std::cout << contents.table();
+  if (!contents.defect.empty())
+    throw InputError(contents.defect, file, "the list covers the bag up to this point");
+}
+
+}  // namespace hybrid_slam

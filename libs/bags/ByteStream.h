@@ -1,0 +1,36 @@
+/// @file ByteStream.h
+/// @brief The bytes of a file as records, whose lengths may be wrong.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "files/CompressedFile.h"
+
+namespace hybrid_slam::bags {
+
+class ByteStream {
+ public:
+  /// @throws InputError if the file is missing or unreadable
+  explicit ByteStream(const std::string& path);
+
+  bool isAtEnd();
+  /// Memory grows with the bytes that the file has, not with `count`.
+  /// @throws BrokenBytes if it has fewer
+  std::string take(uint64_t count);
+  /// @throws BrokenBytes if the file has fewer bytes
+  void skip(uint64_t count);
+  /// CRC-32 of the bytes so far.
+  uint32_t checksum() const { return checksum_; }
+
+ private:
+  size_t read(char* to, size_t count);
+
+  files::CompressedFile file_;
+  std::vector<char> buffer_;
+  size_t begin_ = 0, end_ = 0;  ///< of the unread part of the buffer
+  uint32_t checksum_ = 0;
+};
+
+}  // namespace hybrid_slam::bags

@@ -1,0 +1,115 @@
+#include "bags/McapFile.h"
+
+#include <zlib.h>
+
+namespace hybrid_slam::bags {
+namespace {
+
+constexpr size_t kMagicBytes = 8;
+enum Record : uint8_t { kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15 };
+
+std::string name(ByteCursor& in) { return std::string(in.block().substr(0, kMostNameBytes)); }
+
+}  // namespace
+
+McapFile::McapFile(const std::string& path) : stream_(path) { stream_.skip(kMagicBytes); }
+
+std::optional<StoredMessage> McapFile::next() {
+  try {
+    while (defect_.empty()) {
+      if (inChunk_.left() == 0 && isAtEnd_) break;
+      if (auto message = inChunk_.left() > 0 ? nextInChunk() : nextRecord()) return message;
+    }
+  } catch (const BrokenBytes& broken) {
+    defect_ = broken.what();
+  } catch (const files::Damaged& damage) {
+    defect_ = std::string("damaged chunk (") + damage.what() + ")";
+  }
+  inChunk_ = ByteCursor({});
+  return std::nullopt;
+}
+
+std::optional<StoredMessage> McapFile::nextRecord() {
+  const uint32_t checksum = stream_.checksum();
+  if (stream_.isAtEnd()) throw BrokenBytes("cut off: it has no end record");
+  const std::string head = stream_.take(1 + sizeof(uint64_t));
+  ByteCursor in(head);
+  const auto kind = in.number<uint8_t>();
+  const auto size = in.number<uint64_t>();
+  isAtEnd_ = kind == kDataEnd || kind == kFooter;
+  if (isAtEnd_) {
+    const uint32_t stored =
+        kind == kDataEnd ? ByteCursor(stream_.take(sizeof(uint32_t))).number<uint32_t>() : 0;
+    if (stored != 0 && stored != checksum) throw BrokenBytes("damaged: a wrong checksum of the whole");
+    return std::nullopt;
+  }
+  if (kind != kSchema && kind != kChannel && kind != kMessage && kind != kChunk) {
+    stream_.skip(size);
+    return std::nullopt;
+  }
+  if (size > kMostChunkBytes) throw BrokenBytes("a record is over 256 MiB");
+  record_ = stream_.take(size);
+  return take(kind, record_);
+}
+
+std::optional<StoredMessage> McapFile::nextInChunk() {
+  const auto kind = inChunk_.number<uint8_t>();
+  const auto size = inChunk_.number<uint64_t>();
+  const std::string_view record = inChunk_.take(size);
+  return kind == kChunk ? std::nullopt : take(kind, record);
+}
+
+std::optional<StoredMessage> McapFile::take(uint8_t kind, std::string_view record) {
+  ByteCursor in(record);
+  if (kind == kSchema) {
+    const auto id = in.number<uint16_t>();
+    schemas_[id] = name(in);
+  } else if (kind == kChannel) {
+    noteChannel(record);
+  } else if (kind == kChunk) {
+    openChunk(record);
+  } else if (kind == kMessage) {
+    const auto channel = channels_.find(in.number<uint16_t>());
+    if (channel == channels_.end()) throw BrokenBytes("a message without a channel");
+    in.number<uint32_t>();  // sequence number
+    const double time = 1e-9 * static_cast<double>(in.number<uint64_t>());
+    in.number<uint64_t>();  // time of publication
+    return StoredMessage{channel->second, time, in.take(in.left())};
+  }
+  return std::nullopt;
+}
+
+void McapFile::noteChannel(std::string_view record) {
+  ByteCursor in(record);
+  const auto id = in.number<uint16_t>();
+  const auto schema = schemas_.find(in.number<uint16_t>());
+  const std::string topic = name(in), encoding = name(in);
+  const bool isRead = encoding == "cdr" || encoding == "ros1";
+  const std::string type = schema == schemas_.end() ? "" : schema->second;
+  channels_[id] = topicOf(topic, isRead ? type : type + " (" + encoding + ")",
+                          encoding == "ros1" ? Encoding::ros1 : Encoding::cdr);
+}
+
+void McapFile::openChunk(std::string_view record) {
+  ByteCursor in(record);
+  in.take(2 * sizeof(uint64_t));  // times of its first and last message
+  const auto size = in.number<uint64_t>();
+  const auto checksum = in.number<uint32_t>();
+  const std::string_view compression = in.block();
+  const std::string_view bytes = in.take(in.number<uint64_t>());
+  if (size > kMostChunkBytes) throw BrokenBytes("a chunk is over 256 MiB");
+  if (compression == "zstd")
+    chunk_ = files::decoded(files::Compression::zstd, bytes, size);
+  else if (compression == "lz4")
+    chunk_ = files::decoded(files::Compression::lz4, bytes, size);
+  else if (compression.empty())
+    chunk_ = bytes;
+  else
+    throw BrokenBytes("a chunk of unknown compression");
+  const auto found =
+      crc32(0, reinterpret_cast<const Bytef*>(chunk_.data()), static_cast<uInt>(chunk_.size()));
+  if (checksum != 0 && checksum != found) throw BrokenBytes("damaged chunk (wrong checksum)");
+  inChunk_ = ByteCursor(chunk_);
+}
+
+}  // namespace hybrid_slam::bags

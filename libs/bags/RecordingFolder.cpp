@@ -1,0 +1,72 @@
+#include "bags/RecordingFolder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bags/ByteCursor.h"
+#include "base/Errors.h"
+
+namespace hybrid_slam::bags {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isOfRecording(fs::path path) {
+  if (path.extension() == ".zstd") path.replace_extension();
+  return path.extension() == ".db3" || path.extension() == ".mcap";
+}
+
+/// `drive_2.db3` comes before `drive_10.db3`.
+bool comesBefore(const std::string& a, const std::string& b) {
+  const auto numberAt = [](const std::string& name) {
+    const size_t end = name.find_last_of("0123456789", name.find('.'));
+    const size_t begin = end == std::string::npos ? end : name.find_last_not_of("0123456789", end);
+    const std::string digits = end == std::string::npos ? "" : name.substr(begin + 1, end - begin);
+    return std::string(20 - std::min<size_t>(digits.size(), 20), '0') + digits;
+  };
+  const std::string nameA = fs::path(a).filename().string(), nameB = fs::path(b).filename().string();
+  return std::make_pair(numberAt(nameA), nameA) < std::make_pair(numberAt(nameB), nameB);
+}
+
+}  // namespace
+
+std::vector<std::string> filesOfRecording(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (isOfRecording(entry.path()) && entry.is_regular_file(ignored)) found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end(), comesBefore);
+  return found;
+}
+
+RecordingFolder::RecordingFolder(const std::string& path) : files_(filesOfRecording(path)) {
+  if (files_.empty()) throw InputError("not a recording", path, "expected a folder with files .db3 or .mcap");
+  std::reverse(files_.begin(), files_.end());
+}
+
+std::optional<StoredMessage> RecordingFolder::next() {
+  try {
+    while (defect_.empty() && (current_ || !files_.empty())) {
+      if (!current_) {
+        current_ = openBag(files_.back());
+        files_.pop_back();
+      }
+      if (auto message = current_->next()) {
+        message->topic = indexOf(current_->topics()[message->topic]);
+        return message;
+      }
+      for (const Topic& topic : current_->topics()) indexOf(topic);
+      defect_ = current_->defect();
+      current_.reset();
+    }
+  } catch (const BrokenBytes& broken) {
+    defect_ = broken.what();
+  }
+  return std::nullopt;
+}
+
+size_t RecordingFolder::indexOf(const Topic& topic) {
+  return topicOf(topic.name, topic.type, topic.encoding);
+}
+
+}  // namespace hybrid_slam::bags

@@ -1,0 +1,31 @@
+/// @file RecordingFolder.h
+/// @brief The folder of a ROS 2 recording: its files one after another.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bags/Bag.h"
+
+namespace hybrid_slam::bags {
+
+/// The databases and MCAP files in a folder, also compressed ones, in the order of the numbers in their
+/// names.
+std::vector<std::string> filesOfRecording(const std::string& folder);
+
+class RecordingFolder : public Bag {
+ public:
+  /// @throws InputError if there is none
+  explicit RecordingFolder(const std::string& path);
+  std::optional<StoredMessage> next() override;
+  const char* format() const override { return "ROS 2 recording"; }
+
+ private:
+  size_t indexOf(const Topic& topic);
+
+  std::vector<std::string> files_;  ///< still to be read
+  std::unique_ptr<Bag> current_;
+};
+
+}  // namespace hybrid_slam::bags

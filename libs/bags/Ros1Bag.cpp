@@ -1,0 +1,111 @@
+#include "bags/Ros1Bag.h"
+
+namespace hybrid_slam::bags {
+namespace {
+
+constexpr size_t kMostHeaderBytes = 1 << 20;
+enum Record : uint8_t { kMessage = 2, kBagHeader = 3, kChunk = 5, kConnection = 7 };
+
+/// The value of a field `name=value`; empty if there is none.
+std::string_view field(std::string_view header, std::string_view name) {
+  for (ByteCursor in(header); in.left() > 0;) {
+    const std::string_view one = in.block();
+    if (one.size() > name.size() && one[name.size()] == '=' && one.substr(0, name.size()) == name)
+      return one.substr(name.size() + 1);
+  }
+  return {};
+}
+
+template <class Number>
+Number numberIn(std::string_view header, std::string_view name) {
+  const std::string_view value = field(header, name);
+  if (value.size() != sizeof(Number)) throw BrokenBytes("a record has no " + std::string(name));
+  return ByteCursor(value).number<Number>();
+}
+
+std::string nameIn(std::string_view header, std::string_view name) {
+  return std::string(field(header, name).substr(0, kMostNameBytes));
+}
+
+}  // namespace
+
+Ros1Bag::Ros1Bag(const std::string& path) : stream_(path) { stream_.skip(sizeof("#ROSBAG V2.0\n") - 1); }
+
+std::optional<StoredMessage> Ros1Bag::next() {
+  try {
+    while (defect_.empty()) {
+      if (inChunk_.left() == 0 && stream_.isAtEnd()) break;
+      if (auto message = inChunk_.left() > 0 ? nextInChunk() : nextRecord()) return message;
+    }
+  } catch (const BrokenBytes& broken) {
+    defect_ = broken.what();
+  } catch (const files::Damaged& damage) {
+    defect_ = std::string("damaged chunk (") + damage.what() + ")";
+  }
+  inChunk_ = ByteCursor({});
+  return std::nullopt;
+}
+
+std::optional<StoredMessage> Ros1Bag::nextRecord() {
+  const auto length = [this](size_t most, const char* what) {
+    const std::string bytes = stream_.take(sizeof(uint32_t));
+    const auto count = ByteCursor(bytes).number<uint32_t>();
+    if (count > most) throw BrokenBytes(what);
+    return count;
+  };
+  const std::string header = stream_.take(length(kMostHeaderBytes, "a record's header is over 1 MiB"));
+  const auto kind = numberIn<uint8_t>(header, "op");
+  if (kind == kBagHeader && !field(header, "encryptor").empty()) throw BrokenBytes("encrypted");
+  const auto size = length(UINT32_MAX, "");
+  if (kind != kMessage && kind != kChunk && kind != kConnection) {
+    stream_.skip(size);
+    return std::nullopt;
+  }
+  if (size > kMostChunkBytes) throw BrokenBytes("a record is over 256 MiB");
+  record_ = stream_.take(size);
+  if (kind == kMessage) return messageOf(header, record_);
+  if (kind == kChunk)
+    openChunk(header, record_);
+  else
+    noteConnection(header, record_);
+  return std::nullopt;
+}
+
+std::optional<StoredMessage> Ros1Bag::nextInChunk() {
+  const std::string_view header = inChunk_.block(), data = inChunk_.block();
+  const auto kind = numberIn<uint8_t>(header, "op");
+  if (kind == kMessage) return messageOf(header, data);
+  if (kind == kConnection) noteConnection(header, data);
+  return std::nullopt;
+}
+
+void Ros1Bag::openChunk(std::string_view header, std::string_view data) {
+  const std::string_view compression = field(header, "compression");
+  const auto size = numberIn<uint32_t>(header, "size");
+  if (size > kMostChunkBytes) throw BrokenBytes("a chunk is over 256 MiB");
+  if (compression == "bz2")
+    chunk_ = files::decoded(files::Compression::bzip2, data, size);
+  else if (compression == "lz4")
+    chunk_ = files::decoded(files::Compression::lz4, data, size);
+  else if (compression == "none")
+    chunk_ = data;
+  else
+    throw BrokenBytes("a chunk of unknown compression");
+  inChunk_ = ByteCursor(chunk_);
+}
+
+void Ros1Bag::noteConnection(std::string_view header, std::string_view data) {
+  const auto id = numberIn<uint32_t>(header, "conn");
+  if (connections_.size() >= 10 * kMostTopics) throw BrokenBytes("it has over 100,000 connections");
+  connections_.emplace(id, topicOf(nameIn(header, "topic"), nameIn(data, "type"), Encoding::ros1));
+}
+
+std::optional<StoredMessage> Ros1Bag::messageOf(std::string_view header, std::string_view data) const {
+  const auto connection = connections_.find(numberIn<uint32_t>(header, "conn"));
+  if (connection == connections_.end()) throw BrokenBytes("a message without a connection");
+  ByteCursor time(field(header, "time"));
+  const double seconds = time.number<uint32_t>();
+  return StoredMessage{connection->second, seconds + 1e-9 * time.number<uint32_t>(), data};
+}
+
+}  // namespace hybrid_slam::bags

@@ -1,0 +1,136 @@
+#include "bags/Rosbag2Database.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "base/Errors.h"
+#include "files/CompressedFile.h"
+
+namespace hybrid_slam::bags {
+namespace {
+
+constexpr const char* kExpected = "expected a ROS 2 recording with the tables topics and messages";
+constexpr uint64_t kMostUnpackedBytes = uint64_t{16} << 30;
+
+/// A database in a compressed file as a file of its own, which exists as long as this object.
+class Unpacked {
+ public:
+  explicit Unpacked(const std::string& path) {
+    files::CompressedFile in(path, "expected a readable log");
+    if (!in.compression()) {
+      path_ = path;
+      return;
+    }
+    path_ = std::filesystem::temp_directory_path() / "hybrid-slam-XXXXXX";
+    descriptor_ = ::mkstemp(path_.data());
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), path_);
+    std::array<char, 1 << 16> block{};
+    uint64_t total = 0;
+    while (const size_t count = in.read(block.data(), block.size())) {
+      total += count;
+      if (total > kMostUnpackedBytes) {
+        remove();
+        throw InputError("too large", path, "expected a database of at most 16 GiB");
+      }
+      if (::write(descriptor_, block.data(), count) != static_cast<ssize_t>(count)) {
+        const int error = errno;
+        remove();
+        throw std::system_error(error, std::generic_category(), path_);
+      }
+    }
+    if (in.defect().empty()) return;
+    remove();
+    throw InputError(in.defect(), path, "expected a whole file");
+  }
+  ~Unpacked() { remove(); }
+  Unpacked(const Unpacked&) = delete;
+  Unpacked& operator=(const Unpacked&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  void remove() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+    descriptor_ = -1;
+  }
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+std::string textAt(sqlite3_stmt* row, int column) {
+  const unsigned char* const text = sqlite3_column_text(row, column);
+  return text ? std::string(reinterpret_cast<const char*>(text)).substr(0, kMostNameBytes) : std::string();
+}
+
+}  // namespace
+
+Rosbag2Database::Rosbag2Database(const std::string& path)
+    : database_(nullptr, sqlite3_close), messages_(nullptr, sqlite3_finalize) {
+  const Unpacked file(path);  // SQLite keeps it open after its name has gone
+  sqlite3* opened = nullptr;
+  const int state = sqlite3_open_v2(file.path().c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
+  database_.reset(opened);
+  if (state != SQLITE_OK) throw InputError("cannot read", path, kExpected);
+  for (const int off :
+       {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_TRIGGER})
+    sqlite3_db_config(opened, off, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostChunkBytes));
+  sqlite3_exec(opened, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
+  readTopics(path);
+  // Only what is read is loaded: a recording may hold gigabytes of pictures.
+  std::string read = "-1";
+  for (const auto& [id, topic] : ids_)
+    if (topics_[topic].messageType) read += "," + std::to_string(id);
+  messages_ = query("SELECT topic_id, timestamp, CASE WHEN topic_id IN (" + read +
+                    ") THEN data END FROM messages ORDER BY rowid");
+  if (!messages_) throw InputError("not a recording", path, kExpected);
+}
+
+Rosbag2Database::~Rosbag2Database() = default;
+
+std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> Rosbag2Database::query(const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr);
+  return {statement, sqlite3_finalize};
+}
+
+void Rosbag2Database::readTopics(const std::string& path) {
+  const auto rows = query("SELECT id, name, type, serialization_format FROM topics");
+  if (!rows) throw InputError("not a recording", path, kExpected);
+  int state = SQLITE_ROW;
+  while ((state = sqlite3_step(rows.get())) == SQLITE_ROW && ids_.size() < 10000) {
+    const std::string format = textAt(rows.get(), 3);
+    const std::string type = textAt(rows.get(), 2) + (format == "cdr" ? "" : " (" + format + ")");
+    ids_[sqlite3_column_int64(rows.get(), 0)] = topicOf(textAt(rows.get(), 1), type, Encoding::cdr);
+  }
+  if (state != SQLITE_DONE)
+    throw InputError(std::string("damaged database (") + sqlite3_errmsg(database_.get()) + ")", path,
+                     kExpected);
+}
+
+std::optional<StoredMessage> Rosbag2Database::next() {
+  while (defect_.empty() && messages_) {
+    const int state = sqlite3_step(messages_.get());
+    if (state == SQLITE_ROW) {
+      const auto topic = ids_.find(sqlite3_column_int64(messages_.get(), 0));
+      if (topic == ids_.end()) continue;
+      const double time = 1e-9 * static_cast<double>(sqlite3_column_int64(messages_.get(), 1));
+      const auto* const data = static_cast<const char*>(sqlite3_column_blob(messages_.get(), 2));
+      const auto count = static_cast<size_t>(sqlite3_column_bytes(messages_.get(), 2));
+      return StoredMessage{topic->second, time, data ? std::string_view(data, count) : std::string_view()};
+    }
+    if (state != SQLITE_DONE)
+      defect_ = std::string("damaged database (") + sqlite3_errmsg(database_.get()) + ")";
+    messages_.reset();
+  }
+  return std::nullopt;
+}
+
+}  // namespace hybrid_slam::bags

@@ -1,0 +1,58 @@
+/// @file BagLog.h
+/// @brief A recording of ROS as the objects of a rawlog, one at a time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <variant>
+
+#include "bags/Bag.h"
+#include "readings/BagPlan.h"
+#include "readings/TextLog.h"
+
+namespace hybrid_slam::readings {
+
+/// Reads a bag as a stream. A scan is labelled by its topic and has the time of its header, or when it was
+/// recorded if that is zero. A message is recorded a little later than what it tells was measured, each
+/// topic by another delay: objects are put into the order of their times within one second.
+class BagLog {
+ public:
+  /// Uses `maxRange`, `actionObservation`, `laserX` (for a laser of unknown pose) and `strict` of the
+  /// options.
+  /// @throws InputError if the file cannot be read
+  BagLog(const std::string& file, BagPlan plan, const LogConversionOptions& options, BrokenLineReport report);
+
+  /// The next object; null at the end, or where the file is cut or damaged (see `defect`).
+  /// @throws InputError for a broken message if `strict`
+  mrpt::serialization::CSerializable::Ptr next();
+
+  size_t message() const { return number_; }                      ///< number of the last one read, from 1
+  const std::string& defect() const { return bag_->defect(); }    ///< empty for an intact file
+  const LogSummary& summary() const { return objects_.summary; }  ///< of what has been read
+  const BagPlan& plan() const { return plan_; }
+
+ private:
+  using Record = std::variant<OdometryRecord, LaserRecord>;
+
+  void read(const bags::StoredMessage& message);
+  void hold(const bags::ScanMessage& scan, double recorded, const BagPlan::Laser& laser);
+  void hold(const bags::OdometryMessage& odometry, double recorded);
+  void hold(const std::vector<bags::TransformMessage>& transforms, double recorded);
+  void hold(double time, double recorded, Record record, size_t beams);
+  /// Passes on what no later message can come before.
+  void release(bool isAtEnd);
+
+  std::string file_;
+  std::unique_ptr<bags::Bag> bag_;
+  BagPlan plan_;
+  LogConversionOptions options_;
+  BrokenLineReport report_;
+  LogObjects objects_;
+  /// By time, odometry before a scan of the same time, order of recording.
+  std::map<std::tuple<double, bool, size_t>, Record> held_;
+  size_t heldBeams_ = 0, number_ = 0;
+};
+
+}  // namespace hybrid_slam::readings

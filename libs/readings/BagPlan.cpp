@@ -1,0 +1,217 @@
+#include "readings/BagPlan.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+#include "bags/ByteCursor.h"
+#include "base/Errors.h"
+
+namespace hybrid_slam::readings {
+
+using bags::MessageType;
+using Entry = BagContents::Entry;
+
+namespace {
+
+bool isScan(const Entry& entry) {
+  return entry.messages > entry.broken && (entry.topic.messageType == MessageType::laserScan ||
+                                           entry.topic.messageType == MessageType::multiEchoLaserScan);
+}
+
+bool isOdometry(const Entry& entry) {
+  return entry.messages > entry.broken && entry.topic.messageType == MessageType::odometry;
+}
+
+/// Names are of unknown origin: they shall not control a terminal.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c == '\x7f') c = '?';
+  return text;
+}
+
+std::string listOf(const std::vector<const Entry*>& entries) {
+  constexpr size_t kMost = 20;
+  std::string all;
+  for (size_t i = 0; i < std::min(entries.size(), kMost); ++i)
+    all += (i == 0 ? "" : ", ") + printable(entries[i]->topic.name + " (" + entries[i]->topic.type) + ", " +
+           std::to_string(entries[i]->messages) + " messages)";
+  return entries.empty() ? "no topics" : all + (entries.size() > kMost ? ", ..." : "");
+}
+
+template <class Test>
+std::vector<const Entry*> select(const BagContents& contents, const Test& test) {
+  std::vector<const Entry*> found;
+  for (const Entry& entry : contents.topics)
+    if (test(entry)) found.push_back(&entry);
+  return found;
+}
+
+const Entry* named(const std::vector<const Entry*>& entries, const std::string& name) {
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const Entry* entry) { return entry->topic.name == name; });
+  return found == entries.end() ? nullptr : *found;
+}
+
+/// Notes what a message tells about frames.
+void note(const bags::Message& message, Entry& entry, FrameTree& frames) {
+  if (const auto* scan = std::get_if<bags::ScanMessage>(&message)) {
+    if (entry.frame.empty()) entry.frame = scan->header.frame;
+  } else if (const auto* odometry = std::get_if<bags::OdometryMessage>(&message)) {
+    if (entry.frame.empty()) entry.frame = odometry->childFrame;
+  } else {
+    for (const auto& transform : std::get<std::vector<bags::TransformMessage>>(message))
+      frames.add(transform);
+  }
+}
+
+/// The scan topics to use.
+std::vector<const Entry*> scansOf(const BagContents& contents, const BagOptions& options,
+                                  const std::string& file) {
+  const auto scans = select(contents, isScan);
+  if (scans.empty())
+    throw InputError(
+        "no laser scans", file,
+        "expected messages of sensor_msgs/LaserScan or MultiEchoLaserScan; the bag has " + contents.list());
+  if (options.topics.empty()) return scans;
+  std::vector<const Entry*> wanted;
+  for (const std::string& topic : options.topics) {
+    wanted.push_back(named(scans, topic));
+    if (!wanted.back())
+      throw InputError("no scans on the topic `" + topic + "`", file,
+                       "--topic: the bag has " + listOf(scans));
+  }
+  return wanted;
+}
+
+/// The odometry topic to use; null: none.
+const Entry* odometryOf(const BagContents& contents, const BagOptions& options, const std::string& file) {
+  const auto all = select(contents, isOdometry);
+  if (!options.odometryTopic.empty()) {
+    if (const Entry* entry = named(all, options.odometryTopic)) return entry;
+    const auto transforms = select(
+        contents, [](const Entry& entry) { return entry.topic.messageType == MessageType::transforms; });
+    if (named(transforms, options.odometryTopic)) return nullptr;
+    throw InputError("no odometry on the topic `" + options.odometryTopic + "`", file,
+                     "--odometry-topic: the bag has " + listOf(all.empty() ? transforms : all));
+  }
+  if (all.size() > 1)
+    throw InputError("several odometry topics", file, "choose one with --odometry-topic: " + listOf(all));
+  return all.empty() ? nullptr : all.front();
+}
+
+bool endsWith(const std::string& name, const std::string& end) {
+  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Above a laser: the frame named `odom`, the base below it, and frames that are named as bases are.
+struct Base {
+  std::string odom, below;
+  std::vector<std::string> candidates;
+};
+
+Base baseAbove(const FrameTree& frames, const std::string& laser) {
+  Base base;
+  const std::vector<std::string> path = frames.ancestors(laser);
+  for (size_t i = 1; i < path.size() && base.odom.empty(); ++i)
+    if (path[i].find("odom") != std::string::npos) {
+      base.odom = path[i];
+      base.below = path[i - 1];
+    }
+  for (const char* name : {"base_footprint", "base_link"})
+    for (const std::string& frame : path)
+      if (endsWith(frame, name)) base.candidates.push_back(frame);
+  return base;
+}
+
+}  // namespace
+
+std::string BagContents::list() const {
+  return listOf(select(*this, [](const Entry&) { return true; }));
+}
+
+std::string BagContents::table() const {
+  std::vector<const Entry*> all = select(*this, [](const Entry&) { return true; });
+  std::sort(all.begin(), all.end(),
+            [](const Entry* a, const Entry* b) { return a->topic.name < b->topic.name; });
+  std::ostringstream out;
+  for (const Entry* entry : all)
+    out << std::setw(9) << entry->messages << "  " << printable(entry->topic.name) << "  "
+        << printable(entry->topic.type) << "\n";
+  return out.str();
+}
+
+BagContents contentsOf(const std::string& file) {
+  const auto bag = bags::openBag(file);
+  BagContents contents;
+  const auto noteTopics = [&] {
+    for (size_t i = contents.topics.size(); i < bag->topics().size(); ++i)
+      contents.topics.push_back({bag->topics()[i], 0, 0, {}});
+  };
+  while (const auto message = bag->next()) {
+    noteTopics();
+    Entry& entry = contents.topics[message->topic];
+    ++entry.messages;
+    if (!entry.topic.messageType) continue;
+    // A scan's frame is that of its first message.
+    if (!entry.frame.empty()) continue;
+    try {
+      note(bags::decodeMessage(*entry.topic.messageType, entry.topic.encoding, message->bytes), entry,
+           contents.frames);
+    } catch (const bags::BrokenBytes&) {
+      ++entry.broken;
+    }
+  }
+  noteTopics();
+  contents.defect = bag->defect();
+  if (contents.topics.empty() && !contents.defect.empty())
+    throw InputError(std::string(bag->format()) + " " + contents.defect, file, "expected a whole file");
+  return contents;
+}
+
+BagPlan planOf(const BagContents& contents, const BagOptions& options, const std::string& file) {
+  std::vector<const Entry*> scans = scansOf(contents, options, file);
+  const Entry* const odometry = odometryOf(contents, options, file);
+  const Base above = baseAbove(contents.frames, scans.front()->frame);
+
+  BagPlan plan;
+  std::vector<std::string> bases = above.candidates;
+  if (!above.below.empty()) bases.insert(bases.begin(), above.below);
+  if (odometry) {
+    plan.odometryTopic = odometry->topic.name;
+    if (!odometry->frame.empty()) bases.insert(bases.begin(), odometry->frame);
+  } else {
+    plan.odomFrame = above.odom;
+    plan.baseFrame = above.below;
+  }
+  const std::string expectedBase = bases.empty() ? "base_link" : bases.front();
+  std::set<std::string> used;
+  for (const Entry* scan : scans) {
+    BagPlan::Laser laser{scan->topic.name, {}, false};
+    for (const std::string& base : bases) {
+      const auto pose = contents.frames.pose(base, scan->frame);
+      if (!pose) continue;
+      laser.pose = pose->asTPose();
+      laser.isMountingKnown = true;
+      if (contents.frames.moves(base, scan->frame))
+        plan.notes.push_back("the laser of " + scan->topic.name + " moves on the robot: frame `" +
+                             scan->frame + "`; its first pose is used");
+      break;
+    }
+    const bool isNewFrame = used.insert(scan->frame).second;
+    if (scans.size() > 1 && options.topics.empty() && (!isNewFrame || !laser.isMountingKnown))
+      throw InputError("several scan topics", file, "choose with --topic, repeatable: " + listOf(scans));
+    const std::string missing =
+        "no transform from `" + expectedBase + "` to `" + printable(scan->frame) + "`";
+    if (scans.size() > 1 && !laser.isMountingKnown)
+      throw InputError(missing, file, "expected the poses of several lasers; --topic chooses one");
+    if (!laser.isMountingKnown)
+      plan.notes.push_back(missing + ": the laser of " + scan->topic.name +
+                           " is taken to be at the robot's centre, facing ahead");
+    plan.lasers.push_back(laser);
+  }
+  return plan;
+}
+
+}  // namespace hybrid_slam::readings

@@ -1,0 +1,67 @@
+/// @file LogObjects.h
+/// @brief The records of a log as the objects of a rawlog.
+#pragma once
+
+#include <mrpt/poses/CPose2D.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "readings/LogParser.h"
+
+namespace hybrid_slam::readings {
+
+struct LogSummary {
+  std::string format;  ///< for the user
+  size_t scans = 0, odometryReadings = 0, brokenLines = 0;
+  std::vector<std::string> notes;              ///< of a bag: what was assumed
+  std::string defect;                          ///< of a bag: how it is cut or damaged; empty if intact
+  std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name
+  double earliest = 0, latest = 0;             ///< s
+  double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
+  float longestRange = 0;                      ///< m, among the valid readings
+  /// Odometry readings over kMaxStep apart, rows over a day apart: how many, and the line of the first (text
+  /// logs).
+  size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
+};
+
+/// Turns records into rawlog objects, in either form, and gathers the summary. Odometry is labelled
+/// `ODOMETRY`, a scan by its record's label.
+///
+/// MRPT's scans are symmetric about the sensor's x axis; the offset of an asymmetric fan goes into the yaw of
+/// the sensor pose (-0.5 deg for 180 beams from -90 to +89 deg).
+class LogObjects {
+ public:
+  /// @param maxRange           m; readings at or beyond this are no returns
+  /// @param actionObservation  (action, sensory frame) pairs instead of one observation per record
+  LogObjects(double maxRange, bool actionObservation)
+      : maxRange_(maxRange), actionObservation_(actionObservation) {}
+
+  void operator()(std::monostate) {}
+  void operator()(const OtherRecord& record) { ++summary.otherRecords[record.name]; }
+  void operator()(const OdometryRecord& record);
+  void operator()(const LaserRecord& record);
+
+  /// The next object of the records so far; null if there is none.
+  mrpt::serialization::CSerializable::Ptr take();
+
+  LogSummary summary;
+
+ private:
+  void writeActionUpTo(double time);
+  void seenAt(double time);
+
+  std::deque<mrpt::serialization::CSerializable::Ptr> ready_;
+  double maxRange_;
+  bool actionObservation_;
+  std::optional<OdometryRecord> last_;
+  double lastTime_ = 0;                             ///< s, of the record before
+  std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry
+};
+
+}  // namespace hybrid_slam::readings
