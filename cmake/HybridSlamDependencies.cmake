@@ -42,6 +42,16 @@ endif()
 
 if(HYBRID_SLAM_TESTS)
   find_package(GTest REQUIRED)
+  # ROS's own library writes the bags of the tests.
+  find_path(ROSBAG_HEADERS rosbag/bag.h REQUIRED)
+  add_library(hybrid_slam_rosbag INTERFACE)
+  foreach(package pluginlib class_loader rcutils rcpputils ament_index_cpp)
+    find_path(ROSBAG_${package} ${package} REQUIRED)
+    target_include_directories(hybrid_slam_rosbag SYSTEM INTERFACE ${ROSBAG_${package}}/${package})
+  endforeach()
+  target_link_libraries(hybrid_slam_rosbag INTERFACE
+    rosbag_storage roscpp_serialization rostime cpp_common roslz4 console_bridge boost_filesystem boost_system
+    class_loader roslib)
   find_package(Python3 3.9 COMPONENTS Interpreter REQUIRED)
   if(HYBRID_SLAM_GUI)
     find_package(X11 REQUIRED)

@@ -1,0 +1,239 @@
+#include "bags/Bag.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/Errors.h"
+#include "files/Gzip.h"
+#include "files/TemporaryFolder.h"
+#include "testing/RosBags.h"
+
+namespace hybrid_slam::bags {
+namespace {
+
+using test::TestMessage;
+using testing::HasSubstr;
+
+std::vector<TestMessage> messages(size_t count, Encoding encoding = Encoding::ros1) {
+  const test::MessageBytes empty(encoding);
+  std::vector<TestMessage> all;
+  for (size_t i = 0; i < count; ++i) {
+    const double time = 100 + 0.25 * static_cast<double>(i);
+    all.push_back({"/scan", "sensor_msgs/LaserScan", time,
+                   test::scanBytes(empty, time, "laser", std::vector<float>(200, static_cast<float>(i)))});
+    all.push_back({"/odom", "nav_msgs/Odometry", time, test::odometryBytes(empty, time, {time, 0, 0})});
+  }
+  return all;
+}
+
+struct Content {
+  std::vector<TestMessage> messages;
+  std::string defect;
+};
+
+Content read(const std::string& path) {
+  const auto bag = openBag(path);
+  Content content;
+  while (const auto message = bag->next()) {
+    const Topic& topic = bag->topics()[message->topic];
+    content.messages.push_back({topic.name, topic.type, message->time, std::string(message->bytes)});
+  }
+  EXPECT_FALSE(bag->next());
+  content.defect = bag->defect();
+  return content;
+}
+
+void expectSame(const std::vector<TestMessage>& found, const std::vector<TestMessage>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].topic, expected[i].topic);
+    EXPECT_EQ(messageTypeOf(found[i].type), messageTypeOf(expected[i].type));
+    EXPECT_NEAR(found[i].time, expected[i].time, 1e-6);
+    EXPECT_EQ(found[i].bytes, expected[i].bytes);
+  }
+}
+
+std::string errorOf(const std::string& path) {
+  try {
+    read(path);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+/// A start of the file gives the messages that it has.
+void expectCutsAreFound(const std::string& path, const std::vector<TestMessage>& whole) {
+  const std::string bytes = test::contentOf(path);
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const auto length = static_cast<size_t>(share * static_cast<double>(bytes.size()));
+    const Content cut = read(test::write(path, bytes.substr(0, length)));
+    EXPECT_THAT(cut.defect, HasSubstr("cut off")) << share;
+    EXPECT_LT(cut.messages.size(), whole.size());
+    expectSame(cut.messages,
+               {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut.messages.size())});
+  }
+}
+
+TEST(Ros1Bag, WrittenByTheLibraryOfRos) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(100);
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    const std::string path = test::writeRosBag(folder.path("a.bag"), written, compression);
+    EXPECT_TRUE(isBag(path));
+    const Content content = read(path);
+    EXPECT_EQ(content.defect, "");
+    expectSame(content.messages, written);
+  }
+}
+
+TEST(Ros1Bag, CutBagsAreReadUpToTheCut) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(400);
+  const std::string path = test::writeRosBag(folder.path("a.bag"), written, rosbag::compression::LZ4);
+  const std::string bytes = test::contentOf(path);
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const auto length = static_cast<size_t>(share * static_cast<double>(bytes.size()));
+    const Content cut = read(test::write(path, bytes.substr(0, length)));
+    expectSame(cut.messages,
+               {written.begin(), written.begin() + static_cast<std::ptrdiff_t>(cut.messages.size())});
+  }
+}
+
+/// One bit in a hundred places: read to the end, or a defect, never a crash.
+TEST(Ros1Bag, DamagedBagsDoNoHarm) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(20);
+  for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::LZ4}) {
+    const std::string path = test::writeRosBag(folder.path("a.bag"), written, compression);
+    const std::string bytes = test::contentOf(path);
+    for (size_t i = 13; i < bytes.size(); i += bytes.size() / 100) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ 0x41);
+      EXPECT_LE(read(test::write(path, damaged)).messages.size(), written.size());
+    }
+  }
+}
+
+TEST(Ros1Bag, OldVersionsAreRefused) {
+  const files::TemporaryFolder folder;
+  EXPECT_THAT(errorOf(folder.write("old.bag", "#ROSBAG V1.2\nabc")), HasSubstr("rosbag fix"));
+}
+
+TEST(McapFile, EveryCompressionAndEncoding) {
+  const files::TemporaryFolder folder;
+  for (const Encoding encoding : {Encoding::cdr, Encoding::ros1})
+    for (const char* compression : {"none", "", "zstd", "lz4"}) {
+      const auto written = messages(23, encoding);
+      const Content content = read(test::writeMcap(folder.path("a.mcap"), written, compression, encoding));
+      EXPECT_EQ(content.defect, "") << compression;
+      expectSame(content.messages, written);
+    }
+}
+
+TEST(McapFile, CutsAreFound) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(50, Encoding::cdr);
+  expectCutsAreFound(test::writeMcap(folder.path("a.mcap"), written), written);
+}
+
+TEST(McapFile, ChecksumsAreChecked) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(5, Encoding::cdr);
+  for (const char* compression : {"none", "", "lz4"}) {
+    std::string bytes = test::contentOf(test::writeMcap(folder.path("a.mcap"), written, compression));
+    const size_t at = bytes.find(std::string("\x00\x00\xa0\x41", 4));  // a range_max
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + 2] = static_cast<char>(bytes[at + 2] ^ 1);
+    EXPECT_THAT(read(test::write(folder.path("a.mcap"), bytes)).defect, HasSubstr("checksum")) << compression;
+  }
+}
+
+TEST(McapFile, LengthsThatAreNotThereTakeNoMemory) {
+  const files::TemporaryFolder folder;
+  const std::string huge(8, '\xff');
+  const std::string start = test::McapBytes(Encoding::cdr).unfinished();
+  for (const char kind : {'\1', '\3', '\4', '\5', '\6', '\t'}) {
+    const Content content = read(folder.write("huge.mcap", start + kind + huge + "abc"));
+    EXPECT_TRUE(content.messages.empty());
+    EXPECT_THAT(content.defect, testing::AnyOf(HasSubstr("cut off"), HasSubstr("256 MiB")));
+  }
+}
+
+TEST(Rosbag2Database, GivesTheMessagesInOrder) {
+  const files::TemporaryFolder folder;
+  auto written = messages(50, Encoding::cdr);
+  const std::string path = test::writeDatabase(folder.path("a.db3"), written);
+  EXPECT_TRUE(isBag(path));
+  const Content content = read(path);
+  EXPECT_EQ(content.defect, "");
+  expectSame(content.messages, written);
+}
+
+TEST(Rosbag2Database, OtherDatabasesAreNone) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), {});
+  EXPECT_TRUE(read(path).messages.empty());
+  sqlite3* database = nullptr;
+  sqlite3_open(path.c_str(), &database);
+  sqlite3_exec(database, "DROP TABLE messages; CREATE VIEW messages AS SELECT 1 AS topic_id", nullptr,
+               nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
+  EXPECT_THAT(errorOf(folder.write("b.db3", std::string("SQLite format 3\0", 16) + std::string(5000, 'x'))),
+              HasSubstr("expected a ROS 2 recording"));
+}
+
+TEST(Rosbag2Database, DamagedDatabasesDoNoHarm) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(50, Encoding::cdr));
+  const std::string bytes = test::contentOf(path);
+  for (size_t i = 16; i < bytes.size(); i += bytes.size() / 100) {
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x41);
+    errorOf(test::write(path, damaged));
+  }
+}
+
+TEST(RecordingFolder, ItsFilesInTheOrderOfTheirNumbers) {
+  const files::TemporaryFolder folder;
+  const auto all = messages(15, Encoding::cdr);
+  const auto part = [&](size_t from, size_t to) {
+    return std::vector<TestMessage>(all.begin() + static_cast<std::ptrdiff_t>(from),
+                                    all.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  test::writeDatabase(folder.path("drive_10.db3"), part(20, 30));
+  test::writeDatabase(folder.path("drive_2.db3"), part(10, 20));
+  test::write(folder.path("drive_2.db3.zstd"), test::zstdOf(test::contentOf(folder.path("drive_2.db3"))));
+  std::filesystem::remove(folder.path("drive_2.db3"));
+  test::writeMcap(folder.path("drive_0.mcap"), part(0, 10));
+  folder.write("metadata.yaml", "rosbag2_bagfile_information:\n");
+  EXPECT_TRUE(isBag(folder.path("")));
+  const Content content = read(folder.path(""));
+  EXPECT_EQ(content.defect, "");
+  expectSame(content.messages, all);
+}
+
+TEST(Bag, CompressedFilesAreReadAsWell) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(9, Encoding::cdr);
+  const std::string plain = test::contentOf(test::writeMcap(folder.path("a.mcap"), written));
+  expectSame(read(test::write(folder.path("b"), files::gzipped(plain))).messages, written);
+}
+
+TEST(Bag, OtherFilesAreNone) {
+  const files::TemporaryFolder folder;
+  for (const char* text : {"", "#ROSBAG", "FLASER 1 2 3"}) {
+    EXPECT_FALSE(isBag(folder.write("other", text)));
+    EXPECT_THAT(errorOf(folder.path("other")), HasSubstr("not a bag"));
+  }
+  EXPECT_FALSE(isBag(folder.path("none")));
+  EXPECT_FALSE(isBag(folder.path("")));
+  EXPECT_THAT(errorOf(folder.path("")), HasSubstr("not a recording"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::bags

@@ -1,0 +1,241 @@
+#include "readings/BagLog.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/Errors.h"
+#include "files/TemporaryFolder.h"
+#include "readings/LogReader.h"
+#include "readings/LogWarnings.h"
+#include "readings/RawlogSource.h"
+#include "testing/TestBags.h"
+
+namespace hybrid_slam::readings {
+namespace {
+
+using bags::Encoding;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using test::TestMessage;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const test::MessageBytes kCdr(Encoding::cdr);
+
+TestMessage scanOn(const std::string& topic, double time, const std::string& frame,
+                   const std::vector<float>& ranges = {1, 2, 3}, float angleMin = -1, float step = 0.5f) {
+  return {topic, "sensor_msgs/LaserScan", time, test::scanBytes(kCdr, time, frame, ranges, angleMin, step)};
+}
+
+TestMessage odometryAt(double time, const TPose2D& pose, const std::string& topic = "/odom",
+                       const std::string& child = "base_link") {
+  return {topic, "nav_msgs/Odometry", time, test::odometryBytes(kCdr, time, pose, child)};
+}
+
+TestMessage frameAt(const std::string& parent, const std::string& child, const std::vector<double>& pose,
+                    double time = 1, const std::string& topic = "/tf_static") {
+  return {topic, "tf2_msgs/TFMessage", time, test::transformBytes(kCdr, time, {{parent, child, pose}})};
+}
+
+class BagLogTest : public testing::Test {
+ protected:
+  std::string write(const std::vector<TestMessage>& messages) {
+    return test::writeMcap(folder.path("log.mcap"), messages);
+  }
+  BagPlan plan(const std::vector<TestMessage>& messages, const BagOptions& options = {}) {
+    const std::string file = write(messages);
+    return planOf(contentsOf(file), options, file);
+  }
+  std::string errorOf(const std::vector<TestMessage>& messages, const BagOptions& options = {}) {
+    try {
+      plan(messages, options);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+  template <class Object>
+  std::vector<std::shared_ptr<Object>> read(const std::vector<TestMessage>& messages) {
+    LogReader reader(write(messages));
+    std::vector<std::shared_ptr<Object>> all;
+    while (const auto object = reader.next())
+      if (auto one = std::dynamic_pointer_cast<Object>(object)) all.push_back(one);
+    return all;
+  }
+  CObservation2DRangeScan::Ptr onlyScan(const std::vector<TestMessage>& messages) {
+    const auto all = read<CObservation2DRangeScan>(messages);
+    return all.size() == 1 ? all[0] : nullptr;
+  }
+
+  files::TemporaryFolder folder;
+};
+
+/// Beams from 0 to 1 rad: MRPT's fan is symmetric, about 0.5 rad.
+TEST_F(BagLogTest, ScanOfAnyApertureHasItsBeamsWhereTheyWere) {
+  const auto scan = onlyScan({scanOn("/scan", 7.25, "laser", {1, 2, 3}, 0, 0.5f)});
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->sensorLabel, "/scan");
+  EXPECT_NEAR(seconds(scan->timestamp), 7.25, 1e-6);
+  EXPECT_NEAR(scan->aperture, 1, 1e-6);
+  EXPECT_TRUE(scan->rightToLeft);
+  EXPECT_NEAR(scan->sensorPose.yaw(), 0.5, 1e-6);
+  EXPECT_EQ(scan->maxRange, 20);
+}
+
+TEST_F(BagLogTest, BeamsInTheOtherDirection) {
+  const auto scan = onlyScan({scanOn("/scan", 1, "laser", {1, 2, 3}, 0.5f, -0.5f)});
+  ASSERT_TRUE(scan);
+  EXPECT_FALSE(scan->rightToLeft);
+  EXPECT_NEAR(scan->aperture, 1, 1e-6);
+  EXPECT_NEAR(scan->sensorPose.yaw(), 0, 1e-6);
+}
+
+TEST_F(BagLogTest, RangesOutsideTheLimitsAreNoReturns) {
+  const float nan = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
+  const auto scan = onlyScan({scanOn("/scan", 1, "laser", {0.1f, 0.2f, 19.9f, 20, nan, infinite, -1, 0})});
+  ASSERT_TRUE(scan);
+  std::vector<bool> valid;
+  for (size_t i = 0; i < scan->getScanSize(); ++i) valid.push_back(scan->getScanRangeValidity(i));
+  EXPECT_THAT(valid, ElementsAre(false, true, true, false, false, false, false, false));
+}
+
+TEST_F(BagLogTest, MountingIsThatOfTheTransformsFromTheBaseOfTheOdometry) {
+  const auto scan =
+      onlyScan({frameAt("mast", "laser", test::turned(0.1, 0, M_PI / 2)),
+                frameAt("base_link", "mast", test::turned(0.5, 0.2, M_PI / 2)),
+                frameAt("base_footprint", "base_link", test::turned(0, 0, 0)),
+                odometryAt(1, {}, "/odom", "base_footprint"), scanOn("/scan", 1, "laser", {1, 2, 3, 4, 5})});
+  ASSERT_TRUE(scan);
+  EXPECT_NEAR(scan->sensorPose.x(), 0.5, 1e-9);
+  EXPECT_NEAR(scan->sensorPose.y(), 0.3, 1e-9);
+  EXPECT_NEAR(scan->sensorPose.z(), 0.9, 1e-9);
+  EXPECT_NEAR(std::abs(scan->sensorPose.yaw()), M_PI, 1e-6);
+}
+
+TEST_F(BagLogTest, ALaserUpsideDownIsOne) {
+  const auto scan = onlyScan({frameAt("base_link", "laser", {0.2, 0, 0.1, 1, 0, 0, 0}),
+                              scanOn("/scan", 1, "laser", {1, 2, 3}, 0, 0.5f)});
+  ASSERT_TRUE(scan);
+  EXPECT_NEAR(std::abs(scan->sensorPose.roll()), M_PI, 1e-9);
+  EXPECT_NEAR(scan->sensorPose.yaw(), -0.5, 1e-6);  // its left is the robot's right
+}
+
+TEST_F(BagLogTest, WithoutATransformTheLaserIsAtTheCentreAndTheUserIsTold) {
+  const auto messages = std::vector{odometryAt(1, {}), scanOn("/scan", 1, "laser", {1, 2, 3}, -0.5f)};
+  const BagPlan found = plan(messages);
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("no transform from `base_link` to `laser`")));
+  EXPECT_EQ(onlyScan(messages)->sensorPose.norm(), 0);
+  const std::string file = write(messages);
+  EXPECT_THAT(warningsOf(summarise(file, {}), file), testing::Contains(HasSubstr("no transform")));
+}
+
+TEST_F(BagLogTest, OdometryIsThatOfItsTopic) {
+  const auto all = read<CObservationOdometry>({odometryAt(1, {1, 2, 0.5}), scanOn("/scan", 1, "base_link")});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(all[0]->odometry.x(), 1, 1e-12);
+  EXPECT_NEAR(all[0]->odometry.phi(), 0.5, 1e-12);
+  EXPECT_NEAR(seconds(all[0]->timestamp), 1, 1e-6);
+}
+
+TEST_F(BagLogTest, WithoutATopicOdometryIsTheTransformBelowOdom) {
+  const std::vector<TestMessage> messages{
+      frameAt("base", "laser", test::turned(0.25, 0, 0)), frameAt("map", "odom", test::turned(9, 9, 0)),
+      frameAt("odom", "base", test::turned(1, 0, 0.1), 1, "/tf"), scanOn("/scan", 1, "laser"),
+      frameAt("odom", "base", test::turned(2, 0, 0.2), 2, "/tf")};
+  const auto all = read<CObservationOdometry>(messages);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_NEAR(all[1]->odometry.x(), 2, 1e-12);
+  EXPECT_NEAR(all[1]->odometry.phi(), 0.2, 1e-12);
+  EXPECT_NEAR(onlyScan(messages)->sensorPose.x(), 0.25, 1e-12);
+  EXPECT_THAT(plan(messages).notes, IsEmpty());
+}
+
+/// A scan is recorded after it has been taken, and after odometry of a later time.
+TEST_F(BagLogTest, ObjectsAreInTheOrderOfTheirTimes) {
+  std::vector<TestMessage> messages{odometryAt(1, {1, 0, 0}), odometryAt(1.2, {2, 0, 0}),
+                                    scanOn("/scan", 1.1, "base_link"), odometryAt(5, {3, 0, 0}),
+                                    scanOn("/scan", 5, "base_link")};
+  LogReader reader(write(messages));
+  std::string order;
+  while (const auto object = reader.next())
+    order += std::dynamic_pointer_cast<CObservationOdometry>(object) ? "o" : "s";
+  EXPECT_EQ(order, "osoos");
+}
+
+TEST_F(BagLogTest, AZeroStampIsTheTimeOfRecording) {
+  TestMessage message = scanOn("/scan", 0, "base_link");
+  message.time = 12.5;
+  EXPECT_NEAR(seconds(onlyScan({message})->timestamp), 12.5, 1e-6);
+}
+
+TEST_F(BagLogTest, BrokenMessagesAreCountedAndSkipped) {
+  std::vector<TestMessage> messages{scanOn("/scan", 1, "base_link"), scanOn("/scan", 2, "base_link")};
+  messages.insert(messages.begin() + 1, {"/scan", "sensor_msgs/LaserScan", 1.5, "nonsense"});
+  const std::string file = write(messages);
+  const RawlogSummary summary = summarise(file, {});
+  EXPECT_EQ(summary.scans, 2u);
+  EXPECT_EQ(summary.brokenLines.count, 1u);
+  EXPECT_EQ(summary.brokenLines.first, 2u);
+  EXPECT_THAT(warningsOf(summary, file),
+              testing::Contains(HasSubstr("1 broken messages: first at message 2 of ")));
+}
+
+TEST_F(BagLogTest, ACutBagIsReadUpToTheCut) {
+  std::vector<TestMessage> messages;
+  for (int i = 0; i < 100; ++i) messages.push_back(scanOn("/scan", i, "base_link"));
+  const std::string file = write(messages);
+  const std::string bytes = test::contentOf(file);
+  test::write(file, bytes.substr(0, bytes.size() / 2));
+  const RawlogSummary summary = summarise(file, {});
+  EXPECT_GT(summary.scans, 10u);
+  EXPECT_LT(summary.scans, 90u);
+  EXPECT_THAT(summary.defect, HasSubstr("cut off"));
+  EXPECT_EQ(summary.unit, "message");
+}
+
+TEST_F(BagLogTest, SeveralLasersWithPosesAreAllUsed) {
+  const std::vector<TestMessage> messages{frameAt("base_link", "front", test::turned(0.3, 0, 0)),
+                                          frameAt("base_link", "rear", test::turned(-0.3, 0, M_PI)),
+                                          scanOn("/scan_front", 1, "front"), scanOn("/scan_rear", 1, "rear"),
+                                          odometryAt(1, {})};
+  const BagPlan all = plan(messages);
+  ASSERT_EQ(all.lasers.size(), 2u);
+  EXPECT_EQ(all.lasers[1].topic, "/scan_rear");
+  EXPECT_NEAR(all.lasers[1].pose.x, -0.3, 1e-12);
+  EXPECT_EQ(plan(messages, {{"/scan_rear"}, ""}).lasers.size(), 1u);
+  InputOptions options;
+  options.sensorLabel = "/scan_rear";
+  EXPECT_THAT(summarise(write(messages), options).lasers, ElementsAre("/scan_rear"));
+}
+
+TEST_F(BagLogTest, WhatIsNotClearIsAnErrorThatListsTheTopics) {
+  const TestMessage scan = scanOn("/scan", 1, "laser");
+  EXPECT_THAT(errorOf({odometryAt(1, {})}), HasSubstr("no laser scans: "));
+  EXPECT_THAT(errorOf({odometryAt(1, {})}),
+              HasSubstr("the bag has /odom (nav_msgs/msg/Odometry, 1 messages)"));
+  const std::vector<TestMessage> twins{scan, scanOn("/scan_filtered", 1, "laser"),
+                                       frameAt("base_link", "laser", test::turned(0, 0, 0))};
+  EXPECT_THAT(errorOf(twins), HasSubstr("choose with --topic, repeatable: /scan (sensor_msgs/msg/LaserScan"));
+  EXPECT_EQ(errorOf(twins, {{"/scan"}, ""}), "no error");
+  EXPECT_THAT(errorOf(twins, {{"/laser"}, ""}), HasSubstr("no scans on the topic `/laser`"));
+  const std::vector<TestMessage> unknown{scan, scanOn("/other", 1, "elsewhere")};
+  EXPECT_THAT(errorOf(unknown), HasSubstr("several scan topics"));
+  EXPECT_THAT(errorOf(unknown, {{"/scan", "/other"}, ""}),
+              HasSubstr("no transform from `base_link` to `laser`"));
+  const std::vector<TestMessage> odometries{scan, odometryAt(1, {}), odometryAt(1, {}, "/filtered")};
+  EXPECT_THAT(errorOf(odometries), HasSubstr("several odometry topics"));
+  EXPECT_THAT(errorOf(odometries), HasSubstr("--odometry-topic: /odom"));
+  EXPECT_EQ(plan(odometries, {{}, "/filtered"}).odometryTopic, "/filtered");
+  EXPECT_THAT(errorOf(odometries, {{}, "/none"}), HasSubstr("no odometry on the topic `/none`"));
+}
+
+TEST_F(BagLogTest, TransformsThatGoInACircleEnd) {
+  EXPECT_EQ(errorOf({frameAt("a", "b", test::turned(0, 0, 0)), frameAt("b", "a", test::turned(0, 0, 0)),
+                     scanOn("/scan", 1, "a")}),
+            "no error");
+}
+
+}  // namespace
+}  // namespace hybrid_slam::readings

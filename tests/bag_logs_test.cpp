@@ -1,0 +1,112 @@
+/// Bags as a user reads them: the same drive as a rawlog and as the recordings of ROS.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "Shell.h"
+#include "files/TemporaryFolder.h"
+#include "files/Trajectory.h"
+#include "testing/RosBags.h"
+
+namespace hybrid_slam {
+namespace {
+
+using bags::Encoding;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Bags : public testing::Test {
+ protected:
+  test::Outcome run(const std::string& program, const std::string& arguments) {
+    return test::shell(folder, "'" + program + "' " + arguments);
+  }
+  files::Trajectory mapped(const std::string& log) {
+    const std::string out = folder.path("out-" + std::filesystem::path(log).filename().string());
+    const test::Outcome outcome = run(HYBRID_SLAM, "'" + log + "' -q -s 1 -o '" + out + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return files::loadTum(out + "/trajectory.tum");
+  }
+
+  files::TemporaryFolder folder;
+  const test::Log drive = test::laps(60);
+};
+
+/// The angles of ROS's scans are 32-bit numbers: the trajectories agree to less than that.
+TEST_F(Bags, GiveTheTrajectoryOfTheRawlog) {
+  const auto expected = mapped(test::writeGzipped(folder.path("drive.rawlog"), drive));
+  ASSERT_EQ(expected.size(), 60u);
+  const auto ros1 = test::messagesOf(drive, Encoding::ros1), ros2 = test::messagesOf(drive, Encoding::cdr);
+  for (const std::string& log : {test::writeRosBag(folder.path("drive.bag"), ros1, rosbag::compression::LZ4),
+                                 test::writeDatabase(folder.path("drive.db3"), ros2),
+                                 test::writeMcap(folder.path("drive.mcap"), ros2)}) {
+    const auto found = mapped(log);
+    ASSERT_EQ(found.size(), expected.size()) << log;
+    for (size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].timestamp, expected[i].timestamp, 1e-6);
+      EXPECT_NEAR(found[i].pose.x, expected[i].pose.x, 1e-6) << log << " " << i;
+      EXPECT_NEAR(found[i].pose.y, expected[i].pose.y, 1e-6);
+      EXPECT_NEAR(found[i].pose.phi, expected[i].pose.phi, 1e-6);
+    }
+  }
+}
+
+TEST_F(Bags, ListsTheirTopics) {
+  const std::string bag =
+      test::writeRosBag(folder.path("drive.bag"), test::messagesOf(drive, Encoding::ros1));
+  for (const char* program : {LOG2RAWLOG, HYBRID_SLAM}) {
+    const test::Outcome outcome = run(program, "--list '" + bag + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "       60  /odom  nav_msgs/Odometry\n       60  /scan  sensor_msgs/LaserScan\n");
+  }
+}
+
+TEST_F(Bags, AreConvertedWithTheTopicsThatAreChosen) {
+  auto messages = test::messagesOf(drive, Encoding::cdr);
+  for (size_t i = 0; i < 20; ++i) {
+    test::TestMessage other = messages[2 * i + 1];
+    other.topic = "/other";
+    messages.push_back(other);
+  }
+  const std::string bag = test::writeMcap(folder.path("drive.mcap"), messages),
+                    rawlog = folder.path("out.rawlog");
+  const std::string files = "'" + bag + "' '" + rawlog + "'";
+  test::expectInputError(run(LOG2RAWLOG, files), "log2rawlog",
+                         "several scan topics: " + bag + "; choose with --topic");
+  EXPECT_FALSE(std::filesystem::exists(rawlog));
+  test::expectInputError(run(HYBRID_SLAM, "'" + bag + "'"), "hybrid-slam", "--topic");
+  const test::Outcome outcome = run(LOG2RAWLOG, "--topic /scan " + files);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, HasSubstr("out.rawlog: MCAP file, 60 scans, 60 odometry readings, 11.8 s, path "));
+  EXPECT_EQ(run(HYBRID_SLAM, "--topic /scan -q -o '" + folder.path("out") + "' '" + bag + "'").status, 0);
+}
+
+TEST_F(Bags, CutOnesAreConvertedUpToTheCutUnlessStrict) {
+  const std::string bag = test::writeMcap(folder.path("drive.mcap"), test::messagesOf(drive, Encoding::cdr));
+  const std::string bytes = test::contentOf(bag), rawlog = folder.path("out.rawlog");
+  test::write(bag, bytes.substr(0, bytes.size() / 2));
+  const std::string files = "'" + bag + "' '" + rawlog + "'";
+  test::expectInputError(run(LOG2RAWLOG, "--strict " + files), "log2rawlog", "cut off");
+  EXPECT_FALSE(std::filesystem::exists(rawlog));
+  const test::Outcome outcome = run(LOG2RAWLOG, files);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("cut off in the middle of a record: " + bag + "; converted up to this point"));
+}
+
+TEST_F(Bags, WrongFilesAreOneError) {
+  const std::string odometry = test::writeDatabase(
+      folder.path("odometry.db3"),
+      {{"/odom", "nav_msgs/Odometry", 1, test::odometryBytes(test::MessageBytes(Encoding::cdr), 1, {})}});
+  test::expectInputError(run(HYBRID_SLAM, "'" + odometry + "'"), "hybrid-slam",
+                         "no laser scans: " + odometry);
+  test::expectInputError(run(LOG2RAWLOG, "--list '" + folder.write("text", "abc") + "'"), "log2rawlog",
+                         "not a bag: ");
+  test::expectInputError(run(LOG2RAWLOG, "'" + folder.write("a.bag", "#ROSBAG V2.0\nabc") + "' '" +
+                                             folder.path("out.rawlog") + "'"),
+                         "log2rawlog", "cut off");
+}
+
+}  // namespace
+}  // namespace hybrid_slam
