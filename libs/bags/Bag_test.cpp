@@ -118,6 +118,27 @@ TEST(Ros1Bag, DamagedBagsDoNoHarm) {
   }
 }
 
+/// As in the bags of scan_tools, recorded in 2010: 20 bytes for each entry of the index, where there are 12.
+TEST(Ros1Bag, WrongLengthsOfTheIndexDoNotMatter) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(100);
+  const std::string path = test::writeRosBag(folder.path("a.bag"), written);
+  std::string bytes = test::contentOf(path);
+  const std::string version("ver=\1\0\0\0", 8);
+  size_t indices = 0;
+  for (size_t at = bytes.find(version); at != std::string::npos; at = bytes.find(version, at + 1)) {
+    uint32_t length = 0;
+    std::memcpy(&length, &bytes[at + version.size()], sizeof length);
+    length = length / 12 * 20;
+    std::memcpy(&bytes[at + version.size()], &length, sizeof length);
+    ++indices;
+  }
+  EXPECT_GT(indices, 4u);
+  const Content content = read(test::write(path, bytes));
+  EXPECT_EQ(content.defect, "");
+  expectSame(content.messages, written);
+}
+
 TEST(Ros1Bag, OldVersionsAreRefused) {
   const files::TemporaryFolder folder;
   EXPECT_THAT(errorOf(folder.write("old.bag", "#ROSBAG V1.2\nabc")), HasSubstr("rosbag fix"));

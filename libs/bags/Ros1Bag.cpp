@@ -4,7 +4,14 @@ namespace hybrid_slam::bags {
 namespace {
 
 constexpr size_t kMostHeaderBytes = 1 << 20;
-enum Record : uint8_t { kMessage = 2, kBagHeader = 3, kChunk = 5, kConnection = 7 };
+enum Record : uint8_t {
+  kMessage = 2,
+  kBagHeader = 3,
+  kIndex = 4,
+  kChunk = 5,
+  kChunkInfo = 6,
+  kConnection = 7
+};
 
 /// The value of a field `name=value`; empty if there is none.
 std::string_view field(std::string_view header, std::string_view name) {
@@ -34,7 +41,7 @@ Ros1Bag::Ros1Bag(const std::string& path) : stream_(path) { stream_.skip(sizeof(
 std::optional<StoredMessage> Ros1Bag::next() {
   try {
     while (defect_.empty()) {
-      if (inChunk_.left() == 0 && stream_.isAtEnd()) break;
+      if (inChunk_.left() == 0 && (isAtEnd_ || stream_.isAtEnd())) break;
       if (auto message = inChunk_.left() > 0 ? nextInChunk() : nextRecord()) return message;
     }
   } catch (const BrokenBytes& broken) {
@@ -57,6 +64,15 @@ std::optional<StoredMessage> Ros1Bag::nextRecord() {
   const auto kind = numberIn<uint8_t>(header, "op");
   if (kind == kBagHeader && !field(header, "encryptor").empty()) throw BrokenBytes("encrypted");
   const auto size = length(UINT32_MAX, "");
+  if (kind == kChunkInfo) {  // of the index at the end: all messages come before
+    isAtEnd_ = true;
+    return std::nullopt;
+  }
+  if (kind == kIndex) {  // bags of 2010 state a wrong length
+    constexpr uint64_t kEntryBytes = 12;
+    stream_.skip(kEntryBytes * numberIn<uint32_t>(header, "count"));
+    return std::nullopt;
+  }
   if (kind != kMessage && kind != kChunk && kind != kConnection) {
     stream_.skip(size);
     return std::nullopt;

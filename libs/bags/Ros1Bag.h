@@ -31,6 +31,7 @@ class Ros1Bag : public Bag {
   std::string record_;                                ///< data of the last top-level message
   std::string chunk_;
   ByteCursor inChunk_{{}};
+  bool isAtEnd_ = false;
 };
 
 }  // namespace hybrid_slam::bags
