@@ -16,7 +16,7 @@
 namespace hybrid_slam::bags {
 
 struct Topic {
-  std::string name;
+  std::string name;  ///< without control characters
   std::string type;  ///< `sensor_msgs/LaserScan`, `sensor_msgs/msg/LaserScan`
   Encoding encoding = Encoding::ros1;
   std::optional<MessageType> messageType;  ///< empty: messages of this topic are not read

@@ -245,6 +245,13 @@ TEST(Bag, CompressedFilesAreReadAsWell) {
   expectSame(read(test::write(folder.path("b"), files::gzipped(plain))).messages, written);
 }
 
+TEST(Bag, NamesCannotControlATerminal) {
+  const files::TemporaryFolder folder;
+  auto written = messages(1, Encoding::cdr);
+  written[0].topic = "/scan\x1b[2J";
+  EXPECT_EQ(read(test::writeMcap(folder.path("a.mcap"), written)).messages[0].topic, "/scan?[2J");
+}
+
 TEST(Bag, OtherFilesAreNone) {
   const files::TemporaryFolder folder;
   for (const char* text : {"", "#ROSBAG", "FLASER 1 2 3"}) {

@@ -16,6 +16,14 @@ struct BrokenBytes : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A name of unknown origin that shall not control a terminal.
+inline std::string printable(std::string_view name) {
+  std::string text(name);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return text;
+}
+
 /// A position in a run of bytes. Each getter moves it and throws BrokenBytes beyond the end.
 class ByteCursor {
  public:

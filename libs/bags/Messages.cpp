@@ -29,7 +29,7 @@ class Fields {
     std::string_view text = cursor_.block();
     if (isCdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
     if (text.size() > 256) throw BrokenBytes("a name is too long");
-    return std::string(text);
+    return printable(text);
   }
   /// Number of elements of a sequence, each at least so large.
   size_t count(size_t elementBytes) {

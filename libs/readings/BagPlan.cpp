@@ -24,18 +24,11 @@ bool isOdometry(const Entry& entry) {
   return entry.messages > entry.broken && entry.topic.messageType == MessageType::odometry;
 }
 
-/// Names are of unknown origin: they shall not control a terminal.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (c < ' ' || c == '\x7f') c = '?';
-  return text;
-}
-
 std::string listOf(const std::vector<const Entry*>& entries) {
   constexpr size_t kMost = 20;
   std::string all;
   for (size_t i = 0; i < std::min(entries.size(), kMost); ++i)
-    all += (i == 0 ? "" : ", ") + printable(entries[i]->topic.name + " (" + entries[i]->topic.type) + ", " +
+    all += (i == 0 ? "" : ", ") + entries[i]->topic.name + " (" + entries[i]->topic.type + ", " +
            std::to_string(entries[i]->messages) + " messages)";
   return entries.empty() ? "no topics" : all + (entries.size() > kMost ? ", ..." : "");
 }
@@ -137,8 +130,7 @@ std::string BagContents::table() const {
             [](const Entry* a, const Entry* b) { return a->topic.name < b->topic.name; });
   std::ostringstream out;
   for (const Entry* entry : all)
-    out << std::setw(9) << entry->messages << "  " << printable(entry->topic.name) << "  "
-        << printable(entry->topic.type) << "\n";
+    out << std::setw(9) << entry->messages << "  " << entry->topic.name << "  " << entry->topic.type << "\n";
   return out.str();
 }
 
@@ -202,8 +194,7 @@ BagPlan planOf(const BagContents& contents, const BagOptions& options, const std
     const bool isNewFrame = used.insert(scan->frame).second;
     if (scans.size() > 1 && options.topics.empty() && (!isNewFrame || !laser.isMountingKnown))
       throw InputError("several scan topics", file, "choose with --topic, repeatable: " + listOf(scans));
-    const std::string missing =
-        "no transform from `" + expectedBase + "` to `" + printable(scan->frame) + "`";
+    const std::string missing = "no transform from `" + expectedBase + "` to `" + scan->frame + "`";
     if (scans.size() > 1 && !laser.isMountingKnown)
       throw InputError(missing, file, "expected the poses of several lasers; --topic chooses one");
     if (!laser.isMountingKnown)
