@@ -45,10 +45,9 @@ if(HYBRID_SLAM_TESTS)
   # ROS's own library writes the bags of the tests.
   find_path(ROSBAG_HEADERS rosbag/bag.h REQUIRED)
   add_library(hybrid_slam_rosbag INTERFACE)
-  foreach(package pluginlib class_loader rcutils rcpputils ament_index_cpp)
-    find_path(ROSBAG_${package} ${package} REQUIRED)
-    target_include_directories(hybrid_slam_rosbag SYSTEM INTERFACE ${ROSBAG_${package}}/${package})
-  endforeach()
+  target_include_directories(hybrid_slam_rosbag SYSTEM INTERFACE ${ROSBAG_HEADERS}/pluginlib
+    ${ROSBAG_HEADERS}/class_loader ${ROSBAG_HEADERS}/rcutils ${ROSBAG_HEADERS}/rcpputils
+    ${ROSBAG_HEADERS}/ament_index_cpp)
   target_link_libraries(hybrid_slam_rosbag INTERFACE
     rosbag_storage roscpp_serialization rostime cpp_common roslz4 console_bridge boost_filesystem boost_system
     class_loader roslib)
