@@ -7,6 +7,7 @@
 #include "Shell.h"
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
+#include "readings/LogReader.h"
 #include "testing/RosBags.h"
 
 namespace hybrid_slam {
@@ -29,10 +30,10 @@ class Bags : public testing::Test {
   }
 
   files::TemporaryFolder folder;
-  const test::Log drive = test::laps(60);
+  /// The step between 129 beams is a 32-bit number without rounding.
+  const test::Log drive = test::laps(60, 80, 129);
 };
 
-/// The angles of ROS's scans are 32-bit numbers: the trajectories agree to less than that.
 TEST_F(Bags, GiveTheTrajectoryOfTheRawlog) {
   const auto expected = mapped(test::writeGzipped(folder.path("drive.rawlog"), drive));
   ASSERT_EQ(expected.size(), 60u);
@@ -49,6 +50,33 @@ TEST_F(Bags, GiveTheTrajectoryOfTheRawlog) {
       EXPECT_NEAR(found[i].pose.phi, expected[i].pose.phi, 1e-6);
     }
   }
+}
+
+/// With 181 beams, whose angles round: what a bag gives is what the rawlog holds.
+TEST_F(Bags, GiveTheObjectsOfTheRawlog) {
+  const test::Log log = test::laps(20);
+  readings::LogReader reader(
+      test::writeRosBag(folder.path("drive.bag"), test::messagesOf(log, Encoding::ros1)));
+  for (const auto& expected : log) {
+    const auto object = reader.next();
+    if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(expected)) {
+      const auto found = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(object);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR((found->odometry - odometry->odometry).norm(), 0, 1e-12);
+      EXPECT_NEAR(found->odometry.phi(), odometry->odometry.phi(), 1e-12);
+    } else {
+      const auto& scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(*expected);
+      const auto found = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(readings::seconds(found->timestamp), readings::seconds(scan.timestamp), 1e-6);
+      EXPECT_NEAR(found->aperture, scan.aperture, 1e-6);
+      EXPECT_NEAR(found->sensorPose.yaw(), 0, 1e-6);
+      EXPECT_EQ(found->maxRange, scan.maxRange);
+      ASSERT_EQ(found->getScanSize(), scan.getScanSize());
+      for (size_t i = 0; i < scan.getScanSize(); ++i) ASSERT_EQ(found->getScanRange(i), scan.getScanRange(i));
+    }
+  }
+  EXPECT_FALSE(reader.next());
 }
 
 TEST_F(Bags, ListsTheirTopics) {
