@@ -1,0 +1,226 @@
+#include "slam/plan/FloorPlan.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "slam/plan/WallLines.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kCell = 0.05;
+
+/// Walls drawn into free space.
+struct PaintedGrid {
+  OccupancyGrid grid{0.05};
+
+  void paint(double x0, double y0, double x1, double y1, int8_t value) {
+    const CellIndex low = grid.cellOf(x0, y0), high = grid.cellOf(x1 - 1e-6, y1 - 1e-6);
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) grid.tiles().set({x, y}, value);
+  }
+  void free(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, -20); }
+  void unknown(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, 0); }
+  void wall(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, 30); }
+  /// A wall of one cell along any line.
+  void slantedWall(double x0, double y0, double x1, double y1) {
+    const int steps = static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 0.01);
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      grid.tiles().set(grid.cellOf(x0 + t * (x1 - x0), y0 + t * (y1 - y0)), 30);
+    }
+  }
+};
+
+DatabaseLine line(double x0, double y0, double x1, double y1, int count = 20) {
+  DatabaseLine result;
+  static_cast<LineSegment&>(result) = makeSegment({x0, y0}, {x1, y1});
+  result.count = count;
+  return result;
+}
+
+TEST(FloorPlan, AnEmptyMapGivesAnEmptyPlan) {
+  EXPECT_TRUE(floorPlanOf({}, OccupancyGrid()).walls.empty());
+  EXPECT_TRUE(floorPlanOf({line(0, 0, 10, 0)}, OccupancyGrid()).walls.empty());
+  PaintedGrid free;
+  free.free(-5, -5, 5, 5);
+  EXPECT_TRUE(floorPlanOf({line(0, 0, 4, 0)}, free.grid).walls.empty());
+}
+
+// A corridor's wall with a room behind it: the line of the database crosses the door.
+TEST(FloorPlan, TwoPiecesOfALineKeepTheDoorBetweenThem) {
+  PaintedGrid map;
+  map.free(0, -2, 7, 2);
+  map.wall(0, 0, 3, kCell);
+  map.wall(4, 0, 7, kCell);
+  const FloorPlan plan = floorPlanOf({line(0, 0.02, 7, 0.02)}, map.grid);
+  ASSERT_EQ(plan.walls.size(), 2u);
+  EXPECT_EQ(plan.walls[0].group, plan.walls[1].group);
+  ASSERT_EQ(plan.openings.size(), 1u);
+  const auto [a, b] = plan.openings[0];
+  EXPECT_NEAR(std::min(a.x, b.x), 3, kCell);
+  EXPECT_NEAR(std::max(a.x, b.x), 4, kCell);
+  for (const Wall& wall : plan.walls) {
+    EXPECT_NEAR(wall.length(), 3, 2 * kCell);
+    EXPECT_NEAR(wall.start.y, 0.022, 0.005);
+    EXPECT_NEAR(wall.end.y, 0.022, 0.005);
+    EXPECT_EQ(wall.count, 20);
+    EXPECT_TRUE(wall.isSnapped);
+  }
+}
+
+TEST(FloorPlan, AGapThatIsNotFreeIsClosed) {
+  PaintedGrid map;
+  map.free(0, -2, 7, 0);
+  map.wall(0, 0, 3, kCell);
+  map.wall(3.4, 0, 7, kCell);
+  map.unknown(3, -1, 3.4, 0.5);
+  const FloorPlan plan = floorPlanOf({}, map.grid);
+  ASSERT_EQ(plan.walls.size(), 1u);
+  EXPECT_NEAR(plan.walls[0].length(), 7, 2 * kCell);
+}
+
+// The mouth of an alcove is no door.
+TEST(FloorPlan, AnAlcoveIsNoOpening) {
+  PaintedGrid map;
+  map.free(0, -2, 7, 0.3);
+  map.wall(0, 0, 3, 0.3);
+  map.wall(4, 0, 7, 0.3);
+  map.wall(3, 0.2, 4, 0.3);
+  EXPECT_TRUE(floorPlanOf({}, map.grid).openings.empty());
+}
+
+TEST(FloorPlan, TheTwoFacesOfAWallArePaired) {
+  PaintedGrid map;
+  map.free(0, -2, 5, 2);
+  map.wall(0, 0, 5, kCell);
+  map.wall(0, 0.15, 5, 0.15 + kCell);
+  map.unknown(0, kCell, 5, 0.15);
+  const FloorPlan plan = floorPlanOf({}, map.grid);
+  ASSERT_EQ(plan.walls.size(), 2u);
+  EXPECT_EQ(plan.walls[0].pair, 1);
+  EXPECT_EQ(plan.walls[1].pair, 0);
+  for (const Wall& wall : plan.walls) {
+    EXPECT_NEAR(wall.thickness, 0.15, 0.005);
+    EXPECT_NEAR(wall.length(), 5, 2 * kCell);
+    // The free side is on the left.
+    EXPECT_GT((wall.end.x - wall.start.x) * (wall.start.y - 0.1), 0);
+  }
+}
+
+/// Whether an end of a wall along x and one of a wall along y coincide.
+bool hasCorner(const FloorPlan& plan) {
+  for (const Wall& a : plan.walls)
+    for (const Wall& b : plan.walls)
+      for (const TPoint2D& p : {a.start, a.end})
+        for (const TPoint2D& q : {b.start, b.end})
+          if (std::abs(std::sin(a.line.angle - b.line.angle)) > 0.9 && (p - q).norm() < 1e-6) return true;
+  return false;
+}
+
+TEST(FloorPlan, AnOpenCornerIsClosedUnlessTheGridIsFreeThere) {
+  PaintedGrid map;
+  map.free(0, 0, 4, 4);
+  map.wall(0.2, -kCell, 4, 0);
+  map.wall(-kCell, 0.2, 0, 4);
+  const FloorPlan closed = floorPlanOf({}, map.grid);
+  ASSERT_EQ(closed.walls.size(), 2u);
+  EXPECT_TRUE(hasCorner(closed));
+
+  map.free(-1, -1, 0.2, 0.2);
+  EXPECT_FALSE(hasCorner(floorPlanOf({}, map.grid)));
+}
+
+// A wall takes the building's direction only as far as its own covariance allows.
+TEST(FloorPlan, ShortWallsAreSnappedAndLongSlantedOnesAreNot) {
+  PaintedGrid map;
+  map.free(0, 0, 12, 12);
+  map.wall(0, 0, 12, kCell);
+  map.wall(0, 0, kCell, 12);
+  map.slantedWall(5, 5, 5.7, 5.02);
+  map.slantedWall(2, 8, 10, 8.5);
+  map.wall(5, 4.4, 5.05, 5);  // or the short one is clutter
+  const FloorPlan plan = floorPlanOf({}, map.grid);
+  ASSERT_EQ(plan.directions.size(), 1u);
+  EXPECT_NEAR(plan.directions[0], 0, 1e-3);
+  int shortOnes = 0, longOnes = 0;
+  for (const Wall& wall : plan.walls) {
+    const TPoint2D middle = (wall.start + wall.end) * 0.5;
+    if (std::abs(middle.y - 5) < 0.1 && wall.length() > 0.5) {
+      ++shortOnes;
+      EXPECT_TRUE(wall.isSnapped);
+      EXPECT_NEAR(std::sin(wall.line.angle), 0, 1e-3);
+    }
+    if (middle.y > 7.5 && middle.x > 1 && wall.length() > 5) {
+      ++longOnes;
+      EXPECT_FALSE(wall.isSnapped);
+      EXPECT_NEAR(std::tan(wall.line.angle), 0.5 / 8, 0.005);
+    }
+  }
+  EXPECT_GE(shortOnes, 1);
+  EXPECT_GE(longOnes, 1);
+}
+
+TEST(FloorPlan, AnyMapGivesAPlanOfFiniteWalls) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0, 20), angle(-M_PI, M_PI), length(0.1, 8);
+    PaintedGrid map;
+    map.free(-1, -1, 21, 21);
+    std::vector<DatabaseLine> lines;
+    for (int i = 0; i < 40; ++i) {
+      const double x = place(random), y = place(random), phi = angle(random), l = length(random);
+      const double x1 = x + l * std::cos(phi), y1 = y + l * std::sin(phi);
+      if (i % 3 != 0) map.slantedWall(x, y, x1, y1);
+      if (i % 2 == 0) lines.push_back(line(x, y, x1, y1, 1 + i));
+    }
+    const FloorPlan plan = floorPlanOf(lines, map.grid);
+    EXPECT_GT(plan.walls.size(), 10u);
+    for (size_t i = 0; i < plan.walls.size(); ++i) {
+      const Wall& wall = plan.walls[i];
+      for (const TPoint2D& p : {wall.start, wall.end}) {
+        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+        ASSERT_LT(std::hypot(p.x - 10, p.y - 10), 30);
+        ASSERT_NEAR(wall.line.offset(p), 0, 1e-6);
+      }
+      ASSERT_GT(wall.length(), 0);
+      ASSERT_GT(wall.line.covariance(0, 0), 0);
+      ASSERT_GT(wall.line.covariance.determinant(), 0);
+      if (wall.pair >= 0) {
+        ASSERT_EQ(plan.walls.at(static_cast<size_t>(wall.pair)).pair, static_cast<int>(i));
+        ASSERT_GT(wall.thickness, 0);
+      }
+    }
+  }
+}
+
+Face face(const TPoint2D& start, const TPoint2D& end) {
+  Face result;
+  result.start = start, result.end = end;
+  const TPoint2D d = end - start;
+  result.line = lineThrough((start + end) * 0.5, std::atan2(d.y, d.x), d.norm(), 0.01);
+  return result;
+}
+
+// Minutes if the number of comparisons grew with the square.
+TEST(WallLines, AHundredThousandFacesAreGrouped) {
+  std::vector<Face> faces;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 1000), angle(-M_PI, M_PI);
+  for (int i = 0; i < 100'000; ++i) {
+    const TPoint2D p(place(random), place(random));
+    const double phi = angle(random);
+    faces.push_back(face(p, p + TPoint2D(std::cos(phi), std::sin(phi))));
+  }
+  EXPECT_GT(wallLinesOf(faces, kCell).size(), 90'000u);
+  EXPECT_EQ(wallLinesOf(std::vector<Face>(100'000, faces[0]), kCell).size(), 1u);
+}
+
+}  // namespace
+}  // namespace hybrid_slam

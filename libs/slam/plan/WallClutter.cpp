@@ -1,0 +1,58 @@
+#include "slam/plan/WallClutter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "slam/plan/PointIndex.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kShortest = 0.8;  // m
+constexpr double kTouch = 0.12;    // m
+
+double distance(const TPoint2D& p, const Wall& wall) {
+  const TPoint2D d = wall.end - wall.start, q = p - wall.start;
+  const double t = std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
+  return (q - d * t).norm();
+}
+
+/// Sets of walls that touch.
+class Clusters {
+ public:
+  explicit Clusters(size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), size_t{0}); }
+  size_t of(size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(size_t a, size_t b) { parent_[of(a)] = of(b); }
+
+ private:
+  std::vector<size_t> parent_;
+};
+
+}  // namespace
+
+void removeClutter(std::vector<Wall>& walls) {
+  PointIndex index(kTouch);
+  for (size_t i = 0; i < walls.size(); ++i) index.add(walls[i].start, walls[i].end, static_cast<int>(i));
+  Clusters clusters(walls.size());
+  for (size_t i = 0; i < walls.size(); ++i)
+    for (const TPoint2D& end : {walls[i].start, walls[i].end})
+      index.near(end, [&](int other) {
+        const auto j = static_cast<size_t>(other);
+        if (clusters.of(i) != clusters.of(j) && distance(end, walls[j]) < kTouch) clusters.join(i, j);
+      });
+  std::vector<double> length(walls.size(), 0);
+  for (size_t i = 0; i < walls.size(); ++i) length[clusters.of(i)] += walls[i].length();
+  std::vector<Wall> kept;
+  for (size_t i = 0; i < walls.size(); ++i)
+    if (length[clusters.of(i)] >= kShortest) kept.push_back(walls[i]);
+  walls = std::move(kept);
+}
+
+}  // namespace hybrid_slam

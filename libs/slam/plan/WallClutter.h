@@ -1,0 +1,14 @@
+/// @file WallClutter.h
+/// @brief Tells walls from legs of chairs and single echoes.
+#pragma once
+
+#include <vector>
+
+#include "slam/plan/FloorPlan.h"
+
+namespace hybrid_slam {
+
+/// Removes walls that, with all walls that they touch, are shorter than 0.8 m.
+void removeClutter(std::vector<Wall>& walls);
+
+}  // namespace hybrid_slam

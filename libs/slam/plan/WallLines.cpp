@@ -1,0 +1,126 @@
+#include "slam/plan/WallLines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "slam/plan/GridProbe.h"
+#include "slam/plan/PointIndex.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kMostDifferent = 13.8;        // squared Mahalanobis distance
+constexpr double kFarthest = 0.12;             // m: lines further apart are two walls, however unsure
+constexpr double kSteepest = 10 * M_PI / 180;  // rad
+constexpr double kDoor = 1.5;                  // m beyond each end
+constexpr double kSigma = 0.01;                // m: error of an observation of a line
+
+bool isOneLine(const LineEstimate& a, const LineEstimate& b, double cell) {
+  const bool isOpposite = std::cos(a.angle - b.angle) < 0;
+  const LineEstimate other = isOpposite ? b.reversed() : b;
+  const double offset = std::abs(a.offset(other.at));
+  if (std::abs(std::remainder(other.angle - a.angle, 2 * M_PI)) > kSteepest) return false;
+  // Both faces of a wall of a cell are one line.
+  if (offset > (isOpposite ? cell / 2 : kFarthest)) return false;
+  return squaredDistance(a, other) < kMostDifferent;
+}
+
+/// Occupied in the cell of a point or beside it.
+bool isOccupied(const GridProbe& probe, const TPoint2D& p, const TPoint2D& normal) {
+  for (const double side : {0.0, 1.0, -1.0})
+    if (probe.at(p + normal * (side * probe.cell())) > 0) return true;
+  return false;
+}
+
+/// Free minus occupied cells beside a stretch.
+int freedom(const GridProbe& probe, const TPoint2D& a, const TPoint2D& b, const TPoint2D& side) {
+  int sum = 0;
+  for (int i = 0; i < 16; ++i) {
+    const TPoint2D p = a + (b - a) * ((i + 0.5) / 16) + side * (3 * probe.cell());
+    const int value = probe.at(p);
+    sum += value < 0 ? 1 : value > 0 ? -1 : 0;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid) {
+  std::vector<Face> faces;
+  const GridProbe probe(grid);
+  if (!(line.length > grid.resolution())) return faces;
+  const TPoint2D d = (line.end - line.start) * (1 / line.length), normal(-d.y, d.x);
+  const double angle = std::atan2(d.y, d.x);
+  const int steps = static_cast<int>(line.length / grid.resolution());
+  const int gap = 3;  // steps
+  int first = -1, last = -1;
+  for (int i = 0; i <= steps + gap + 1; ++i) {
+    const TPoint2D p = line.start + d * (i * grid.resolution());
+    if (i <= steps && isOccupied(probe, p, normal)) {
+      if (first < 0) first = i;
+      last = i;
+    }
+    if (first < 0 || i - last <= gap) continue;
+    // What is shorter is a wall that crosses.
+    if (last - first >= 4) {
+      Face face;
+      face.start = line.start + d * (first * grid.resolution());
+      face.end = line.start + d * (last * grid.resolution());
+      face.line = lineThrough((line.start + line.end) * 0.5, angle, line.length,
+                              kSigma / std::sqrt(std::min(line.count, 20) / 4.0 + 1));
+      face.count = line.count;
+      if (freedom(probe, face.start, face.end, normal) < freedom(probe, face.start, face.end, normal * -1)) {
+        std::swap(face.start, face.end);
+        face.line = face.line.reversed();
+      }
+      faces.push_back(face);
+    }
+    first = -1;
+  }
+  return faces;
+}
+
+std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell) {
+  // The longest first; faces with observations before those of the grid alone.
+  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return (a.count > 0) != (b.count > 0) ? a.count > 0 : a.length() > b.length();
+  });
+  std::vector<WallLine> groups;
+  PointIndex index(kDoor);
+  std::vector<size_t> lastTried;  // per group: the face that was compared last
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const Face& face = faces[f];
+    int best = -1;
+    double least = kMostDifferent;
+    const auto consider = [&](int g) {
+      const auto i = static_cast<size_t>(g);
+      if (lastTried[i] == f) return;
+      lastTried[i] = f;
+      if (!isOneLine(groups[i].line, face.line, cell)) return;
+      const bool isOpposite = std::cos(groups[i].line.angle - face.line.angle) < 0;
+      const double distance = squaredDistance(groups[i].line, isOpposite ? face.line.reversed() : face.line);
+      if (distance < least) least = distance, best = g;
+    };
+    for (const TPoint2D& p : {face.start, (face.start + face.end) * 0.5, face.end}) index.near(p, consider);
+    if (best < 0) {
+      best = static_cast<int>(groups.size());
+      groups.push_back({face.line, {}});
+      lastTried.push_back(f);
+    } else {
+      LineEstimate& line = groups[static_cast<size_t>(best)].line;
+      // The stretches of a database line share its one estimate.
+      const Face& first = groups[static_cast<size_t>(best)].faces.front();
+      const bool isSame = face.count > 0 && (first.line.at - face.line.at).norm() < 1e-9;
+      if (!isSame)
+        line = fused(line, std::cos(line.angle - face.line.angle) < 0 ? face.line.reversed() : face.line);
+    }
+    groups[static_cast<size_t>(best)].faces.push_back(face);
+    index.add(face.start, face.end, best);
+  }
+  return groups;
+}
+
+}  // namespace hybrid_slam
