@@ -27,6 +27,10 @@ hybrid_slam_find(Threads)
 hybrid_slam_find(nlohmann_json)
 hybrid_slam_find(yaml-cpp)
 hybrid_slam_find(OpenCV COMPONENTS core imgcodecs)
+# dxflib brings no CMake package.
+find_library(HYBRID_SLAM_DXFLIB dxflib REQUIRED)
+find_path(HYBRID_SLAM_DXFLIB_HEADERS dxflib/dl_dxf.h REQUIRED)
+string(APPEND hybrid_slam_find_dependencies "find_library(HYBRID_SLAM_DXFLIB dxflib REQUIRED)\n")
 find_package(CLI11 REQUIRED)
 
 if(HYBRID_SLAM_STUDY)

@@ -11,8 +11,9 @@ namespace hybrid_slam::test {
 
 /// All files that a replay writes.
 inline const std::vector<std::string> kResults{
-    "trajectory.tum", "map.png",   "map.pgm",      "map.yaml",   "map.gridmap.gz", "map.simplemap.gz",
-    "lines.csv",      "steps.csv", "metrics.json", "config.ini", "covariance.csv", "session.hslam"};
+    "trajectory.tum",   "map.png",      "map.pgm",    "map.yaml",       "map.gridmap.gz",
+    "map.simplemap.gz", "lines.csv",    "plan.svg",   "plan.dxf",       "plan.geojson",
+    "steps.csv",        "metrics.json", "config.ini", "covariance.csv", "session.hslam"};
 
 /// Contents of a folder; empty if there is none.
 inline std::vector<std::string> namesIn(const std::string& folder) {

@@ -21,6 +21,7 @@ TARGETS = [
     (r"lz4frame\.h", "lz4"),
     (r"sqlite3\.h", "SQLite::SQLite3"),
     (r"yaml-cpp/.*", "yaml-cpp"),
+    (r"dxflib/.*", "dxflib"),
     (r"CLI/.*", "CLI11::CLI11"),
     (r"wx/.*", "hybrid_slam_wx"),
     (r"thread|future|condition_variable", "Threads::Threads"),

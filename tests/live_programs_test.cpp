@@ -259,7 +259,7 @@ TEST_F(LivePrograms, ASignalSavesTheMapAndTheRunGoesOn) {
   EXPECT_THAT(map->err(), HasSubstr("map saved: " + saved[0] + "\n"));
   EXPECT_THAT(test::namesIn(saved[0]),
               testing::UnorderedElementsAre("trajectory.tum", "map.png", "map.pgm", "map.yaml", "lines.csv",
-                                            "session.hslam"));
+                                            "plan.svg", "plan.dxf", "plan.geojson", "session.hslam"));
   EXPECT_EQ(map->wait(), 0) << map->err();
   EXPECT_THAT(map->out(), HasSubstr("400 scans"));
   EXPECT_TRUE(std::filesystem::exists(saved[0] + "/session.hslam")) << "beside the results of the run";

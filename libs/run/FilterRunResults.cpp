@@ -9,6 +9,7 @@
 #include "base/Numbers.h"
 #include "run/FilterRun.h"
 #include "run/MapFiles.h"
+#include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/SimpleMapFile.h"
 #include "slam/filter/Refinement.h"
@@ -123,6 +124,8 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   saveRosMap(folder_, result.grid);
   saveGridMap(folder_, result.grid);
   saveLines(folder_, result.lines);
+  if (configuration_.run.method == Method::hybrid)
+    savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
   std::vector<bool> isUpdate;
   for (const Use use : uses_) isUpdate.push_back(use == Use::update);
   readings::RawlogSource again(file, configuration_.input, log);

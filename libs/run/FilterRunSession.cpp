@@ -9,6 +9,7 @@
 #include "run/FilterRun.h"
 #include "run/Fingerprint.h"
 #include "run/MapFiles.h"
+#include "run/PlanFiles.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam::run {
@@ -110,7 +111,10 @@ void FilterRun::saveMapTo(const std::string& path) {
   savePicture(folder, grid, trajectory, lines);
   saveRosMap(folder, grid);
   saveLines(folder, lines);
-  if (hybrid_) saveSessionTo(folder.path(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+  if (!hybrid_) return;
+  const ScanMap map = hybrid_->bestMap();
+  if (configuration_.run.method == RunOptions::Method::hybrid) savePlan(folder, floorPlanOf(lines, map.grid));
+  saveSessionTo(folder.path(kSessionName), map, hybrid_->bestPath());
 }
 
 void FilterRun::resume(SessionReader& session) {

@@ -1,0 +1,37 @@
+/// @file PlanFiles.h
+/// @brief Writes and reads floor plans. All coordinates are metres in the map frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files/OutputFolder.h"
+#include "slam/plan/FloorPlan.h"
+
+namespace hybrid_slam::run {
+
+/// `plan.svg`: walls black, filled between their two faces; openings dashed.
+void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan);
+
+/// `plan.dxf` (R12, metres): a LINE for each wall on the layer WALLS, for each opening on OPENINGS.
+/// @throws InputError if it cannot be written completely
+void savePlanDxf(const files::OutputFolder& folder, const FloorPlan& plan);
+
+/// `plan.geojson`: a LineString for each wall and opening, with the covariance of the wall.
+void savePlanGeoJson(const files::OutputFolder& folder, const FloorPlan& plan);
+
+/// All three.
+void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
+
+/// A straight piece of a plan that was read.
+struct PlanLine {
+  mrpt::math::TPoint2D start, end;  ///< m, frame of the plan
+};
+
+/// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF with LINE, LWPOLYLINE or POLYLINE (the
+/// unit of $INSUNITS; without it m), or an SVG that savePlanSvg wrote; told apart by the end of the name.
+/// Openings are left out.
+/// @throws InputError for an unreadable file, one of another kind, or one without walls
+std::vector<PlanLine> loadPlan(const std::string& file);
+
+}  // namespace hybrid_slam::run
