@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -16,11 +17,14 @@
 #include "Program.h"
 #include "files/Trajectory.h"
 #include "readings/EndPointReader.h"
+#include "run/PlanFiles.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
 #include "study/evaluation/NormalizedError.h"
+#include "study/evaluation/PlanComparison.h"
 #include "study/evaluation/RelationErrors.h"
 #include "study/evaluation/RelativePoseError.h"
 #include "study/evaluation/RevisitError.h"
+#include "study/simulation/FloorPlanFile.h"
 
 namespace {
 
@@ -31,6 +35,8 @@ constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
 
 struct CommandLine {
   std::string trajectory, relations, odometry, reference, rawlog, covariances;
+  std::string plan, truth;
+  bool aligns = false;
   std::string delta = "1m";
   double relationTolerance = 0.006;  // s
   double referenceTolerance = 0.02;  // s
@@ -125,7 +131,49 @@ Json revisitsJson(const CommandLine& line) {
           {"apart", errors.apart}};
 }
 
-int run(int argc, char** argv) {
+/// Of a drawing, or of a floor plan of simul-floorplan, arcs in pieces of at most 0.1 m.
+std::vector<evaluation::StraightWall> loadWalls(const std::string& file) {
+  std::vector<evaluation::StraightWall> walls;
+  const std::string end = std::filesystem::path(file).extension();
+  if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") {
+    for (const run::PlanLine& line : run::loadPlan(file)) walls.push_back({line.start, line.end});
+    return walls;
+  }
+  for (const simulation::Wall& wall : simulation::readWalls(file)) {
+    const int pieces = wall.isArc() ? static_cast<int>(std::ceil(wall.length() / 0.1)) : 1;
+    for (int i = 0; i < pieces; ++i)
+      walls.push_back({wall.pointAt(static_cast<double>(i) / pieces), wall.pointAt((i + 1.0) / pieces)});
+  }
+  return walls;
+}
+
+Json planJson(const CommandLine& line) {
+  if (line.rawlog.empty() != line.reference.empty())
+    throw InputError("--rawlog and --reference belong together", "command line", "expected both or neither");
+  std::vector<evaluation::StraightWall> plan = loadWalls(line.plan);
+  const std::vector<evaluation::StraightWall> truth = loadWalls(line.truth);
+  std::vector<mrpt::math::TPoint2D> ends;
+  if (!line.rawlog.empty())
+    ends = evaluation::placedEndPoints(readings::loadEndPoints(line.rawlog, {}, line.maxRange),
+                                       files::loadTum(line.reference));
+  const mrpt::math::TPose2D alignment =
+      line.aligns ? evaluation::alignmentOf(plan, truth) : mrpt::math::TPose2D();
+  plan = evaluation::moved(std::move(plan), alignment);
+  const evaluation::PlanErrors errors = evaluation::comparePlans(plan, truth, ends);
+  Json json{{"truth_m", errors.truth},
+            {"seen_m", errors.foundOfSeen ? Json(errors.seen) : Json()},
+            {"plan_m", errors.plan},
+            {"found_percent", errors.found},
+            {"found_of_seen_percent", errors.foundOfSeen ? Json(*errors.foundOfSeen) : Json()},
+            {"false_percent", errors.wrong},
+            {"median_distance_m", errors.medianDistance},
+            {"median_angle_deg", errors.medianAngle * kRadToDeg}};
+  if (line.aligns)
+    json["alignment"] = {{"x_m", alignment.x}, {"y_m", alignment.y}, {"phi_deg", alignment.phi * kRadToDeg}};
+  return json;
+}
+
+int evaluate(int argc, char** argv) {
   CommandLine line;
   CLI::App app("Evaluates a trajectory against a reference or itself; prints JSON. Manual: doc/slam-eval.md.",
                "slam-eval");
@@ -168,6 +216,15 @@ int run(int argc, char** argv) {
   revisits->add_option("--max-range", line.maxRange,
                        "largest range of the beams used, m (default: the log's)");
 
+  auto* plan = app.add_subcommand("plan", "a floor plan against the true one");
+  plan->add_option("--plan", line.plan, "plan to evaluate: .geojson, .dxf or .svg")->required();
+  plan->add_option("--truth", line.truth, "true plan: the same, or a floor plan of simul-floorplan")
+      ->required();
+  plan->add_flag("--align", line.aligns, "first move the plan rigidly onto the truth");
+  plan->add_option("--rawlog", line.rawlog, "log of the laser, for the part of the true walls that it saw");
+  plan->add_option("--reference", line.reference, "its true poses in the frame of the true plan, TUM file");
+  plan->add_option("--max-range", line.maxRange, "largest range of the beams used, m (default: the log's)");
+
   if (const auto code = parse(app, argc, argv)) return *code;
 
   for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
@@ -183,6 +240,7 @@ int run(int argc, char** argv) {
                     : *ate      ? ateJson(line)
                     : *revisits ? revisitsJson(line)
                     : *nees     ? neesJson(line)
+                    : *plan     ? planJson(line)
                                 : rpeJson(line);
   std::cout << json.dump(2) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
@@ -192,5 +250,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return exitCodeOf([&] { return run(argc, argv); });
+  return exitCodeOf([&] { return evaluate(argc, argv); });
 }

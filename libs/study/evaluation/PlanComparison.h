@@ -1,0 +1,54 @@
+/// @file PlanComparison.h
+/// @brief A floor plan against the true one.
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <optional>
+#include <vector>
+
+#include "files/Trajectory.h"
+#include "readings/EndPoints.h"
+
+namespace hybrid_slam::evaluation {
+
+struct StraightWall {
+  mrpt::math::TPoint2D start, end;  ///< m
+};
+
+/// Two walls agree at a point of the one if the other passes within `distance` (m) and their directions
+/// differ by at most `angle` (rad).
+struct AgreementOptions {
+  double distance = 0.1;
+  double angle = 15 * M_PI / 180;
+};
+
+/// Lengths in m, percentages of lengths.
+struct PlanErrors {
+  double truth = 0, plan = 0;
+  double seen = 0;                    ///< of the truth; with end points only
+  double found = 0;                   ///< %, of the truth, that agrees with the plan
+  std::optional<double> foundOfSeen;  ///< %, with end points only
+  double wrong = 0;                   ///< %, of the plan, that agrees with no true wall
+  double medianDistance = 0;          ///< m, of the rest from the true walls
+  double medianAngle = 0;             ///< rad, of the rest to the true walls
+};
+
+/// The laser's end points in the frame of the reference: of the scans with a true pose within 0.001 s.
+std::vector<mrpt::math::TPoint2D> placedEndPoints(const std::vector<readings::EndPoints>& scans,
+                                                  const files::Trajectory& reference);
+
+/// The rigid motion of the plan's frame into the truth's under which most of the plan agrees: of four
+/// headings that align the walls' directions, each with the translation that aligns most of their offsets,
+/// the best after least squares on the nearest walls.
+mrpt::math::TPose2D alignmentOf(const std::vector<StraightWall>& plan,
+                                const std::vector<StraightWall>& truth);
+
+/// @param ends  what the laser saw: a piece of a true wall was seen if three of these lie within 0.05 m
+PlanErrors comparePlans(const std::vector<StraightWall>& plan, const std::vector<StraightWall>& truth,
+                        const std::vector<mrpt::math::TPoint2D>& ends, const AgreementOptions& options = {});
+
+std::vector<StraightWall> moved(std::vector<StraightWall> walls, const mrpt::math::TPose2D& by);
+
+}  // namespace hybrid_slam::evaluation

@@ -1,0 +1,40 @@
+#include "study/evaluation/WallSearch.h"
+
+#include <algorithm>
+
+namespace hybrid_slam::evaluation {
+
+using mrpt::math::TPoint2D;
+
+std::vector<WallPoint> pointsOn(const std::vector<StraightWall>& walls, double step) {
+  std::vector<WallPoint> points;
+  for (const StraightWall& wall : walls) {
+    const TPoint2D d = wall.end - wall.start;
+    const int pieces = std::max(1, static_cast<int>(std::lround(d.norm() / step)));
+    for (int i = 0; i < pieces; ++i)
+      points.push_back({wall.start + d * ((i + 0.5) / pieces), std::atan2(d.y, d.x)});
+  }
+  return points;
+}
+
+WallSearch::WallSearch(const std::vector<StraightWall>& walls, const AgreementOptions& options)
+    : walls_(walls), options_(options), index_(options.distance) {
+  for (size_t i = 0; i < walls.size(); ++i) index_.add(walls[i].start, walls[i].end, static_cast<int>(i));
+}
+
+std::optional<WallSearch::Found> WallSearch::nearest(const WallPoint& point) const {
+  std::optional<Found> best;
+  index_.near(point.at, [&](int i) {
+    const StraightWall& wall = walls_[static_cast<size_t>(i)];
+    const TPoint2D d = wall.end - wall.start, q = point.at - wall.start;
+    const double angle = std::abs(std::remainder(std::atan2(d.y, d.x) - point.angle, M_PI));
+    if (angle > options_.angle) return;
+    const double t = std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
+    const double offset = (q - d * t).norm();
+    if (offset <= options_.distance && (!best || offset < best->offset))
+      best = Found{offset, angle, wall.start + d * t};
+  });
+  return best;
+}
+
+}  // namespace hybrid_slam::evaluation

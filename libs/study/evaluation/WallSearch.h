@@ -1,0 +1,40 @@
+/// @file WallSearch.h
+/// @brief The nearest wall of about the same direction.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "slam/plan/PointIndex.h"
+#include "study/evaluation/PlanComparison.h"
+
+namespace hybrid_slam::evaluation {
+
+/// A point of a wall, with its direction (rad).
+struct WallPoint {
+  mrpt::math::TPoint2D at;
+  double angle;
+};
+
+/// Points in the middle of pieces of a wall of `step` (m).
+std::vector<WallPoint> pointsOn(const std::vector<StraightWall>& walls, double step);
+
+class WallSearch {
+ public:
+  struct Found {
+    double offset;  ///< m, distance
+    double angle;   ///< rad, difference of the directions, 0..pi/2
+    mrpt::math::TPoint2D nearest;
+  };
+  /// @param options  reach and greatest angle
+  WallSearch(const std::vector<StraightWall>& walls, const AgreementOptions& options);
+  std::optional<Found> nearest(const WallPoint& point) const;
+
+ private:
+  const std::vector<StraightWall>& walls_;
+  AgreementOptions options_;
+  PointIndex index_;
+};
+
+}  // namespace hybrid_slam::evaluation
