@@ -110,7 +110,7 @@ void savePlanGeoJson(const files::OutputFolder& folder, const FloorPlan& plan) {
       {"description",
        "floor plan; coordinates are metres in the map frame, not longitude and latitude; the free "
        "side of a wall is on the left of its direction; covariance: of the wall's offset to the "
-       "left (m) and its angle (rad) at its middle, relative to the walls around"},
+       "left (m) and its angle (rad) at its middle, without the drift of the map"},
       {"directions_rad", plan.directions},
       {"features", features}};
   folder.write("plan.geojson", [&](std::ostream& out) {

@@ -8,7 +8,7 @@ namespace hybrid_slam {
 namespace {
 
 constexpr double kWindow = 1.5 * M_PI / 180;  // rad: of the walls of one wing
-constexpr double kLeastShare = 0.15, kLeastLength = 5;
+constexpr double kLeastShare = 0.06, kLeastLength = 5;
 constexpr size_t kMostDirections = 6;
 
 struct Direction {

@@ -14,7 +14,7 @@ struct BuildingDirection {
   double variance = 0;  ///< rad^2, of the mean
 };
 
-/// The directions, modulo 90 deg, of at least 15 % of the walls' length and 5 m each; the longest first.
+/// The directions, modulo 90 deg, of at least 6 % of the walls' length and 5 m each; the longest first.
 std::vector<BuildingDirection> buildingDirections(const std::vector<WallLine>& lines);
 
 /// Turns a line to a direction or its perpendicular if both agree within three standard deviations.

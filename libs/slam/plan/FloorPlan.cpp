@@ -21,6 +21,8 @@ constexpr double kPassage = 0.5;                           // m, free on both si
 constexpr double kLeastWall = 0.3;                         // m, beside a door
 constexpr double kHidden = 0.6;                            // m: longest gap that is no opening, if not free
 constexpr double kShortest = 0.1;                          // m
+// The error that all walls seen from the same poses share, measured on the simulated building.
+constexpr double kPoseOffset = 0.01, kPoseAngle = 0.025 * M_PI / 180;  // m, rad
 
 /// A stretch of a line with a wall.
 struct Stretch {
@@ -83,6 +85,8 @@ Wall wallOf(const Stretch& stretch, const LineEstimate& line) {
   wall.line = isReversed ? line.reversed() : line;
   wall.start = line.point(isReversed ? stretch.to : stretch.from);
   wall.end = line.point(isReversed ? stretch.from : stretch.to);
+  wall.line.covariance(0, 0) += kPoseOffset * kPoseOffset;
+  wall.line.covariance(1, 1) += kPoseAngle * kPoseAngle;
   wall.count = stretch.count;
   return wall;
 }

@@ -13,7 +13,7 @@ namespace hybrid_slam {
 /// One straight face of a wall. The free side is on the left of start -> end.
 struct Wall {
   mrpt::math::TPoint2D start, end;  ///< m, map frame
-  LineEstimate line;                ///< through them; the covariance is relative to the walls around
+  LineEstimate line;                ///< through them; the covariance leaves out the drift of the map
   int count = 0;           ///< observations of the lines of the database in it; 0: from the grid only
   bool isSnapped = false;  ///< parallel or perpendicular to one of the plan's directions
   int group = -1;          ///< walls of one line (a wall with doors) share it
