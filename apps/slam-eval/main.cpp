@@ -132,13 +132,10 @@ Json revisitsJson(const CommandLine& line) {
 }
 
 /// Of a drawing, or of a floor plan of simul-floorplan, arcs in pieces of at most 0.1 m.
-std::vector<evaluation::StraightWall> loadWalls(const std::string& file) {
-  std::vector<evaluation::StraightWall> walls;
+std::vector<PlanLine> loadWalls(const std::string& file) {
   const std::string end = std::filesystem::path(file).extension();
-  if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") {
-    for (const run::PlanLine& line : run::loadPlan(file)) walls.push_back({line.start, line.end});
-    return walls;
-  }
+  if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") return run::loadPlan(file);
+  std::vector<PlanLine> walls;
   for (const simulation::Wall& wall : simulation::readWalls(file)) {
     const int pieces = wall.isArc() ? static_cast<int>(std::ceil(wall.length() / 0.1)) : 1;
     for (int i = 0; i < pieces; ++i)
@@ -150,8 +147,8 @@ std::vector<evaluation::StraightWall> loadWalls(const std::string& file) {
 Json planJson(const CommandLine& line) {
   if (line.rawlog.empty() != line.reference.empty())
     throw InputError("--rawlog and --reference belong together", "command line", "expected both or neither");
-  std::vector<evaluation::StraightWall> plan = loadWalls(line.plan);
-  const std::vector<evaluation::StraightWall> truth = loadWalls(line.truth);
+  std::vector<PlanLine> plan = loadWalls(line.plan);
+  const std::vector<PlanLine> truth = loadWalls(line.truth);
   std::vector<mrpt::math::TPoint2D> ends;
   if (!line.rawlog.empty())
     ends = evaluation::placedEndPoints(readings::loadEndPoints(line.rawlog, {}, line.maxRange),

@@ -7,6 +7,7 @@
 
 #include "files/OutputFolder.h"
 #include "slam/plan/FloorPlan.h"
+#include "slam/plan/PlanLine.h"
 
 namespace hybrid_slam::run {
 
@@ -22,11 +23,6 @@ void savePlanGeoJson(const files::OutputFolder& folder, const FloorPlan& plan);
 
 /// All three.
 void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
-
-/// A straight piece of a plan that was read.
-struct PlanLine {
-  mrpt::math::TPoint2D start, end;  ///< m, frame of the plan
-};
 
 /// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF with LINE, LWPOLYLINE or POLYLINE (the
 /// unit of $INSUNITS; without it m), or an SVG that savePlanSvg wrote; told apart by the end of the name.

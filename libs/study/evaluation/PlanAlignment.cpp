@@ -19,9 +19,9 @@ constexpr double kStep = 0.1;   // m, pieces of a wall
 constexpr double kCell = 0.05;  // m, of the offsets' histograms
 constexpr double kMostCells = 4000;
 
-double directionOf(const std::vector<StraightWall>& walls) {
+double directionOf(const std::vector<PlanLine>& walls) {
   std::vector<LineSegment> segments;
-  for (const StraightWall& wall : walls) segments.push_back(makeSegment(wall.start, wall.end));
+  for (const PlanLine& wall : walls) segments.push_back(makeSegment(wall.start, wall.end));
   return directionModuloRightAngle(segments).value_or(0);
 }
 
@@ -95,7 +95,7 @@ Fit refined(TPose2D pose, const std::vector<WallPoint>& plan, const WallSearch& 
 
 }  // namespace
 
-TPose2D alignmentOf(const std::vector<StraightWall>& plan, const std::vector<StraightWall>& truth) {
+TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth) {
   if (plan.empty() || truth.empty()) return {};
   const std::vector<WallPoint> points = pointsOn(plan, kStep), truePoints = pointsOn(truth, kStep);
   const double frame = directionOf(truth), turn = frame - directionOf(plan);

@@ -16,9 +16,9 @@ constexpr double kSeenWithin = 0.05;  // m
 constexpr int kLeastEnds = 3;
 constexpr double kTimeTolerance = 0.001;  // s
 
-double lengthOf(const std::vector<StraightWall>& walls) {
+double lengthOf(const std::vector<PlanLine>& walls) {
   double sum = 0;
-  for (const StraightWall& wall : walls) sum += (wall.end - wall.start).norm();
+  for (const PlanLine& wall : walls) sum += (wall.end - wall.start).norm();
   return sum;
 }
 
@@ -61,7 +61,7 @@ std::vector<TPoint2D> placedEndPoints(const std::vector<readings::EndPoints>& sc
   return placed;
 }
 
-PlanErrors comparePlans(const std::vector<StraightWall>& plan, const std::vector<StraightWall>& truth,
+PlanErrors comparePlans(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth,
                         const std::vector<TPoint2D>& ends, const AgreementOptions& options) {
   PlanErrors errors;
   errors.truth = lengthOf(truth);
@@ -93,8 +93,8 @@ PlanErrors comparePlans(const std::vector<StraightWall>& plan, const std::vector
   return errors;
 }
 
-std::vector<StraightWall> moved(std::vector<StraightWall> walls, const mrpt::math::TPose2D& by) {
-  for (StraightWall& wall : walls) wall = {by.composePoint(wall.start), by.composePoint(wall.end)};
+std::vector<PlanLine> moved(std::vector<PlanLine> walls, const mrpt::math::TPose2D& by) {
+  for (PlanLine& wall : walls) wall = {by.composePoint(wall.start), by.composePoint(wall.end)};
   return walls;
 }
 

@@ -10,12 +10,9 @@
 
 #include "files/Trajectory.h"
 #include "readings/EndPoints.h"
+#include "slam/plan/PlanLine.h"
 
 namespace hybrid_slam::evaluation {
-
-struct StraightWall {
-  mrpt::math::TPoint2D start, end;  ///< m
-};
 
 /// Two walls agree at a point of the one if the other passes within `distance` (m) and their directions
 /// differ by at most `angle` (rad).
@@ -42,13 +39,12 @@ std::vector<mrpt::math::TPoint2D> placedEndPoints(const std::vector<readings::En
 /// The rigid motion of the plan's frame into the truth's under which most of the plan agrees: of four
 /// headings that align the walls' directions, each with the translation that aligns most of their offsets,
 /// the best after least squares on the nearest walls.
-mrpt::math::TPose2D alignmentOf(const std::vector<StraightWall>& plan,
-                                const std::vector<StraightWall>& truth);
+mrpt::math::TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth);
 
 /// @param ends  what the laser saw: a piece of a true wall was seen if three of these lie within 0.05 m
-PlanErrors comparePlans(const std::vector<StraightWall>& plan, const std::vector<StraightWall>& truth,
+PlanErrors comparePlans(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth,
                         const std::vector<mrpt::math::TPoint2D>& ends, const AgreementOptions& options = {});
 
-std::vector<StraightWall> moved(std::vector<StraightWall> walls, const mrpt::math::TPose2D& by);
+std::vector<PlanLine> moved(std::vector<PlanLine> walls, const mrpt::math::TPose2D& by);
 
 }  // namespace hybrid_slam::evaluation

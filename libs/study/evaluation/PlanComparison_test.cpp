@@ -8,7 +8,7 @@
 namespace hybrid_slam::evaluation {
 namespace {
 
-using Walls = std::vector<StraightWall>;
+using Walls = std::vector<PlanLine>;
 using mrpt::math::TPose2D;
 
 /// An L of 8 m and 6 m, with a room.

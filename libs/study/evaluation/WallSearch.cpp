@@ -6,9 +6,9 @@ namespace hybrid_slam::evaluation {
 
 using mrpt::math::TPoint2D;
 
-std::vector<WallPoint> pointsOn(const std::vector<StraightWall>& walls, double step) {
+std::vector<WallPoint> pointsOn(const std::vector<PlanLine>& walls, double step) {
   std::vector<WallPoint> points;
-  for (const StraightWall& wall : walls) {
+  for (const PlanLine& wall : walls) {
     const TPoint2D d = wall.end - wall.start;
     const int pieces = std::max(1, static_cast<int>(std::lround(d.norm() / step)));
     for (int i = 0; i < pieces; ++i)
@@ -17,7 +17,7 @@ std::vector<WallPoint> pointsOn(const std::vector<StraightWall>& walls, double s
   return points;
 }
 
-WallSearch::WallSearch(const std::vector<StraightWall>& walls, const AgreementOptions& options)
+WallSearch::WallSearch(const std::vector<PlanLine>& walls, const AgreementOptions& options)
     : walls_(walls), options_(options), index_(options.distance) {
   for (size_t i = 0; i < walls.size(); ++i) index_.add(walls[i].start, walls[i].end, static_cast<int>(i));
 }
@@ -25,7 +25,7 @@ WallSearch::WallSearch(const std::vector<StraightWall>& walls, const AgreementOp
 std::optional<WallSearch::Found> WallSearch::nearest(const WallPoint& point) const {
   std::optional<Found> best;
   index_.near(point.at, [&](int i) {
-    const StraightWall& wall = walls_[static_cast<size_t>(i)];
+    const PlanLine& wall = walls_[static_cast<size_t>(i)];
     const TPoint2D d = wall.end - wall.start, q = point.at - wall.start;
     const double angle = std::abs(std::remainder(std::atan2(d.y, d.x) - point.angle, M_PI));
     if (angle > options_.angle) return;

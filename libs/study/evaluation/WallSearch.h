@@ -18,7 +18,7 @@ struct WallPoint {
 };
 
 /// Points in the middle of pieces of a wall of `step` (m).
-std::vector<WallPoint> pointsOn(const std::vector<StraightWall>& walls, double step);
+std::vector<WallPoint> pointsOn(const std::vector<PlanLine>& walls, double step);
 
 class WallSearch {
  public:
@@ -28,11 +28,11 @@ class WallSearch {
     mrpt::math::TPoint2D nearest;
   };
   /// @param options  reach and greatest angle
-  WallSearch(const std::vector<StraightWall>& walls, const AgreementOptions& options);
+  WallSearch(const std::vector<PlanLine>& walls, const AgreementOptions& options);
   std::optional<Found> nearest(const WallPoint& point) const;
 
  private:
-  const std::vector<StraightWall>& walls_;
+  const std::vector<PlanLine>& walls_;
   AgreementOptions options_;
   PointIndex index_;
 };
