@@ -161,7 +161,9 @@ class Borders {
       size_t at = first;
       for (size_t i = first; i < last; ++i) {
         const TPoint2D p = middle(i) - a;
-        const double distance = length > 0.5 ? std::abs(d.x * p.y - d.y * p.x) / length : p.norm();
+        // From the piece, not its line: a border returns on the other side of a thin wall.
+        const double t = length > 0 ? (p.x * d.x + p.y * d.y) / (length * length) : 0;
+        const double distance = (p - d * std::clamp(t, 0.0, 1.0)).norm();
         if (distance > farthest) farthest = distance, at = i;
       }
       if (farthest > kBend && at > first && at + 1 < last) {
