@@ -14,7 +14,7 @@
 namespace hybrid_slam {
 
 struct SessionArguments {
-  std::string resume, continueFrom, localizeIn;
+  std::string resume, continueFrom, localizeIn, priorPlan;
   std::vector<double> start;
   double checkpointEvery = 0;
 
@@ -33,30 +33,37 @@ struct SessionArguments {
            "go on with the run that saved this session, with its configuration, log and output folder")
         ->type_name("FILE");
   }
-  /// --continue, --localize, --start
+  /// --continue, --localize, --prior-plan, --start
   void addMap(CLI::App& app) {
     const std::string maps = " this session, map.yaml or gridmap";
     app.add_option("--continue", continueFrom, "map on in" + maps)->type_name("FILE");
     app.add_option("--localize", localizeIn, "localise in" + maps + ", which stays as it is")
         ->type_name("FILE");
+    app.add_option(
+           "--prior-plan", priorPlan,
+           "begin with the lines of this floor plan (.geojson, .dxf or .svg); the place in it and its "
+           "scale are searched for")
+        ->type_name("FILE");
     app.add_option("--start", start,
-                   "pose in this map at the start of the log (m, deg); else it is searched for")
+                   "pose in this map or plan at the start of the log (m, deg); else it is searched for")
         ->type_name("X,Y,DEG")
         ->delimiter(',')
         ->expected(3);
   }
   /// @throws InputError for options that exclude each other
   void addTo(run::RunOptions& run) const {
-    const int modes = !resume.empty() + !continueFrom.empty() + !localizeIn.empty();
+    const int modes = !resume.empty() + !continueFrom.empty() + !localizeIn.empty() + !priorPlan.empty();
     if (modes > 1)
-      throw InputError("--resume, --continue and --localize exclude each other", "command line",
+      throw InputError("--resume, --continue, --localize and --prior-plan exclude each other", "command line",
                        "expected one");
-    if (!start.empty() && continueFrom.empty() && localizeIn.empty())
-      throw InputError("--start without a map", "command line", "expected --continue or --localize as well");
+    if (!start.empty() && continueFrom.empty() && localizeIn.empty() && priorPlan.empty())
+      throw InputError("--start without a map", "command line",
+                       "expected --continue, --localize or --prior-plan as well");
     if (!localizeIn.empty() && checkpointEvery > 0)
       throw InputError("--checkpoint-every with --localize", "command line",
                        "expected one: localisation leaves the map as it is");
     run.resume = resume, run.continueFrom = continueFrom, run.localizeIn = localizeIn;
+    run.priorPlan = priorPlan;
     run.checkpointEvery = checkpointEvery;
     if (start.empty()) return;
     run.start.emplace(start[0], start[1], mrpt::DEG2RAD(start[2]));

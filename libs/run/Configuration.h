@@ -29,7 +29,8 @@ struct RunOptions : Options {
   /// @{
   bool overwrite = false;                        ///< a configuration must not delete results
   std::string resume, continueFrom, localizeIn;  ///< session files (or maps); empty: a new run
-  std::optional<mrpt::math::TPose2D> start;      ///< in that map (m, rad); empty: to be found
+  std::string priorPlan;                         ///< floor plan (PlanFiles.h) to begin with; empty: none
+  std::optional<mrpt::math::TPose2D> start;      ///< in that map or plan (m, rad); empty: to be found
   double checkpointEvery = 0;                    ///< s of work between checkpoints; 0: none
   /// @}
   void describe(OptionTable& table) override;

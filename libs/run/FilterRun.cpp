@@ -8,6 +8,7 @@
 #include "base/Numbers.h"
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
+#include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/ResultFiles.h"
 #include "run/StepsTable.h"
@@ -26,6 +27,11 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Conf
     throw InputError("wrong settings for MRPT's filter", std::string("section [") + kStockSection + "]",
                      messageOf(e));
   }
+}
+
+std::unique_ptr<PlanSearch> planSearchOf(const Configuration& configuration) {
+  return std::make_unique<PlanSearch>(configuration.filter, loadPlan(configuration.run.priorPlan),
+                                      configuration.run.start);
 }
 
 std::string describe(const LoopClosure& loop, const std::vector<double>& times) {
@@ -68,6 +74,10 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     if (base_)
       search_ = std::make_unique<Localizer>(configuration.filter, base_->grid, base_->lines,
                                             configuration.run.start);
+    if (!configuration.run.priorPlan.empty()) {
+      hybrid_->expectMap();
+      planSearch_ = planSearchOf(configuration);
+    }
   }
   if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
   writeStepsHeader(steps_.stream());
@@ -82,6 +92,7 @@ bool FilterRun::process(const readings::Reading& reading) {
   if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
   const bool isUpdate = filter(moved);
   if (search_) searchPlace(moved);
+  if (planSearch_) searchPlan(moved);
   saveIfDue();
   return isUpdate;
 }
@@ -112,7 +123,22 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   search_.reset();
 }
 
+void FilterRun::searchPlan(const readings::Reading& reading) {
+  planSearch_->process(reading.motion, reading.scans);
+  const auto& found = planSearch_->found();
+  if (!found) return;
+  notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
+                   ", " + fixedText(found->pose.y, 2) + ") m, " + fixedText(found->pose.phi * 180 / M_PI, 1) +
+                   " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 2));
+  base_ = found->map;
+  hybrid_->joinMap(*base_, found->pose);
+  planSearch_.reset();
+}
+
 std::string FilterRun::placeNote() const {
+  if (planSearch_)
+    return "place not found in the floor plan " + configuration_.run.priorPlan + ": " +
+           std::to_string(scans_) + " scans, mapped in their own frame; --start X,Y,DEG gives the place";
   if (!search_) return {};
   return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
          " scans, mapped in their own frame; --start X,Y,DEG gives the place";

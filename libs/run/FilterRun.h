@@ -21,7 +21,7 @@
 #include "run/Verdict.h"
 #include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
-#include "slam/localization/Localizer.h"
+#include "slam/localization/PlanSearch.h"
 
 namespace hybrid_slam::run {
 
@@ -105,6 +105,7 @@ class FilterRun {
   void visit(State& state);
   bool filter(const readings::Reading& reading);
   void searchPlace(const readings::Reading& reading);
+  void searchPlan(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
@@ -128,6 +129,7 @@ class FilterRun {
   Localizer* localizer_ = nullptr;            ///< filter_, if it localises
   std::optional<ScanMap> base_;               ///< of an earlier run, to map on in
   std::unique_ptr<Localizer> search_;         ///< for the place in base_
+  std::unique_ptr<PlanSearch> planSearch_;    ///< for the place in a floor plan
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;

@@ -81,7 +81,7 @@ void FilterRun::saveIfDue() {
     notes_.push_back("map not saved: " + messageOf(e));
   }
   const double every = configuration_.run.checkpointEvery;
-  if (every <= 0 || !hybrid_ || search_ || secondsSince(lastCheckpoint_) < every) return;
+  if (every <= 0 || !hybrid_ || search_ || planSearch_ || secondsSince(lastCheckpoint_) < every) return;
   try {
     staged_.setOwn(kSessionName);
     saveSessionTo(staged_.finalPath(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());

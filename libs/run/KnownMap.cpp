@@ -17,6 +17,8 @@ ScanMap readKnownMap(const std::string& file) {
 std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration) {
   const RunOptions& run = configuration.run;
   const std::string& file = run.continueFrom.empty() ? run.localizeIn : run.continueFrom;
+  if (!run.priorPlan.empty() && run.method != RunOptions::Method::hybrid)
+    throw InputError("a floor plan is a prior on lines", "option --prior-plan", "expected method hybrid");
   if (file.empty()) return std::nullopt;
   if (run.method == RunOptions::Method::stock)
     throw InputError("MRPT's filter does not take a map", file, "expected method hybrid or general");
