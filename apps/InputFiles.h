@@ -7,10 +7,12 @@
 #include <string>
 
 #include "files/IniFile.h"
+#include "files/InstalledFiles.h"
 
 namespace hybrid_slam {
 
 /// An INI file, a log, or both in this order. A single one is an INI file if its name or its content says so.
+/// Both may be installed ones.
 struct InputFiles {
   std::string config, log;  ///< empty: not given
 
@@ -20,8 +22,9 @@ struct InputFiles {
   }
   /// After parsing.
   void sort() {
-    if (!log.empty() || config.empty() || files::isIni(config)) return;
-    log.swap(config);
+    config = files::inputFile(config);
+    log = files::inputFile(log);
+    if (log.empty() && !config.empty() && !files::isIni(config)) log.swap(config);
   }
   /// The file that an error is about.
   const std::string& main() const { return config.empty() ? log : config; }

@@ -12,10 +12,12 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/Errors.h"
+#include "files/InstalledFiles.h"
 
 namespace hybrid_slam {
 
@@ -24,14 +26,14 @@ namespace hybrid_slam {
 /// @return the exit code
 inline int fail(int code, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << HYBRID_SLAM_PROGRAM ": error: " << message << "\n";
+  std::cerr << HYBRID_SLAM_PROGRAM ": error: " << files::withInstalledPages(message) << "\n";
   return code;
 }
 
 /// Prints warnings on standard error, a line each.
 inline void warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings)
-    std::cerr << HYBRID_SLAM_PROGRAM ": warning: " << warning << "\n";
+    std::cerr << HYBRID_SLAM_PROGRAM ": warning: " << files::withInstalledPages(warning) << "\n";
 }
 
 /// Opens closed standard descriptors on /dev/null: otherwise a result file would get their number, and
@@ -55,7 +57,10 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return {};
   } catch (const CLI::Success& request) {
-    return app.exit(request);
+    std::ostringstream out;
+    const int code = app.exit(request, out);
+    std::cout << files::withInstalledPages(out.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     throw InputError(error.what(), "command line", "see " HYBRID_SLAM_PROGRAM " --help");
   }

@@ -1,10 +1,11 @@
 # Everything the build looks for. What the libraries need, the installed package looks for as well.
 
-# hybrid_slam_find(PACKAGE...): find_package, also in hybrid_slamConfig.cmake.
+# hybrid_slam_find(PACKAGE...): find_package, also in hybrid_slamConfig.cmake and in the Debian package of the headers.
 macro(hybrid_slam_find)
   find_package(${ARGN} REQUIRED)
   string(REPLACE ";" " " package "${ARGN}")
   string(APPEND hybrid_slam_find_dependencies "find_dependency(${package})\n")
+  list(APPEND hybrid_slam_found ${ARGV0})
 endmacro()
 
 # hybrid_slam_find_library(NAME HEADER): a library without a CMake package on Debian 12, linked by its name.

@@ -3,6 +3,11 @@
 include(GNUInstallDirs)
 include(GoogleTest)
 
+# Where the settings, the data and the pages go (HybridSlamInstall.cmake) and the programs look for them
+# (libs/files/InstalledFiles.h).
+set(hybrid_slam_data ${CMAKE_INSTALL_DATADIR}/hybrid_slam)
+set(hybrid_slam_pages ${CMAKE_INSTALL_DATAROOTDIR}/doc/hybrid-slam)
+
 # s; of one test, on a machine that is busy. A test that hangs ends.
 set(hybrid_slam_test_timeout 300)
 if(HYBRID_SLAM_SANITIZE)
@@ -32,7 +37,9 @@ endif()
 # hybrid_slam_install_library(NAME): hybrid_slam::NAME of the installed package.
 function(hybrid_slam_install_library name)
   set_target_properties(hybrid_slam_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS hybrid_slam_${name} EXPORT hybrid_slam)
+  install(TARGETS hybrid_slam_${name} EXPORT hybrid_slam
+    LIBRARY COMPONENT library NAMELINK_COMPONENT development
+    ARCHIVE COMPONENT development)
 endfunction()
 
 # hybrid_slam_library(NAME TARGET...): every .cpp of the folder but the tests, linked with TARGET..., all whose headers
@@ -43,8 +50,11 @@ function(hybrid_slam_library name)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
-  add_library(hybrid_slam_${name} STATIC ${sources})
+  add_library(hybrid_slam_${name} ${sources})
   add_library(hybrid_slam::${name} ALIAS hybrid_slam_${name})
+  # Until version 1.0 the interface may change with the minor version.
+  set_target_properties(hybrid_slam_${name} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(hybrid_slam_${name} PUBLIC cxx_std_17)
   target_include_directories(hybrid_slam_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/libs> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam>)
@@ -52,7 +62,7 @@ function(hybrid_slam_library name)
   target_link_libraries(hybrid_slam_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:hybrid_slam_flags>)
   hybrid_slam_install_library(${name})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/libs ${CMAKE_CURRENT_SOURCE_DIR})
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam/${folder})
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam/${folder} COMPONENT development)
   if(tests AND HYBRID_SLAM_TESTS)
     hybrid_slam_test(${name} ${tests})
     target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam::${name})
@@ -77,7 +87,11 @@ function(hybrid_slam_app name)
   target_compile_definitions(${name} PRIVATE
     HYBRID_SLAM_PROGRAM="${name}" HYBRID_SLAM_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARGN} CLI11::CLI11 hybrid_slam_flags)
-  install(TARGETS ${name})
+  set(component programs)
+  if(name STREQUAL hybrid-slam-gui)
+    set(component window)
+  endif()
+  install(TARGETS ${name} RUNTIME COMPONENT ${component})
 endfunction()
 
 # hybrid_slam_program_test(FILE PROGRAM MACRO TARGET...): FILE.cpp runs PROGRAM, whose path MACRO holds.

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Every check, before an issue is resolved. Prints each part's name, outcome and time, and a table at the end.
-#   scripts/check-all.sh [PART...]     some parts: format tidy release sanitize tsan debian13
-# Exit status 1 if any failed. Takes hours from scratch. debian13 needs root.
+#   scripts/check-all.sh [PART...]     some parts: format tidy release sanitize tsan packages
+#                                      debian13 packages13
+# Exit status 1 if any failed. Takes hours from scratch. The last three need root.
 source "$(dirname "$0")/lib.sh"
-parts=(format tidy release sanitize tsan debian13)
+parts=(format tidy release sanitize tsan packages debian13 packages13)
 for part in "$@"; do
   [[ " ${parts[*]} " == *" $part "* ]] || { echo "error: unknown part $part, expected ${parts[*]}" >&2; exit 2; }
 done
@@ -11,7 +12,10 @@ done
 run() {
   case $1 in
     release) scripts/test.sh ;;
+    packages) scripts/package.sh && scripts/test-packages.sh ;;
     debian13) scripts/debian13.sh ;;
+    packages13)
+      scripts/debian13.sh scripts/package.sh && scripts/test-packages.sh trixie build/debian13/build/packages ;;
     *) scripts/check.sh "$1" ;;
   esac
 }

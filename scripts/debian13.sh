@@ -15,21 +15,10 @@ install_packages mmdebstrap debian-archive-keyring
 mkdir -p "$folder"/{build,ccache}
 folder=$(realpath "$folder") root=$folder/root
 
-# This machine's sources of its own Debian release, with the name of the other one.
-sources() {
-  local here uri suite component
-  here=$(. /etc/os-release && echo "$VERSION_CODENAME")
-  # shellcheck disable=SC2016
-  apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
-    while read -r uri suite component; do
-      [[ "$suite $component" != "$here main" ]] || echo "deb $uri $release main"
-    done
-}
-
 if [[ ! -d $root ]]; then
   echo "Making a Debian 13 root folder in $root"
   rm -rf "$root.part"
-  sources | mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root.part" -
+  debian_sources "$release" | mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root.part" -
   mv "$root.part" "$root"
 fi
 

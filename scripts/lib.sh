@@ -35,3 +35,14 @@ build() {
   cmake --preset "$preset"
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
+
+# debian_sources RELEASE: lines of sources.list with this machine's mirror, for another release of Debian.
+debian_sources() {
+  local here uri suite component
+  here=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  # shellcheck disable=SC2016
+  apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
+    while read -r uri suite component; do
+      [[ "$suite $component" != "$here main" ]] || echo "deb $uri $1 main"
+    done
+}

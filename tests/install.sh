@@ -16,9 +16,14 @@ prefix=$folder/prefix
 ! grep -rn --include="*.cmake" -e "$project" -e "$build" -e -Werror "$prefix" || fail "the package is not for others"
 ! find "$prefix" -name '*_test*' -o -name testing | grep . || fail "tests are installed"
 for file in bin/hybrid-slam share/hybrid_slam/{config-ini/lms-logs.ini,datasets/csie/csie.plan} \
-  share/doc/hybrid_slam/{README.md,LICENSE,doc/architecture.md,doc/images/malaga.png}; do
+  share/doc/hybrid-slam/{README.md,LICENSE,doc/architecture.md,doc/images/malaga.png}; do
   [[ -f $prefix/$file ]] || fail "$file is not installed"
 done
+
+# From any folder, the programs find what is installed and name its pages.
+(cd "$folder" && "$prefix/bin/hybrid-slam" -q config-ini/csie-lms100.ini datasets/csie/csie-corridor.rawlog -o map)
+page=$prefix/share/doc/hybrid-slam/doc/results.md
+"$prefix/bin/hybrid-slam" --help | grep -qF "($page)" || fail "--help does not name $page"
 
 cmake -S "$folder/consumer" -B "$folder/build" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE="$configuration" >/dev/null

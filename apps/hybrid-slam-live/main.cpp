@@ -11,6 +11,7 @@
 #include "SessionArguments.h"
 #include "Settings.h"
 #include "Stop.h"
+#include "files/InstalledFiles.h"
 #include "live/ObservationClient.h"
 #include "live/Token.h"
 #include "live_run/LiveRun.h"
@@ -108,7 +109,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   ignoreHangUps();
   stopOnSignals();
   holdSaveSignal();
-  run::Configuration configuration(line.config, settings, sections);
+  run::Configuration configuration(files::inputFile(line.config), settings, sections);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   warn(configuration.warnings);

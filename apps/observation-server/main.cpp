@@ -9,6 +9,7 @@
 #include "Settings.h"
 #include "Stop.h"
 #include "files/IniFile.h"
+#include "files/InstalledFiles.h"
 #include "live/TcpSocket.h"
 #include "sensors/PioneerOdometry.h"
 #include "sensors/ServeObservations.h"
@@ -47,7 +48,7 @@ int run(const CommandLine& line) {
   ignoreHangUps();
   stopOnSignals();
   mrpt::config::CConfigFileMemory source;
-  warn(files::loadIni(source, line.config, line.settings, sections, "",
+  warn(files::loadIni(source, files::inputFile(line.config), line.settings, sections, "",
                       "expected a section [server] (doc/live.md)"));
   const auto log = std::make_shared<live::EventLog>("observation-server");
   const std::string summary = sensors::serveObservations(

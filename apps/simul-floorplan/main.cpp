@@ -13,6 +13,7 @@
 
 #include "Program.h"
 #include "files/IniFile.h"
+#include "files/InstalledFiles.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
@@ -123,8 +124,9 @@ int parseAndRun(int argc, char** argv) {
   app.add_option("--set", line.settings, "override a key of the INI file, SECTION.KEY=VALUE; repeatable")
       ->allow_extra_args(false);
   app.add_flag("-q,--quiet", line.quiet, "print only errors");
-  app.set_version_flag("--version", HYBRID_SLAM_VERSION);
+  app.set_version_flag("--version", "simul-floorplan " HYBRID_SLAM_VERSION);
   if (const auto code = parse(app, argc, argv)) return *code;
+  line.config = files::inputFile(line.config);
   run(line);
   return 0;
 }

@@ -17,6 +17,7 @@
 #include "Program.h"
 #include "Settings.h"
 #include "Stop.h"
+#include "files/InstalledFiles.h"
 #include "files/OutputFolder.h"
 #include "readings/EndPointReader.h"
 #include "readings/RawlogSource.h"
@@ -143,7 +144,8 @@ struct Setup {
 };
 
 Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed) {
-  Setup setup{group.variant.iniFile.empty() ? line.files.config : group.variant.iniFile, line.settings};
+  const std::string& own = group.variant.iniFile;
+  Setup setup{own.empty() ? line.files.config : files::inputFile(own), line.settings};
   std::vector<std::string>& settings = setup.settings;
   settings.insert(settings.end(), group.variant.settings.begin(), group.variant.settings.end());
   const std::string particles = std::to_string(group.particles);

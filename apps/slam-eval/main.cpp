@@ -175,6 +175,7 @@ int evaluate(int argc, char** argv) {
   CLI::App app("Evaluates a trajectory against a reference or itself; prints JSON. Manual: doc/slam-eval.md.",
                "slam-eval");
   app.set_version_flag("--version", "slam-eval " HYBRID_SLAM_VERSION);
+  app.set_help_all_flag("--help-all", "Print the options of every subcommand and exit");
   app.require_subcommand(1);
 
   auto* relations = app.add_subcommand("relations", "relations metric of Kuemmerle et al. 2009");

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "base/Errors.h"
+#include "files/InstalledFiles.h"
 #include "files/OutputFolder.h"
 #include "files/PartialFile.h"
 #include "window/gui/MapDialog.h"
@@ -126,9 +127,10 @@ void MainFrame::bindFileMenu() {
   Bind(
       wxEVT_MENU,
       [this](wxCommandEvent&) {
-        showNotice(this,
-                   "hybrid-slam-gui " HYBRID_SLAM_VERSION
-                   ": grid maps with line directions, on MRPT. Keys are in the menus; more in doc/gui.md.");
+        showNotice(this, files::withInstalledPages(
+                             "hybrid-slam-gui " HYBRID_SLAM_VERSION
+                             ": grid maps with line directions, on MRPT. Keys are in the menus; more in "
+                             "doc/gui.md."));
       },
       wxID_ABOUT);
 }

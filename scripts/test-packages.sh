@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Tests the packages: lintian, and in a bare Debian root folder install, map, remove.
+#   scripts/test-packages.sh [RELEASE [FOLDER]]
+# RELEASE is bookworm or trixie (this machine's by default), FOLDER holds its packages (build/packages, of
+# scripts/package.sh). build/RELEASE.tar keeps the bare root for the next call. Needs root, for chroot.
+source "$(dirname "$0")/lib.sh"
+here=$(. /etc/os-release && echo "$VERSION_CODENAME")
+release=${1:-$here} folder=${2:-build/packages}
+[[ $EUID -eq 0 ]] || { echo "error: root is needed to work in another root folder (chroot)" >&2; exit 1; }
+folder=$(realpath "$folder")
+install_packages mmdebstrap debian-archive-keyring lintian
+
+echo "== lintian"
+lintian --fail-on error,warning "$folder"/*.deb
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if [[ $release == "$here" ]]; then
+  echo "== a C++ project with the library"
+  for package in "$folder"/*.deb; do dpkg-deb --extract "$package" "$work/extracted"; done
+  cmake -S tests/consumer -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/extracted/usr" >/dev/null
+  cmake --build "$work/consumer" >/dev/null
+  libraries=$(dirname "$(find "$work/extracted" -name 'libhybrid_slam_base.so')")
+  LD_LIBRARY_PATH=$libraries "$work/consumer/consumer" datasets/csie/csie-corridor.rawlog | grep '^pose .* lines$'
+fi
+
+echo "== a bare root folder of $release"
+bare=build/$release.tar
+if [[ ! -f $bare ]]; then
+  mkdir -p build
+  debian_sources "$release" | mmdebstrap --quiet --variant=apt --include=ca-certificates --format=tar \
+    "$release" "$bare.part" -
+  mv "$bare.part" "$bare"
+fi
+mkdir "$work/root"
+tar -C "$work/root" -xf "$bare" --exclude='./dev/*'
+install -D -t "$work/root/packages" "$folder"/*.deb scripts/installed-packages.sh
+
+# Only this command sees the mounts, which end with it.
+# shellcheck disable=SC2016
+unshare --mount --propagation private bash -euc '
+  root=$1
+  for system in proc sys dev; do mount --rbind "/$system" "$root/$system"; done
+  cat /etc/resolv.conf >"$root/etc/resolv.conf"
+  cat /etc/hosts >"$root/etc/hosts"
+  exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+    DEBIAN_FRONTEND=noninteractive /packages/installed-packages.sh' - "$work/root"
+echo "The packages of $release install, map and are removed."
