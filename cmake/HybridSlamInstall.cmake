@@ -16,7 +16,7 @@ install(EXPORT hybrid_slam NAMESPACE hybrid_slam:: FILE hybrid_slamTargets.cmake
 # The INI files name the data set by its place beside them.
 install(DIRECTORY config-ini DESTINATION ${hybrid_slam_data} COMPONENT programs)
 install(DIRECTORY datasets/csie DESTINATION ${hybrid_slam_data}/datasets COMPONENT programs)
-install(FILES README.md CHANGELOG.md DESTINATION ${hybrid_slam_pages} COMPONENT programs)
+install(FILES README.md CITATION.cff CONTRIBUTING.md DESTINATION ${hybrid_slam_pages} COMPONENT programs)
 install(DIRECTORY doc DESTINATION ${hybrid_slam_pages} COMPONENT programs)
 install(FILES LICENSE DESTINATION ${hybrid_slam_pages} COMPONENT license)
 

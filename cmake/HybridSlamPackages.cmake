@@ -65,8 +65,9 @@ This package contains the window that replays logs and maps live data.")
 # Dependencies.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/triggers)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_COMPONENT_PROGRAMS_DEPENDS library)
@@ -132,5 +133,12 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   install(FILES ${folder}/changelog.Debian.gz DESTINATION ${shared} COMPONENT ${component} EXCLUDE_FROM_ALL)
   install(FILES LICENSE DESTINATION ${shared} COMPONENT ${component} EXCLUDE_FROM_ALL RENAME copyright)
 endforeach()
+# The package of all libraries cannot have the name of one.
+install(FILES packaging/libhybrid-slam.lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+  COMPONENT library EXCLUDE_FROM_ALL RENAME ${library})
+execute_process(COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  OUTPUT_FILE ${PROJECT_BINARY_DIR}/debian/changelog.gz)
+install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.gz DESTINATION ${hybrid_slam_pages}
+  COMPONENT programs EXCLUDE_FROM_ALL)
 
 include(CPack)

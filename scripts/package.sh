@@ -18,6 +18,12 @@ build package
 
 rm -rf build/package/packages
 cpack --config build/package/CPackConfig.cmake -B "$PWD/build/package/packages"
+# CPack makes scripts that call ldconfig, where Debian has a trigger for it (packaging/triggers).
+for package in build/package/packages/libhybrid-slam0*.deb; do
+  dpkg-deb --raw-extract "$package" build/package/packages/library
+  rm -f build/package/packages/library/DEBIAN/post{inst,rm}
+  dpkg-deb --root-owner-group --build build/package/packages/library "$package" >/dev/null
+done
 mkdir -p "$folder"
 rm -f "$folder"/*.deb
 mv build/package/packages/*.deb "$folder"
