@@ -11,12 +11,12 @@ trap 'rm -rf "$folder"' EXIT
 # shows the options of subcommands.
 cat >"$folder/$name" <<'END'
 #!/usr/bin/env bash
-help=--help
-"$PROGRAM" --help | grep -q '^Subcommands:' && help=--help-all
-case $1 in
-  --help) "$PROGRAM" $help ;;
-  *) "$PROGRAM" "$1" ;;
-esac | sed -E "s|^( +-[A-Za-z]),--|\1, --|; s|(^\|[^A-Za-z0-9_./-])(doc/[a-z0-9-]+\.md)|\1$PAGES/\2|g"
+sections=""
+if [[ $1 == --help ]] && "$PROGRAM" --help | grep -q '^Subcommands:'; then
+  set -- --help-all
+  sections='/^Subcommands:|^  Options:/d; s|^([a-z]+)$|Subcommand \1:|;'
+fi
+"$PROGRAM" "$1" | sed -E "$sections"'s|^( +-[A-Za-z]),--|\1, --|; s|(^\|[^A-Za-z0-9_./-])(doc/[a-z0-9-]+\.md)|\1'"$PAGES"'/\2|g'
 END
 chmod +x "$folder/$name"
 purpose=$("$program" --help | head -n 1 | sed -E 's/\. Manual: .*//; s/\.$//')

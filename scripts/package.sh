@@ -14,6 +14,7 @@ SOURCE_DATE_EPOCH=$(date -u -d "$(sed -nE 's/^## \[[0-9.]+\] - //p' CHANGELOG.md
 export SOURCE_DATE_EPOCH
 # Debian's compiler and linker flags. The packages are stripped, so there are no debug symbols to make.
 eval "$(DEB_BUILD_MAINT_OPTIONS=hardening=+all DEB_CXXFLAGS_MAINT_STRIP=-g dpkg-buildflags --export=sh)"
+CXXFLAGS+=" $CPPFLAGS"  # CMake does not read CPPFLAGS
 build package
 
 rm -rf build/package/packages
