@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 fail() { echo "error: $*" >&2; exit 1; }
-apt_get() { apt-get -q -y -o Dpkg::Use-Pty=0 "$@" >apt.log 2>&1 || { tail -n 40 apt.log >&2; fail "apt-get $*"; }; }
+apt_get() { apt-get -q -y -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-unsafe-io "$@" >apt.log 2>&1 || { tail -n 40 apt.log >&2; fail "apt-get $*"; }; }
 apt_get update
 
 echo "== from a bare system to a map"
