@@ -339,7 +339,7 @@ TEST_F(PublicLogs, Csail) { convertWhole("csail.clf.gz", 1051, 361); }
 
 TEST_F(PublicLogs, DpslamLoop) {
   auto result = convertWhole("dpslam-loop5.clf.gz", 551, 181);
-  EXPECT_NEAR(result.scan(1)->sensorPose.x(), 0.4, 1e-12);
+  EXPECT_NEAR(result.scan(1)->sensorPose.x(), 0.4, 1e-6);  // the rows have six decimals
 }
 
 }  // namespace
