@@ -93,7 +93,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   EXPECT_EQ(steps.size(), metrics["updates"].get<size_t>() + 1);
   size_t resamplings = 0;
   for (size_t i = 1; i < steps.size(); ++i) {
-    ASSERT_EQ(steps[i].size(), 19u) << i;
+    ASSERT_EQ(steps[i].size(), 20u) << i;
     EXPECT_EQ(steps[i][1], "5");
     resamplings += steps[i][3] == "1" ? 1 : 0;
   }
@@ -176,7 +176,7 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string proposal : {"standard", "improved"}) {
     SCOPED_TRACE(proposal);
-    // Of steps.csv all but step_ms, the sixth column from the end: the time that each step took. The session
+    // Of steps.csv all but step_ms, the seventh column from the end: the time that each step took. The session
     // holds the times too.
     const auto resultsOf = [&](const std::string& option) {
       expectDone(replay(log, "-q --set particle_filter.ess_threshold=1 -p " + proposal + option));
@@ -185,7 +185,7 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
         if (name != "metrics.json" && name != "steps.csv" && name != "session.hslam")
           files[name] = result(name);
       files["steps.csv"] =
-          std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*((,[^,\n]*){5}\n)"), "$1");
+          std::regex_replace(result("steps.csv"), std::regex(",[^,\n]*((,[^,\n]*){6}\n)"), "$1");
       return files;
     };
     const auto plain = resultsOf("");
@@ -314,7 +314,8 @@ std::string carmenLog() {
     log << "FLASER 180";
     for (int beam = 0; beam < 180; ++beam)
       log << ' ' << 0.01 * std::round(100 * test::rangeInRoom(x + 0.4, 0.3, (beam - 90) * M_PI / 180));
-    log << ' ' << std::to_string(x + 0.4) << " 0.3 0 " << std::to_string(x) << " 0.3 0 " << 1000 + i << " host " << i << '\n';
+    log << ' ' << std::to_string(x + 0.4) << " 0.3 0 " << std::to_string(x) << " 0.3 0 " << 1000 + i
+        << " host " << i << '\n';
   }
   return log.str();
 }

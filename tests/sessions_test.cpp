@@ -33,7 +33,7 @@ class Sessions : public HybridSlam {
     std::map<std::string, std::string> all;
     for (const char* name : {"trajectory.tum", "covariance.csv", "map.pgm", "map.gridmap.gz", "lines.csv"})
       all[name] = contentOf(where + "/" + name);
-    const std::regex stepTime(",[^,\n]*((,[^,\n]*){5}\n)");
+    const std::regex stepTime(",[^,\n]*((,[^,\n]*){6}\n)");
     all["steps.csv"] = std::regex_replace(contentOf(where + "/steps.csv"), stepTime, "$1");
     return all;
   }

@@ -116,7 +116,8 @@ int convert(int argc, char** argv) {
     printTopics(input);
     return 0;
   }
-  if (output.empty()) throw InputError("output is required", "command line", "expected log2rawlog LOG out.rawlog");
+  if (output.empty())
+    throw InputError("output is required", "command line", "expected log2rawlog LOG out.rawlog");
 
   const bool isBag = bags::isBag(input);
   const std::string unit = isBag ? "message" : "line";

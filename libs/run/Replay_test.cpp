@@ -27,7 +27,7 @@ std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folde
   std::map<std::string, std::string> texts;
   for (const char* name : {"trajectory.tum", "map.yaml", "lines.csv", "particles.csv", "config.ini"})
     texts[name] = test::contentOf(folder.path(std::string("out/") + name));
-  const std::regex stepTime(",[^,\n]*((,[^,\n]*){5}\n)");
+  const std::regex stepTime(",[^,\n]*((,[^,\n]*){6}\n)");
   texts["steps.csv"] = std::regex_replace(test::contentOf(folder.path("out/steps.csv")), stepTime, "$1");
   texts["motion model"] =
       motionModelSection(c.filter.motion, {}) + motionModelTableRow(1, -2.5, c.filter.motion);

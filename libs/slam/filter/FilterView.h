@@ -53,11 +53,11 @@ struct FilterStep {
   double logLikelihood = 0;
   /// @}
 
-  /// Without `frames`, `loop`, `odometry` and `motions`, which the next step replaces.
+  /// Without `loop`, `odometry` and `motions`, which the next step replaces.
   template <class State>
   void visit(State& state) {
     state(particles, ess, resampled, stdX, stdY, stdPhi, stdAlong, stdAcross, gridWeight, lineWeight,
-          linesSeen, linesMatched, matched, slipped, degeneracy, poses);
+          linesSeen, linesMatched, matched, slipped, degeneracy, frames, poses);
   }
 };
 

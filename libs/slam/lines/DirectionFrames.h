@@ -13,6 +13,11 @@ struct DirectionFrame {
   double direction = 0;  ///< rad in [-pi/4, pi/4], modulo 90 deg, map frame
   double evidence = 0;   ///< m, of its lines (LineDatabase.h)
   int lines = 0;
+
+  template <class State>
+  void visit(State& state) {
+    state(direction, evidence, lines);
+  }
 };
 
 /// The frames that the evidence supports, those with most evidence first.
