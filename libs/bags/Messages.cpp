@@ -74,7 +74,7 @@ class Fields {
     return bytes.substr(4);
   }
   static bool isBigEndian(Encoding encoding, std::string_view bytes) {
-    return encoding == Encoding::cdr && bytes[1] == 0;
+    return encoding == Encoding::cdr && bytes.size() > 1 && bytes[1] == 0;  // may be asked before bodyOf
   }
   void align(size_t bytes) {
     if (isCdr_) cursor_.take((bytes - cursor_.at() % bytes) % bytes);
