@@ -176,8 +176,8 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string proposal : {"standard", "improved"}) {
     SCOPED_TRACE(proposal);
-    // Of steps.csv all but step_ms, the seventh column from the end: the time that each step took. The session
-    // holds the times too.
+    // Of steps.csv all but step_ms, the seventh column from the end: the time that each step took. The
+    // session holds the times too.
     const auto resultsOf = [&](const std::string& option) {
       expectDone(replay(log, "-q --set particle_filter.ess_threshold=1 -p " + proposal + option));
       std::map<std::string, std::string> files;

@@ -12,22 +12,7 @@ std::string name(ByteCursor& in) { return std::string(in.block().substr(0, kMost
 
 }  // namespace
 
-McapFile::McapFile(const std::string& path) : stream_(path) { stream_.skip(kMagicBytes); }
-
-std::optional<StoredMessage> McapFile::next() {
-  try {
-    while (defect_.empty()) {
-      if (inChunk_.left() == 0 && isAtEnd_) break;
-      if (auto message = inChunk_.left() > 0 ? nextInChunk() : nextRecord()) return message;
-    }
-  } catch (const BrokenBytes& broken) {
-    defect_ = broken.what();
-  } catch (const files::Damaged& damage) {
-    defect_ = std::string("damaged chunk (") + damage.what() + ")";
-  }
-  inChunk_ = ByteCursor({});
-  return std::nullopt;
-}
+McapFile::McapFile(const std::string& path) : ChunkedFile(path, kMagicBytes) {}
 
 std::optional<StoredMessage> McapFile::nextRecord() {
   const uint32_t checksum = stream_.checksum();
@@ -67,7 +52,7 @@ std::optional<StoredMessage> McapFile::take(uint8_t kind, std::string_view recor
   } else if (kind == kChannel) {
     noteChannel(record);
   } else if (kind == kChunk) {
-    openChunk(record);
+    readChunk(record);
   } else if (kind == kMessage) {
     const auto channel = channels_.find(in.number<uint16_t>());
     if (channel == channels_.end()) throw BrokenBytes("a message without a channel");
@@ -90,26 +75,24 @@ void McapFile::noteChannel(std::string_view record) {
                           encoding == "ros1" ? Encoding::ros1 : Encoding::cdr);
 }
 
-void McapFile::openChunk(std::string_view record) {
+void McapFile::readChunk(std::string_view record) {
   ByteCursor in(record);
   in.take(2 * sizeof(uint64_t));  // times of its first and last message
   const auto size = in.number<uint64_t>();
   const auto checksum = in.number<uint32_t>();
   const std::string_view compression = in.block();
   const std::string_view bytes = in.take(in.number<uint64_t>());
-  if (size > kMostChunkBytes) throw BrokenBytes("a chunk is over 256 MiB");
   if (compression == "zstd")
-    chunk_ = files::decoded(files::Compression::zstd, bytes, size);
+    openChunk(files::Compression::zstd, bytes, size);
   else if (compression == "lz4")
-    chunk_ = files::decoded(files::Compression::lz4, bytes, size);
+    openChunk(files::Compression::lz4, bytes, size);
   else if (compression.empty())
-    chunk_ = bytes;
+    openChunk(std::nullopt, bytes, size);
   else
     throw BrokenBytes("a chunk of unknown compression");
   const auto found =
       crc32(0, reinterpret_cast<const Bytef*>(chunk_.data()), static_cast<uInt>(chunk_.size()));
   if (checksum != 0 && checksum != found) throw BrokenBytes("damaged chunk (wrong checksum)");
-  inChunk_ = ByteCursor(chunk_);
 }
 
 }  // namespace hybrid_slam::bags

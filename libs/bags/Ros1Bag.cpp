@@ -36,24 +36,11 @@ std::string nameIn(std::string_view header, std::string_view name) {
 
 }  // namespace
 
-Ros1Bag::Ros1Bag(const std::string& path) : stream_(path) { stream_.skip(sizeof("#ROSBAG V2.0\n") - 1); }
-
-std::optional<StoredMessage> Ros1Bag::next() {
-  try {
-    while (defect_.empty()) {
-      if (inChunk_.left() == 0 && (isAtEnd_ || stream_.isAtEnd())) break;
-      if (auto message = inChunk_.left() > 0 ? nextInChunk() : nextRecord()) return message;
-    }
-  } catch (const BrokenBytes& broken) {
-    defect_ = broken.what();
-  } catch (const files::Damaged& damage) {
-    defect_ = std::string("damaged chunk (") + damage.what() + ")";
-  }
-  inChunk_ = ByteCursor({});
-  return std::nullopt;
-}
+Ros1Bag::Ros1Bag(const std::string& path) : ChunkedFile(path, sizeof("#ROSBAG V2.0\n") - 1) {}
 
 std::optional<StoredMessage> Ros1Bag::nextRecord() {
+  isAtEnd_ = stream_.isAtEnd();  // without an index, after a crash
+  if (isAtEnd_) return std::nullopt;
   const auto length = [this](size_t most, const char* what) {
     const std::string bytes = stream_.take(sizeof(uint32_t));
     const auto count = ByteCursor(bytes).number<uint32_t>();
@@ -81,7 +68,7 @@ std::optional<StoredMessage> Ros1Bag::nextRecord() {
   record_ = stream_.take(size);
   if (kind == kMessage) return messageOf(header, record_);
   if (kind == kChunk)
-    openChunk(header, record_);
+    readChunk(header, record_);
   else
     noteConnection(header, record_);
   return std::nullopt;
@@ -95,19 +82,17 @@ std::optional<StoredMessage> Ros1Bag::nextInChunk() {
   return std::nullopt;
 }
 
-void Ros1Bag::openChunk(std::string_view header, std::string_view data) {
+void Ros1Bag::readChunk(std::string_view header, std::string_view data) {
   const std::string_view compression = field(header, "compression");
   const auto size = numberIn<uint32_t>(header, "size");
-  if (size > kMostChunkBytes) throw BrokenBytes("a chunk is over 256 MiB");
   if (compression == "bz2")
-    chunk_ = files::decoded(files::Compression::bzip2, data, size);
+    openChunk(files::Compression::bzip2, data, size);
   else if (compression == "lz4")
-    chunk_ = files::decoded(files::Compression::lz4, data, size);
+    openChunk(files::Compression::lz4, data, size);
   else if (compression == "none")
-    chunk_ = data;
+    openChunk(std::nullopt, data, size);
   else
     throw BrokenBytes("a chunk of unknown compression");
-  inChunk_ = ByteCursor(chunk_);
 }
 
 void Ros1Bag::noteConnection(std::string_view header, std::string_view data) {

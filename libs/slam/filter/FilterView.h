@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/lines/DirectionFrames.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopClosure.h"
 

@@ -218,7 +218,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   if (useLines_) step_.lineWeight = bestParticle.lineWeight.value;
   step_.linesSeen = bestParticle.lineWeight.seen;
   step_.linesMatched = bestParticle.lineWeight.matched;
-  step_.frames = bestParticle.lines->frames();
+  step_.frames = directionFrames(bestParticle.lines->lines());
   setSpread(step_, poses(), bestParticle.path.back().phi);
 }
 

@@ -7,7 +7,11 @@
 
 namespace hybrid_slam {
 
-std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lines, double sigma) {
+namespace {
+constexpr double kSigma = 0.5 * M_PI / 180;  // of the walls of one frame
+}
+
+std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lines) {
   std::vector<const DatabaseLine*> sorted;
   for (const DatabaseLine& line : lines) sorted.push_back(&line);
   std::sort(sorted.begin(), sorted.end(),
@@ -23,7 +27,7 @@ std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lin
 
   std::vector<DirectionFrame> frames;
   const double n = static_cast<double>(count);
-  const double gain = std::log(M_PI / 2 / (sigma * std::sqrt(2 * M_PI * std::exp(1))));
+  const double gain = std::log(M_PI / 2 / (kSigma * std::sqrt(2 * M_PI * std::exp(1))));
   DirectionFrame frame;
   double offsets = 0;  // evidence x direction relative to the frame's first line
   for (size_t k = 0; k < count; ++k) {
@@ -33,8 +37,8 @@ std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lin
     offsets += evidence(line) * rightAngleDifference(line.direction, frame.direction);
     frame.evidence += evidence(line);
     ++frame.lines;
-    if (k + 1 < count && stepAfter(i) < sigma) continue;
-    const double cost = std::log(M_PI / 2 * std::sqrt(frame.lines) / sigma);
+    if (k + 1 < count && stepAfter(i) < kSigma) continue;
+    const double cost = std::log(M_PI / 2 * std::sqrt(frame.lines) / kSigma);
     if (frame.lines * (gain + std::log(frame.lines / n)) > cost && frame.evidence > 0) {
       frame.direction = wrapToRightAngle(frame.direction + offsets / frame.evidence);
       frames.push_back(frame);

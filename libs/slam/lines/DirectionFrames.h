@@ -22,12 +22,12 @@ struct DirectionFrame {
 
 /// The frames that the evidence supports, those with most evidence first.
 ///
-/// The directions of the lines are a mixture of normal densities, one for each frame, with deviation `sigma`
-/// (rad), and of a uniform one for lines that belong to none. Lines whose DatabaseLine::direction differ by
-/// less than `sigma` are one frame if that shortens the description of all n directions: n_k lines save
+/// The directions of the lines are a mixture of normal densities, one for each frame, with sigma = 0.5 deg
+/// and of a uniform one for lines that belong to none. Lines whose DatabaseLine::direction differ by
+/// less than sigma are one frame if that shortens the description of all n directions: n_k lines save
 /// n_k (ln(90 deg / (sigma sqrt(2 pi e))) + ln(n_k / n)), and the frame's direction, to a precision of
 /// sigma / sqrt(n_k), costs ln(90 deg sqrt(n_k) / sigma) (Rissanen 1978). Two parallel walls are a frame
 /// where nothing else is seen; a few of many lines at scattered angles are not.
-std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lines, double sigma);
+std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lines);
 
 }  // namespace hybrid_slam

@@ -10,10 +10,6 @@ namespace hybrid_slam {
 
 using mrpt::math::TPoint2D;
 
-namespace {
-constexpr double kFrameSigma = 0.5 * M_PI / 180;  // of the walls of one building frame
-}
-
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines) {
   double sine = 0, cosine = 0, total = 0;
   for (const DatabaseLine& line : lines) {
@@ -109,7 +105,6 @@ LineDatabase::LineDatabase(std::vector<DatabaseLine> lines) : lines_(std::move(l
 
 void LineDatabase::sum() {
   dominatingDirection_ = directionModuloRightAngle(lines_);
-  frames_ = directionFrames(lines_, kFrameSigma);
   totalEvidence_ = 0;
   for (const DatabaseLine& line : lines_) totalEvidence_ += evidence(line);
 }
@@ -124,8 +119,8 @@ void LineDatabase::update(const std::vector<LineSegment>& seen, const LineDataba
       lines_.push_back({line, 1, updates_, 0});
   }
   if (updates_ % options.pruneInterval == 0) prune(options);
-  setDirections(lines_, options.directionWindow);
   sum();
+  setDirections(lines_, options.directionWindow);
 }
 
 const DatabaseLine* LineDatabase::closestMatch(const LineSegment& seen,

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/Options.h"
-#include "slam/lines/DirectionFrames.h"
 #include "slam/lines/LineAssociation.h"
 #include "slam/lines/LineSegment.h"
 
@@ -103,8 +102,6 @@ class LineDatabase {
 
   /// directionModuloRightAngle of the lines, computed once per update.
   std::optional<double> dominatingDirection() const { return dominatingDirection_; }
-  /// directionFrames of the lines, likewise.
-  const std::vector<DirectionFrame>& frames() const { return frames_; }
   /// Sum of evidence() over the lines, m.
   double totalEvidence() const { return totalEvidence_; }
 
@@ -122,7 +119,6 @@ class LineDatabase {
 
   std::vector<DatabaseLine> lines_;
   std::optional<double> dominatingDirection_;
-  std::vector<DirectionFrame> frames_;
   double totalEvidence_ = 0;
   int updates_ = 0;
 };

@@ -154,8 +154,8 @@ TEST_P(EveryExtractor, SurvivesScansOfOneRange) {
   }
 }
 
-/// Random walls: every line is on one of them, long enough and the same when the scan is extracted again,
-/// whatever was extracted in between.
+/// Random walls: every line is on one of them and long enough. Extracting the scan again gives the same
+/// lines, also after other scans.
 TEST_P(EveryExtractor, FindsLinesOnWallsAgainAndAgain) {
   LineExtractionOptions options;
   options.method = GetParam();

@@ -9,24 +9,21 @@ namespace {
 using Method = LineWeightOptions::Method;
 
 bool hasDirections(const LineDatabase& database, Method method) {
-  if (method == Method::dominatingDirection) return database.dominatingDirection().has_value();
-  return method == Method::frames ? !database.frames().empty() : !database.lines().empty();
+  return method == Method::dominatingDirection ? database.dominatingDirection().has_value()
+                                               : !database.lines().empty();
 }
 
 }  // namespace
 
 void LineWeightOptions::describe(OptionTable& table) {
-  table.add(
-      "method", method,
-      {{Method::frames, "frames"},
-       {Method::graded, "graded"},
-       {Method::dominatingDirection, "dominating_direction"},
-       {Method::paper, "paper"}},
-      "paper: eq. (9) as printed; graded: eq. (9) with a smooth match; frames: the same for "
-      "the directions that several lines support, and no weight without any; dominating_direction: a smooth "
-      "match to the dominating direction only");
+  table.add("method", method,
+            {{Method::graded, "graded"},
+             {Method::dominatingDirection, "dominating_direction"},
+             {Method::paper, "paper"}},
+            "paper: eq. (9) as printed; graded: eq. (9) with a smooth match; dominating_direction: a smooth "
+            "match to the dominating direction only");
   table.addAngle("sigma_deg", sigma, 0.05, 22.5,
-                 "graded, frames, dominating_direction: standard deviation of a direction");
+                 "graded, dominating_direction: standard deviation of a direction");
   table.addAngle("threshold_deg", threshold, 0, 45,
                  "paper: largest deviation from parallel or perpendicular for a match");
   table.add("floor", floor, 1e-6, 1, "", "minimum weight, so that one bad scan cannot kill a particle");
@@ -49,12 +46,6 @@ DirectionMatch matchDirection(double theta, const LineDatabase& database, const 
       const double total = database.totalEvidence();
       if (total <= 0) break;
       for (const DatabaseLine& line : database.lines()) add(line.direction, evidence(line) / total);
-      break;
-    }
-    case Method::frames: {
-      double total = 0;
-      for (const DirectionFrame& frame : database.frames()) total += frame.evidence;
-      for (const DirectionFrame& frame : database.frames()) add(frame.direction, frame.evidence / total);
       break;
     }
     case Method::dominatingDirection:

@@ -15,7 +15,6 @@ namespace hybrid_slam {
 /// Section [line_weight].
 struct LineWeightOptions : Options {
   enum class Method {
-    frames,               ///< smooth match to the supported directions of the database; neutral without any
     graded,               ///< eq. (9) with a smooth match to all directions of the database
     dominatingDirection,  ///< smooth match to the dominating direction of the database
     paper                 ///< eq. (9): any database line parallel or perpendicular within a threshold
@@ -40,13 +39,10 @@ struct DirectionMatch {
 ///
 /// - `graded`: sum_j w_j exp(-d_j^2 / (2 sigma^2)) / sum_j w_j. Lines newly inserted by a drifting particle
 ///   have little evidence; several building directions can coexist.
-/// - `frames`: the same sum over the frames that the evidence supports (DirectionFrames.h), w_j that of frame
-/// j.
 /// - `dominatingDirection`: exp(-d^2 / (2 sigma^2)), d the angle to LineDatabase::dominatingDirection().
 /// - `paper`, eq. (9): 1 if some d_j, to the line's theta, is below `threshold`, else 0.
 ///
-/// No match (value 0) if the database is empty or, for `frames` and `dominatingDirection`, has no such
-/// direction.
+/// No match (value 0) if the database is empty or, for `dominatingDirection`, has no dominating direction.
 DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options);
 
 struct LineWeight {

@@ -32,8 +32,7 @@ LineWeightOptions method(Method m) {
   return options;
 }
 
-const std::vector<Method> kMethods{Method::frames, Method::graded, Method::dominatingDirection,
-                                   Method::paper};
+const std::vector<Method> kMethods{Method::graded, Method::dominatingDirection, Method::paper};
 
 TEST(LineWeight, NeutralWithoutLinesOrDatabase) {
   for (const Method m : kMethods) {

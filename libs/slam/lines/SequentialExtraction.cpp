@@ -15,9 +15,16 @@ constexpr size_t kMostMissing = 2;  // beams in a row that miss a line without d
 using Points = std::vector<TPoint2D>;
 using Places = std::vector<size_t>;  // of points in a run, ascending
 
-bool isNear(const TPoint2D& p, const FittedLine& line, double near) {
-  return std::abs(p.x * std::cos(line.theta) + p.y * std::sin(line.theta) - line.rho) <= near;
-}
+/// Whether a point is within `near` (m) of a line.
+class IsNear {
+ public:
+  IsNear(const FittedLine& line, double near)
+      : c_(std::cos(line.theta)), s_(std::sin(line.theta)), rho_(line.rho), near_(near) {}
+  bool operator()(const TPoint2D& p) const { return std::abs(p.x * c_ + p.y * s_ - rho_) <= near_; }
+
+ private:
+  double c_, s_, rho_, near_;
+};
 
 Points pointsAt(PointRange run, const Places& places) {
   Points points;
@@ -28,8 +35,9 @@ Points pointsAt(PointRange run, const Places& places) {
 
 Places placesNear(PointRange run, const Places& places, const FittedLine& line, double near) {
   Places result;
+  const IsNear isNear(line, near);
   for (const size_t i : places)
-    if (isNear(run.first[i], line, near)) result.push_back(i);
+    if (isNear(run.first[i])) result.push_back(i);
   return result;
 }
 
@@ -106,10 +114,7 @@ std::optional<FittedLine> randomLine(PointRange points, RandomStream& random) {
 }
 
 size_t countNear(PointRange points, const FittedLine& line, double near) {
-  const double c = std::cos(line.theta), s = std::sin(line.theta);
-  return static_cast<size_t>(std::count_if(points.begin(), points.end(), [&](const TPoint2D& p) {
-    return std::abs(p.x * c + p.y * s - line.rho) <= near;
-  }));
+  return static_cast<size_t>(std::count_if(points.begin(), points.end(), IsNear(line, near)));
 }
 
 }  // namespace hybrid_slam
