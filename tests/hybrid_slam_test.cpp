@@ -31,20 +31,6 @@ const char* const kMalaga =
 const char* const kMalagaStockIni =
     "/usr/share/mrpt/config_files/rbpf-slam/gridmapping_RBPF_ICPbased_malaga.ini";
 
-/// Laps in a room, 29 m of path.
-test::Log longLaps() { return test::laps(240); }
-
-/// The same with the odometry of laps the other way round.
-test::Log mirroredOdometry() {
-  test::Log log = longLaps();
-  for (size_t i = 0; i < 240; ++i) {
-    test::TPose2D pose = test::poseOnLap(i, 80);
-    pose.y = -pose.y, pose.phi = -pose.phi;
-    log[2 * i] = test::odometry(1000 + 0.2 * static_cast<double>(i), pose);
-  }
-  return log;
-}
-
 // ---- results
 
 TEST_F(HybridSlam, WritesAllResultsAndASummary) {
@@ -111,7 +97,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
 }
 
 TEST_F(HybridSlam, TheVerdictOnAGoodMap) {
-  expectDone(replay(longLaps(), "--strict"));
+  expectDone(replay(test::laps(240), "--strict"));
   EXPECT_THAT(out, testing::EndsWith("verdict: consistent\n"));
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   EXPECT_EQ(metrics["verdict"], "consistent");
@@ -120,7 +106,7 @@ TEST_F(HybridSlam, TheVerdictOnAGoodMap) {
 }
 
 TEST_F(HybridSlam, TheVerdictOnALostMap) {
-  expectDone(replay(mirroredOdometry()));
+  expectDone(replay(test::lapsWithMirroredOdometry(240)));
   EXPECT_THAT(out, HasSubstr("\nverdict: lost: "));
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
   EXPECT_EQ(metrics["verdict"], "lost");
@@ -132,7 +118,7 @@ TEST_F(HybridSlam, TheVerdictOnALostMap) {
 }
 
 TEST_F(HybridSlam, StrictMakesALostMapAnError) {
-  EXPECT_EQ(replay(mirroredOdometry(), "--strict"), 1);
+  EXPECT_EQ(replay(test::lapsWithMirroredOdometry(240), "--strict"), 1);
   EXPECT_THAT(err, HasSubstr("hybrid-slam: error: verdict: lost: "));
   EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
 }

@@ -94,10 +94,7 @@ class State {
   void one(std::optional<T>& value) {
     bool has = value.has_value();
     one(has);
-    if (Derived::kIsReading) {
-      value.reset();
-      if (has) value.emplace();
-    }
+    if (Derived::kIsReading) value = has ? std::make_optional<T>() : std::nullopt;
     if (has) one(*value);
   }
   template <class T>

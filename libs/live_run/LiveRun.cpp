@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
@@ -44,6 +45,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
                  configuration.input.maxOdometryGap),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
+  run_.keepComparedScans();
   run_.setBeforeSession([this] { recording_.flush(); });
   if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
 }
@@ -104,7 +106,7 @@ void LiveRun::filter() {
       for (const std::string& note : run_.takeNotes()) log_.report("filter", note);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
-      if (!isQuiet_ && secondsSince(lastState_) >= 10) tellState();
+      if (secondsSince(lastState_) >= stateInterval_) tellState();
     }
   } catch (...) {
     failure_ = std::current_exception();
@@ -114,13 +116,27 @@ void LiveRun::filter() {
 
 void LiveRun::tellState() {
   lastState_ = Clock::now();
+  tellVerdict();
+  if (isQuiet_) return;
   const FilterStep& step = run_.view().lastStep();
   const auto place = run_.view().place();
   log_.report("filter", std::to_string(latencies_.size()) + " scans, " +
                             std::to_string(run_.view().updates()) + " updates, " + std::to_string(skipped_) +
                             " skipped, spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) +
                             " m, latency " + fixedText(latencies_.back(), 0) + " ms" +
-                            (place ? ", " + describe(*place) : ""));
+                            (place ? ", " + describe(*place) : ", map " + verdict_.name()));
+}
+
+// Found in another thread, so that no scan waits for it.
+void LiveRun::tellVerdict() {
+  if (run_.view().place() || run_.view().updates() == 0) return;
+  if (nextVerdict_.valid()) {
+    if (nextVerdict_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    run::Verdict next = nextVerdict_.get();
+    if (next.level != verdict_.level) log_.report("map", next.line());
+    verdict_ = std::move(next);
+  }
+  nextVerdict_ = std::async(std::launch::async, run_.judge());
 }
 
 void LiveRun::stopFilter() {

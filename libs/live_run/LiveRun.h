@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <future>
 #include <set>
 #include <string>
 #include <thread>
@@ -27,7 +28,7 @@ namespace hybrid_slam::live {
 class LiveRun {
  public:
   /// @param configuration  must contain [live] and outlive the run
-  /// @param isQuiet        no status line every 10 s
+  /// @param isQuiet        no status lines
   /// @throws InputError for wrong settings, or an output folder that cannot be written to
   LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet);
   ~LiveRun();
@@ -38,6 +39,10 @@ class LiveRun {
   /// cycle.
   using Watcher = std::function<void(const FilterView&, const readings::Reading&, bool isUpdate)>;
   void setWatcher(Watcher watcher) { watcher_ = std::move(watcher); }
+
+  /// Seconds between status lines, and between verdicts on the map so far, which are reported when they
+  /// change; 10 by default. Set it before the first cycle.
+  void setStateInterval(double seconds) { stateInterval_ = seconds; }
 
   /// Processes one cycle. Odometry that is not finite is dropped, also from the recording. If odometry is
   /// required, only the last few observations before the first odometry are kept.
@@ -66,6 +71,7 @@ class LiveRun {
   void filter();
   void stopFilter();
   void tellState();
+  void tellVerdict();
   /// Of the last observation, in the recording.
   std::string place() const;
 
@@ -83,6 +89,9 @@ class LiveRun {
   std::deque<Arrived> early_;      ///< before the first odometry
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
+  double stateInterval_ = 10;  ///< s
+  run::Verdict verdict_;       ///< on the map so far
+  std::future<run::Verdict> nextVerdict_;
   std::atomic<size_t> skipped_{0};
   std::atomic<bool> hasFailed_{false};
   std::exception_ptr failure_;

@@ -40,6 +40,7 @@ class LiveRunTest : public testing::Test {
   std::string runLive(const test::Log& log, const std::string& more = "") {
     run::Configuration c = configuration("live", more);
     LiveRun run(c, options, events.log(), true);
+    run.setStateInterval(stateInterval);
     CycleGrouper grouper(0, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
     for (const auto& object : log) grouper.add(std::dynamic_pointer_cast<CObservation>(object));
     grouper.finish();
@@ -69,6 +70,7 @@ class LiveRunTest : public testing::Test {
   files::TemporaryFolder folder;
   test::Events events;
   LiveOptions options;
+  double stateInterval = 10;  // s
 };
 
 TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
@@ -141,6 +143,20 @@ TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
   replayRecording();
   EXPECT_EQ(nlohmann::json::parse(result("offline/metrics.json"))["scans"], kScans)
       << "the recording has all";
+}
+
+TEST_F(LiveRunTest, TellsWhenTheMapIsLost) {
+  options.maxWaiting = 1000, stateInterval = 0;
+  runLive(test::lapsWithMirroredOdometry(240));
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["verdict"], "lost");
+  EXPECT_GT(events.count("map: verdict: lost: "), 0u) << events.text();
+}
+
+TEST_F(LiveRunTest, SaysNothingOfAGoodMap) {
+  options.maxWaiting = 1000, stateInterval = 0;
+  runLive(test::laps(240));
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["verdict"], "consistent");
+  EXPECT_EQ(events.count("map: verdict"), 0u) << events.text();
 }
 
 TEST_F(LiveRunTest, WithoutAScanThereAreNoResults) {

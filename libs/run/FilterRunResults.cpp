@@ -147,6 +147,16 @@ void FilterRun::writeCovarianceFile(const Result& result, const std::vector<Pose
   });
 }
 
+std::function<Verdict()> FilterRun::judge() const {
+  const double spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
+  return [scans = *comparedScans_, path = filter_->bestPath(), spread, slips = slips_] {
+    Evidence evidence = scans.evidence(path);
+    evidence.spread = spread;
+    evidence.slips = slips;
+    return verdictOf(evidence);
+  };
+}
+
 Verdict FilterRun::verdictOfLocalization() const {
   Verdict verdict;
   if (!wasLocated_) verdict.reasons.push_back("the place of the robot is unknown at the end");

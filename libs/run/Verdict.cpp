@@ -1,7 +1,5 @@
 #include "run/Verdict.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +12,9 @@ using Level = Verdict::Level;
 
 namespace {
 
-constexpr double kStep = 0.5, kStepAngle = M_PI / 6;  // between compared scans
-constexpr double kGap = 2;                            // m of path within one doubtful place
-constexpr size_t kFewest = 4;                         // contradicted scans of a place, and of a lost map
-constexpr size_t kFewestInDoubt = 2;                  // contradicted scans of a doubtful map, or all
+constexpr double kGap = 2;            // m of path within one doubtful place
+constexpr size_t kFewest = 4;         // contradicted scans of a place, and of a lost map
+constexpr size_t kFewestInDoubt = 2;  // contradicted scans of a doubtful map, or all
 constexpr size_t kMostPlaces = 10;
 
 // Calibrated on seeds from 101 on: doc/verdict.md.
@@ -102,19 +99,6 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.returning.empty()) find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
   return verdict;
-}
-
-void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
-  const size_t update = updates_++;
-  if (last_) distance_ += std::hypot(pose.x - last_->x, pose.y - last_->y);
-  last_ = pose;
-  if (lastCompared_ && std::hypot(pose.x - lastCompared_->x, pose.y - lastCompared_->y) < kStep &&
-      std::abs(mrpt::math::wrapToPi(pose.phi - lastCompared_->phi)) < kStepAngle)
-    return;
-  lastCompared_ = pose;
-  const ScanBeams beams = beamsToCompare(toLaserScans(scans, RevisitCheck::kRange));
-  returning_.add(pose, beams, distance_, update);
-  recent_.add(pose, beams, distance_, update);
 }
 
 }  // namespace hybrid_slam::run

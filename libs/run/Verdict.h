@@ -2,11 +2,9 @@
 /// @brief Whether the map of a run can be trusted, judged by the scans alone.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/LaserScan.h"
 #include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
@@ -40,19 +38,5 @@ struct Evidence {
 
 /// The rules and thresholds of doc/verdict.md.
 Verdict verdictOf(const Evidence& evidence);
-
-/// Collects the evidence of the scans along the final path.
-class VerdictCheck {
- public:
-  /// @param pose  of the next update, map frame; @param scans  of it
-  void add(const mrpt::math::TPose2D& pose, const Scans& scans);
-  Evidence evidence() const { return {returning_.revisits(), recent_.revisits()}; }
-
- private:
-  RevisitCheck returning_{20}, recent_{2};
-  std::optional<mrpt::math::TPose2D> last_, lastCompared_;
-  double distance_ = 0;
-  size_t updates_ = 0;
-};
 
 }  // namespace hybrid_slam::run

@@ -1,0 +1,66 @@
+#include "run/VerdictCheck.h"
+
+#include <mrpt/math/wrap2pi.h>
+
+#include <cmath>
+#include <utility>
+
+namespace hybrid_slam::run {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kStep = 0.5, kStepAngle = M_PI / 6;  // between compared scans
+
+double distanceBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+ScanBeams beamsOf(const Scans& scans) { return beamsToCompare(toLaserScans(scans, RevisitCheck::kRange)); }
+
+}  // namespace
+
+bool ComparisonSteps::isDue(const TPose2D& pose) {
+  if (last_ && distanceBetween(*last_, pose) < kStep &&
+      std::abs(mrpt::math::wrapToPi(pose.phi - last_->phi)) < kStepAngle)
+    return false;
+  last_ = pose;
+  return true;
+}
+
+void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
+  const size_t update = updates_++;
+  if (last_) distance_ += distanceBetween(*last_, pose);
+  last_ = pose;
+  if (!steps_.isDue(pose)) return;
+  const ScanBeams beams = beamsOf(scans);
+  returning_.add(pose, beams, distance_, update);
+  recent_.add(pose, beams, distance_, update);
+}
+
+void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) {
+  if (!steps_.isDue(pose)) return;
+  const ScanBeams beams = beamsOf(scans);
+  Scan scan{update, beams.origins, {}};
+  for (const ScanBeams::Ray& ray : beams.rays)
+    scan.beams.push_back({static_cast<float>(std::atan2(ray.dirY, ray.dirX)), static_cast<float>(ray.range),
+                          static_cast<uint32_t>(ray.laser)});
+  scans_.push_back(std::make_shared<const Scan>(std::move(scan)));
+}
+
+Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
+  RevisitCheck returning(kReturning), recent(kRecent);
+  double distance = 0;
+  size_t reached = 0;
+  for (const auto& scan : scans_) {
+    for (; reached < scan->update; ++reached) distance += distanceBetween(path[reached], path[reached + 1]);
+    ScanBeams beams;
+    beams.origins = scan->origins;
+    for (const Beam& beam : scan->beams)
+      beams.rays.push_back({std::cos(beam.direction), std::sin(beam.direction), beam.range, beam.laser});
+    returning.add(path[scan->update], beams, distance, scan->update);
+    recent.add(path[scan->update], beams, distance, scan->update);
+  }
+  return {returning.revisits(), recent.revisits()};
+}
+
+}  // namespace hybrid_slam::run

@@ -1,0 +1,66 @@
+/// @file VerdictCheck.h
+/// @brief Which scans a verdict compares, and the evidence that they give.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/LaserScan.h"
+#include "run/Verdict.h"
+
+namespace hybrid_slam::run {
+
+/// Scans are compared with what was mapped this much path before, m.
+constexpr double kReturning = 20, kRecent = 2;
+
+/// Chooses the scans to compare along a path: one every 0.5 m or 30 deg.
+class ComparisonSteps {
+ public:
+  bool isDue(const mrpt::math::TPose2D& pose);
+
+ private:
+  std::optional<mrpt::math::TPose2D> last_;
+};
+
+/// Collects the evidence of the scans along the final path.
+class VerdictCheck {
+ public:
+  /// @param pose  of the next update, map frame; @param scans  of it
+  void add(const mrpt::math::TPose2D& pose, const Scans& scans);
+  Evidence evidence() const { return {returning_.revisits(), recent_.revisits()}; }
+
+ private:
+  RevisitCheck returning_{kReturning}, recent_{kRecent};
+  ComparisonSteps steps_;
+  std::optional<mrpt::math::TPose2D> last_;
+  double distance_ = 0;
+  size_t updates_ = 0;
+};
+
+/// The scans to compare of a run that goes on, whose path may still change: about 2 kB for each metre of the
+/// path. Copies share them.
+class ComparedScans {
+ public:
+  /// @param pose    of the best particle at an update, map frame
+  /// @param update  index of the path
+  void add(const mrpt::math::TPose2D& pose, size_t update, const Scans& scans);
+  /// @param path  a pose for each update, map frame
+  Evidence evidence(const std::vector<mrpt::math::TPose2D>& path) const;
+
+ private:
+  struct Beam {
+    float direction, range;  ///< rad, robot frame; m
+    uint32_t laser;          ///< index in `origins`
+  };
+  struct Scan {
+    size_t update;
+    std::vector<mrpt::math::TPoint2D> origins;  ///< of each laser, robot frame, m
+    std::vector<Beam> beams;
+  };
+  std::vector<std::shared_ptr<const Scan>> scans_;
+  ComparisonSteps steps_;
+};
+
+}  // namespace hybrid_slam::run
