@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # One check, over the whole tree or over some of it. Exit status 0 if it finds nothing.
 #   scripts/check.sh format             clang-format would change no file
-#   scripts/check.sh tidy [FILE...]     clang-tidy reports nothing (.clang-tidy); all .cpp files by default
+#   scripts/check.sh tidy [FILE...]     clang-tidy reports nothing (scripts/tidy.py); all files by default
 #   scripts/check.sh sanitize [LIB...]  the tests under ASan and UBSan, with the assertions of Eigen and libstdc++
 #   scripts/check.sh tsan [LIB...]      the tests of the libraries with threads under TSan
 # LIB is a folder of libs/ (libs/base); without one, `sanitize` runs the whole suite and `tsan` every such library.
@@ -44,9 +44,7 @@ check_format() {
 check_tidy() {
   install_packages "${packages[@]}" clang-tidy
   cmake --preset release
-  [[ $# -gt 0 ]] || mapfile -t files < <(find apps libs tests -name '*.cpp')
-  printf '%s\n' "${@:-${files[@]}}" | xargs -n 1 -P "$(nproc)" clang-tidy -p build/release --quiet 2>&1 |
-    sed -E '/^[0-9]+ (warning|error)s?( and [0-9]+ errors?)? generated\.$/d'
+  python3 scripts/tidy.py "$@"
 }
 
 check_sanitize() {

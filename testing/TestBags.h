@@ -15,6 +15,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bags/Messages.h"
@@ -74,7 +75,7 @@ inline MessageBytes scanHead(MessageBytes out, double time, const std::string& f
 
 inline std::string scanBytes(MessageBytes out, double time, const std::string& frame,
                              const std::vector<float>& ranges, float angleMin = -1, float step = 0.5f) {
-  return scanHead(out, time, frame, angleMin, step).floats(ranges).floats({1, 2, 3}).bytes();
+  return scanHead(std::move(out), time, frame, angleMin, step).floats(ranges).floats({1, 2, 3}).bytes();
 }
 
 inline std::string odometryBytes(MessageBytes out, double time, const TPose2D& pose,

@@ -20,7 +20,7 @@ constexpr Compression kAll[] = {Compression::gzip, Compression::bzip2, Compressi
 std::string compressed(Compression compression, const std::string& text) {
   if (compression == Compression::gzip) return gzipped(text);
   std::string out(2 * text.size() + 1000, '\0');
-  size_t length = out.size();
+  size_t length = 0;
   if (compression == Compression::bzip2) {
     auto size = static_cast<unsigned>(out.size());
     BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(text.data()),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,7 @@ TEST(CowPtr, CopiesShareUntilOneWrites) {
 TEST(CowPtr, AnUnsharedValueIsWrittenInPlace) {
   CowPtr<int> a(5);
   const int* before = a.get();
-  { const CowPtr<int> passing = a; }
+  { const auto passing = std::make_unique<CowPtr<int>>(a); }
   a.write() = 6;
   EXPECT_EQ(a.get(), before);
 }
