@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "files/RawlogWriter.h"
+#include "slam/lines/LineTable.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -143,12 +144,7 @@ void saveGridMap(const files::OutputFolder& folder, const COccupancyGridMap2D& g
 }
 
 void saveLines(const files::OutputFolder& folder, const std::vector<DatabaseLine>& lines) {
-  folder.write("lines.csv", [&lines](std::ostream& out) {
-    out << "rho,theta,length,x_start,y_start,x_end,y_end,count\n" << std::setprecision(9);
-    for (const DatabaseLine& l : lines)
-      out << l.rho << ',' << l.theta << ',' << l.length << ',' << l.start.x << ',' << l.start.y << ','
-          << l.end.x << ',' << l.end.y << ',' << l.count << '\n';
-  });
+  folder.write("lines.csv", [&lines](std::ostream& out) { writeLineTable(lines, out); });
 }
 
 }  // namespace hybrid_slam::run

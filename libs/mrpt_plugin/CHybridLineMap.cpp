@@ -1,0 +1,153 @@
+#include "mrpt_plugin/CHybridLineMap.h"
+
+#include <mrpt/core/initializer.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "base/LaserScan.h"
+#include "base/State.h"
+#include "slam/lines/LineTable.h"
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::poses::CPose3D;
+
+namespace hybrid_slam::mrpt_maps {
+namespace {
+
+constexpr uint32_t kMostBytes = uint32_t{1} << 26;  // half a million lines
+
+/// A scan that has lines of the map's plane, or null.
+const CObservation2DRangeScan* usable(const CObservation& observation) {
+  const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+  return scan && isHorizontal(*scan) ? scan : nullptr;
+}
+
+std::vector<LineSegment> linesOf(const CObservation2DRangeScan& scan, const LineMapOptions& options) {
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // but that of the scan
+  return extractLines(toLaserScan(scan, kNoLimit), options.extraction);
+}
+
+mrpt::math::TPose2D inPlane(const CPose3D& pose) { return {pose.x(), pose.y(), pose.yaw()}; }
+
+}  // namespace
+
+IMPLEMENTS_SERIALIZABLE(CHybridLineMap, CMetricMap, hybrid_slam::mrpt_maps)
+MRPT_INITIALIZER(registerHybridLineMap) { mrpt::rtti::registerClass(CLASS_ID(CHybridLineMap)); }
+
+CHybridLineMap::TMapDefinition::TMapDefinition() = default;
+
+void CHybridLineMap::TMapDefinition::loadFromConfigFile_map_specific(
+    const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
+  options.load(source, prefix);
+}
+
+void CHybridLineMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const {
+  LineMapOptions all = options;
+  for (const auto& [section, part] : all.sections()) {
+    out << "[" << section << "]\n";
+    for (const Option& option : part->table()) out << option.key << " = " << option.get() << "\n";
+  }
+}
+
+// A pointer in MRPT 2.5.8, a shared_ptr in 2.14.7.
+using Created = decltype(CHybridLineMap::internal_CreateFromMapDefinition(
+    std::declval<const mrpt::maps::TMetricMapInitializer&>()));
+
+Created CHybridLineMap::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& definition) {
+  return Created(new CHybridLineMap(dynamic_cast<const TMapDefinition&>(definition).options));
+}
+
+std::string CHybridLineMap::asString() const {
+  return "line map with " + std::to_string(database_.lines().size()) + " lines";
+}
+
+void CHybridLineMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+  std::ofstream file(prefix + ".csv");
+  writeLineTable(database_.lines(), file);
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + prefix + ".csv");
+}
+
+void CHybridLineMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {
+  if (!genericMapParams.enableSaveAs3DObject) return;
+  const auto lines = mrpt::opengl::CSetOfLines::Create();
+  lines->setColor_u8(0, 160, 0);
+  lines->setLineWidth(2);
+  for (const DatabaseLine& line : database_.lines())
+    lines->appendLine(line.start.x, line.start.y, 0, line.end.x, line.end.y, 0);
+  objects.insert(lines);
+}
+
+bool CHybridLineMap::internal_insertObservation(const CObservation& observation,
+                                                const std::optional<const CPose3D>& robot) {
+  const CObservation2DRangeScan* scan = usable(observation);
+  if (!scan) return false;
+  std::vector<LineSegment> lines = linesOf(*scan, options);
+  const mrpt::math::TPose2D pose = robot ? inPlane(*robot) : mrpt::math::TPose2D();
+  for (LineSegment& line : lines) line = transformed(line, pose);
+  database_.update(lines, options.database, options.association);
+  return true;
+}
+
+double CHybridLineMap::internal_computeObservationLikelihood(const CObservation& observation,
+                                                             const CPose3D& robot) const {
+  const CObservation2DRangeScan* scan = usable(observation);
+  if (!scan) return 0;
+  const LineWeight weight = lineWeight(linesOf(*scan, options), robot.yaw(), database_, options.weight);
+  return options.likelihood.exponent * std::log(weight.value);
+}
+
+bool CHybridLineMap::internal_canComputeObservationLikelihood(const CObservation& observation) const {
+  return usable(observation);
+}
+
+template <class State>
+void CHybridLineMap::visit(State& state) {
+  state(genericMapParams.enableSaveAs3DObject, genericMapParams.enableObservationLikelihood,
+        genericMapParams.enableObservationInsertion, options, database_);
+}
+
+uint8_t CHybridLineMap::serializeGetVersion() const { return 0; }
+
+void CHybridLineMap::serializeTo(mrpt::serialization::CArchive& out) const {
+  std::string bytes;
+  StateWriter writer(bytes);
+  const_cast<CHybridLineMap*>(this)->visit(writer);  // reads only
+  if (bytes.size() > kMostBytes) throw std::runtime_error("a line map of more than 64 MiB");
+  out << static_cast<uint32_t>(bytes.size());
+  out.WriteBuffer(bytes.data(), bytes.size());
+}
+
+void CHybridLineMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
+  if (version != 0) throw StateError("a line map of an unknown version");
+  uint32_t size = 0;
+  in >> size;
+  if (size > kMostBytes) throw StateError("a line map of more than 64 MiB");
+  // Memory grows with the bytes that are there.
+  std::string bytes;
+  while (bytes.size() < size) {
+    constexpr size_t kPiece = 1 << 16;
+    const size_t before = bytes.size();
+    bytes.resize(std::min<size_t>(size, before + kPiece));
+    bytes.resize(before + in.ReadBuffer(bytes.data() + before, bytes.size() - before));
+  }
+  StateReader reader(bytes);
+  visit(reader);
+  StateReader::check(reader.isAtEnd(), "bytes follow a line map");
+}
+
+}  // namespace hybrid_slam::mrpt_maps
+
+MAP_DEFINITION_REGISTER("hybrid_slam::mrpt_maps::CHybridLineMap,hybridLineMap",
+                        hybrid_slam::mrpt_maps::CHybridLineMap)
