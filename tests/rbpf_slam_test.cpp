@@ -1,0 +1,62 @@
+// MRPT's own rbpf-slam with the plugin.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "Shell.h"
+#include "files/TemporaryFolder.h"
+
+namespace hybrid_slam {
+namespace {
+
+constexpr const char* kLog =
+    "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
+
+class RbpfSlam : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v rbpf-slam >/dev/null") != 0)
+      GTEST_SKIP() << "rbpf-slam is not installed: Debian's package mrpt-apps has it";
+  }
+  /// The path of a run with the shipped INI file. @param edit  of that file, by sed
+  std::string path(const std::string& environment, const std::string& edit) {
+    const test::Outcome outcome =
+        test::shell(folder, "sed '" + edit + "' " SOURCE_DIR "/config-ini/rbpf-slam-lines.ini >lines.ini; " +
+                                environment + " rbpf-slam lines.ini '" + kLog + "' </dev/null");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return result("log_estimated_path.txt");
+  }
+  std::string result(const std::string& name) const {
+    return test::contentOf(folder.path("out-rbpf-slam-lines/" + name));
+  }
+  files::TemporaryFolder folder;
+};
+
+TEST_F(RbpfSlam, WeighsItsParticlesWithTheLinesOfThePlugin) {
+  const std::string load = "LD_PRELOAD=" MRPT_PLUGIN;
+  const std::string with = path(load, "");
+  const std::string lines = result("finalMap_hybrid_slam__mrpt_maps__CHybridLineMap_00.csv");
+  EXPECT_GE(std::count(lines.begin(), lines.end(), '\n'), 5) << lines;
+  EXPECT_EQ(std::count(with.begin(), with.end(), '\n'), 224);
+  EXPECT_EQ(path(load, ""), with);  // the seed decides
+
+  // The line weight alone makes the difference: raised to the power of 0, it is that of no plugin at all.
+  const std::string without = path("", "");
+  EXPECT_NE(with, without);
+  EXPECT_EQ(path(load, "s/^exponent = 1 /exponent = 0 /"), without);
+}
+
+TEST_F(RbpfSlam, NamesAMisspeltSetting) {
+  const test::Outcome outcome = test::shell(
+      folder, "sed 's/^sigma_deg/sigma/' " SOURCE_DIR
+              "/config-ini/rbpf-slam-lines.ini >lines.ini; LD_PRELOAD=" MRPT_PLUGIN " rbpf-slam lines.ini '" +
+                  std::string(kLog) + "' </dev/null");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("the nearest known key is `sigma_deg`"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam
