@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that produces it.
+"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that produces it, and
+that the commands for users work.
 
   scripts/check-docs.py                 checks only the marks, instantly
   scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN (build/release/bin)
+  scripts/check-docs.py --commands [BIN]    instead runs the commands of the pages for users (`User` in mkdocs.yml)
   --root FOLDER                         check the pages of another repository
 
 A mark is an HTML comment directly before the table or picture; there may be several:
@@ -19,6 +21,12 @@ after a script must occur in the script's header comment. A mark may also preced
 A table has figures, and needs a mark, if a cell outside its first column begins with a digit (after `*`, `<` and the
 like), unless it is a reference table: its first column is all `code` and headed by one of the words below.
 
+Commands for users are ```sh blocks. Those of a page run one after the other in a temporary folder, which begins with the
+repository's datasets and config-ini. Each must end with 0. A comment on the line before a block says otherwise:
+
+  <!-- first: COMMANDS -->      also runs these before, to make the files that the page speaks of
+  <!-- not run: WHY -->         for a block that needs a robot, root, ...
+
 `checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
 in percent of the page's number."""
 
@@ -29,9 +37,12 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 TIME_LIMIT = 60  # s, for one command
+BLOCK_LIMIT = 120  # s, for the commands of one block
+BLOCK = re.compile(r"(?:^<!--\s*(first|not run):\s*((?:(?!-->).)*?)\s*-->\n)?^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
 CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
 DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
@@ -122,6 +133,13 @@ def differences(page, made, tolerance):
     return found
 
 
+def user_pages(root):
+    """The pages below `User` in the site's navigation."""
+    text = (root / "mkdocs.yml").read_text()
+    user = re.search(r"^  - User:\n((?:      - .*\n)+)", text, re.MULTILINE)[1]
+    return [root / "doc" / page for page in re.findall(r": (\S+\.md)$", user, re.MULTILINE)]
+
+
 class Checker:
     def __init__(self, root, bin_folder):
         self.root, self.bin = root, bin_folder
@@ -130,14 +148,41 @@ class Checker:
     def output_of(self, command):
         """(tables that the command prints, "") or ([], why there are none); runs each command once."""
         if command not in self.outputs:
-            environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}
-            run = subprocess.run(["timeout", "-k", "5", str(TIME_LIMIT), "bash", "-c", command], cwd=self.root,
-                                 env=environment, stdin=subprocess.DEVNULL, text=True, capture_output=True)
-            why = f"took more than {TIME_LIMIT} s" if run.returncode == 124 else \
-                f"ended with {run.returncode}: {(run.stderr or run.stdout).strip()[-200:]!r}" if run.returncode else ""
-            tables = [rows for _, rows in tables_of(run.stdout.splitlines())]
+            output, why = self.run(command, self.root, TIME_LIMIT)
+            tables = [rows for _, rows in tables_of(output.splitlines())]
             self.outputs[command] = (tables, why or ("" if tables else "printed no table"))
         return self.outputs[command]
+
+    def run(self, command, folder, limit):
+        """(exit code, output, why it failed or "")"""
+        environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}
+        run = subprocess.run(["timeout", "-k", "5", str(limit), "bash", "-c", command], cwd=folder, env=environment,
+                             stdin=subprocess.DEVNULL, text=True, capture_output=True)
+        if run.returncode == 124:
+            return run.stdout, f"took more than {limit} s"
+        return run.stdout, run.returncode and \
+            f"ended with {run.returncode}: {(run.stderr or run.stdout).strip()[-200:]!r}" or ""
+
+    def check_commands(self, page):
+        """Runs the blocks of a page for users, and finds commands outside of them."""
+        text = page.read_text()
+        place = lambda offset: f"{page.relative_to(self.root)}:{text.count(chr(10), 0, offset) + 1}"
+        programs = "|".join(sorted(folder.name for folder in self.root.glob("apps/*/")))
+        for command in re.finditer(rf"^    (?:{programs}) .*", text, re.MULTILINE):
+            self.errors.append(f"{place(command.start())}: command that no test runs: expected a ```sh block")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("datasets", "config-ini"):
+                if (self.root / name).is_dir():
+                    (Path(folder) / name).symlink_to(self.root / name)
+            for block in BLOCK.finditer(text):
+                how, what, code = block.groups()
+                if how == "not run":
+                    self.skipped.append(f"{place(block.start())}: not run: {what}")
+                    continue
+                _, why = self.run("set -e\n" + (what + "\n" if how else "") + code, folder, BLOCK_LIMIT)
+                self.outputs[place(block.start())] = why
+                if why:
+                    self.errors.append(f"{place(block.start(3))}: {why}")
 
     def check_figures(self, place, rows, check):
         """Compares a page's table with its command's; of several, with the one with the same headings."""
@@ -183,13 +228,20 @@ class Checker:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--run", nargs="?", const="build/release/bin", metavar="BIN")
+    parser.add_argument("--commands", nargs="?", const="build/release/bin", metavar="BIN")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent, metavar="FOLDER")
     options = parser.parse_args()
     root = options.root.resolve()
-    checker = Checker(root, options.run and root / options.run)
-    pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
-    for page in pages:
-        checker.check_page(page)
+    folder = options.commands or options.run
+    checker = Checker(root, folder and root / folder)
+    if options.commands:
+        pages = user_pages(root)
+        for page in pages:
+            checker.check_commands(page)
+    else:
+        pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
+        for page in pages:
+            checker.check_page(page)
     print(*checker.skipped, *checker.errors,
           f"{len(pages)} pages, {checker.marked} marked tables and pictures, {len(checker.outputs)} commands run, "
           f"{len(checker.skipped)} skipped, {len(checker.errors)} errors", sep="\n")
