@@ -168,7 +168,7 @@ class Checker:
         text = page.read_text()
         place = lambda offset: f"{page.relative_to(self.root)}:{text.count(chr(10), 0, offset) + 1}"
         programs = "|".join(sorted(folder.name for folder in self.root.glob("apps/*/")))
-        for command in re.finditer(rf"^    (?:{programs}) .*", text, re.MULTILINE):
+        for command in re.finditer(rf"^    (?:{programs}) [^[\n]*$", text, re.MULTILINE):
             self.errors.append(f"{place(command.start())}: command that no test runs: expected a ```sh block")
         with tempfile.TemporaryDirectory() as folder:
             for name in ("datasets", "config-ini"):

@@ -8,7 +8,7 @@ packages=(
   libyaml-cpp-dev libdxflib-dev zlib1g-dev libbz2-dev libzstd-dev liblz4-dev libsqlite3-dev
   libwxgtk3.2-dev libgl1-mesa-dri libegl1 libx11-dev xvfb xauth libgtest-dev libgmock-dev python3
   librosbag-storage-dev libsensor-msgs-dev libtf2-msgs-dev
-  mrpt-apps gnuplot-nox locales
+  mrpt-apps mkdocs doxygen gnuplot-nox locales
 )
 
 # Installs missing Debian packages, as root or with sudo.

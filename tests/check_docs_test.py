@@ -114,6 +114,29 @@ class CheckDocs(unittest.TestCase):
                          (0, ["doc/page.md:4: skipped, LOGS is unset: scripts/table.sh"]))
         self.assertEqual(self.check(page, "--run", LOGS="1")[0], 1)
 
+    def commands(self, page):
+        """(exit code, lines but the last) for the commands of a page for users."""
+        self.write("mkdocs.yml", "nav:\n  - Home: other.md\n  - User:\n      - A page: page.md\n  - Developer:\n")
+        self.write("datasets/log", "a log\n")
+        return self.check(page, "--commands", self.root)
+
+    def test_commands_of_a_page_run_in_one_folder(self):
+        page = "Text.\n\n```sh\ncat datasets/log >map\n```\n\nMore.\n\n```sh\ngrep -q 'a log' map\n```\n"
+        self.assertEqual(self.commands(page), (0, []))
+        code, lines = self.commands(page.replace("a log' map", "another' map"))
+        self.assertEqual((code, lines), (1, ["doc/page.md:10: ended with 1: ''"]))
+        code, lines = self.commands(page.replace("cat datasets/log >map", "false\ncat datasets/log >map"))
+        self.assertEqual((code, lines[0]), (1, "doc/page.md:4: ended with 1: ''"))
+        self.assertEqual(self.commands("<!-- first: echo hello >file -->\n```sh\ngrep hello file\n```\n"), (0, []))
+
+    def test_commands_that_are_not_run_say_why(self):
+        self.assertEqual(self.commands("<!-- not run: needs a robot -->\n```sh\nfalse\n```\n"),
+                         (0, ["doc/page.md:1: not run: needs a robot"]))
+        self.assertEqual(self.commands("Text.\n\n    mapper [options] LOG\n"), (0, []))
+        code, lines = self.commands("Text.\n\n    mapper robot.log\n")
+        self.assertEqual(code, 1)
+        self.assertIn("doc/page.md:3: command that no test runs", lines[0])
+
 
 if __name__ == "__main__":
     unittest.main()

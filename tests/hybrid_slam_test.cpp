@@ -334,7 +334,8 @@ TEST_F(HybridSlam, ATextLogGivesWhatItsRawlogGives) {
 
 TEST_F(HybridSlam, ShippedInisRun) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
-  // These run in LivePrograms.TheShippedConfigurationsWaitForTheirSensors, SimulFloorplan.TheC* and RbpfSlam.*.
+  // These run in LivePrograms.TheShippedConfigurationsWaitForTheirSensors, SimulFloorplan.TheC* and
+  // RbpfSlam.*.
   std::vector<std::string> all = {"live-p3dx-lms100.ini",    "observation-server.ini",  "simul-csie.ini",
                                   "simul-csie-corridor.ini", "simul-csie-doorways.ini", "simul-csie-loop.ini",
                                   "simul-moved.ini",         "rbpf-slam-lines.ini"};

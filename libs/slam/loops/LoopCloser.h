@@ -34,8 +34,8 @@ class LoopCloser {
   /// Whether the path has grown enough since the last attempt.
   bool isDue() const { return toAttempt_ <= 0; }
   /// Tries to close a loop at the end of the path.
-  /// @param path        a pose for each update
-  /// @param directions  of the walls, modulo 90 deg, rad; empty: unknown
+  /// @param path       a pose for each update
+  /// @param direction  of the walls, modulo 90 deg, rad; empty: unknown
   std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
                                    const std::optional<double>& direction);
 
