@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Floor plan and route of a building without right angles, or without walls that give lines: invented, for experiments.
-usage: make-worlds.py octagon|round|clutter FOLDER     writes FOLDER/WORLD.plan and FOLDER/WORLD.route
+usage: make-worlds.py octagon|round|clutter|corridor FOLDER     writes FOLDER/WORLD.plan and FOLDER/WORLD.route
 
 octagon   a loop of corridors, 2.5 m wide, around an octagon: walls at 0 and 45 deg, modulo 90 deg
 round     a ring hall, 4 m wide, with columns along both walls: no straight wall
 clutter   a warehouse: pallets at any angle inside a ragged wall, no straight piece longer than 1.2 m
+corridor  45 m long and 2.5 m wide, door frames 0.15 m deep and pillars at both walls, a round hall at one end; there and back
 """
 import math
 import random
@@ -81,12 +82,34 @@ def clutter(draw):
     return plan, route, (18, 4), corners
 
 
+def corridor(draw):
+    hall, radius, half = (50, 1.25), 6, math.degrees(math.asin(1.25 / 6))
+    end = hall[0] - radius * math.cos(math.radians(half))
+    plan = [row("polyline", end, 0, 0, 0, 0, 2.5, end, 2.5), row("arc", *hall, radius, half - 180, 180 - half)]
+    for y, outwards in ((0, -1), (2.5, 1)):
+        x = draw.uniform(1, 3)
+        while x < end - 2:  # a recess lies to the left of its direction
+            plan.append(row("recess", *((x, y, x + 0.9, y) if outwards > 0 else (x + 0.9, y, x, y)), 0.15))
+            pillar = x + draw.uniform(1.5, 2.2)
+            plan.append(row("circle", pillar, y - outwards * 0.3, draw.uniform(0.12, 0.25)))
+            x += draw.uniform(3.2, 6)
+    for k in range(8):
+        x, y = polar(4.6, 45 * k + 22.5)
+        plan.append(row("circle", hall[0] + x, hall[1] + y, 0.25))
+    ring = [(hall[0] + x, hall[1] + y) for x, y in (polar(2.7, 225 + 45 * k) for k in range(7))]
+    door = (end - 1, 1.25)
+    route = [row("start", 2, 1.25, 0)] + [row("via", *p, 0.8) for p in (door, *ring, door)]
+    return plan, route, (3, 1.25), ring
+
+
+WORLDS = {"octagon": octagon, "round": round_hall, "clutter": clutter, "corridor": corridor}
+
+
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in ("octagon", "round", "clutter"):
+    if len(sys.argv) != 3 or sys.argv[1] not in WORLDS:
         sys.exit(__doc__)
     world, folder = sys.argv[1:]
-    make = {"octagon": octagon, "round": round_hall, "clutter": clutter}[world]
-    plan, route, end, turns = make(random.Random(1))
+    plan, route, end, turns = WORLDS[world](random.Random(1))
     if world == "round":  # on past the start, along the ring
         route += [row("via", *p, 1.5) for p in turns[:5]]
         end = [(a + b) / 2 for a, b in zip(turns[4], turns[5])]

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/Options.h"
+#include "slam/features/FeatureOptions.h"
 #include "slam/grid/GridWeight.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/lines/LineAssociation.h"
@@ -69,6 +70,7 @@ struct FilterConfiguration {
   AssociationOptions association;
   LineDatabaseOptions database;
   LineWeightOptions lineWeight;
+  FeatureOptions features;
   ImprovedProposalOptions improved;
   ScanMatcherOptions matcher;
   LoopClosingOptions loopClosing;
@@ -91,6 +93,7 @@ struct FilterConfiguration {
             {"line_association", &association},
             {"line_database", &database},
             {"line_weight", &lineWeight},
+            {"features", &features},
             {"improved_proposal", &improved},
             {"scan_matcher", &matcher},
             {"loop_closing", &loopClosing}};

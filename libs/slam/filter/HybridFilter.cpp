@@ -71,7 +71,7 @@ void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   std::vector<PosedScans> all = known_;
   for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], path[i + 1], true});
   const ScanMap map = mapOf(all, configuration_, base_);
-  particles_.continueFrom(path, map.grid, map.lines);
+  particles_.continueFrom(path, map.grid, map.lines, map.features);
 }
 
 void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {

@@ -30,7 +30,9 @@ class HybridFilter : public Filter {
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
   /// Of the best particle.
-  ScanMap bestMap() const { return {particles_.best().grid, *particles_.best().lines}; }
+  ScanMap bestMap() const {
+    return {particles_.best().grid, *particles_.best().lines, *particles_.best().features};
+  }
 
   /// Keeps the scans until `joinMap`, also without loop closing.
   void expectMap() { remembersScans_ = true; }

@@ -56,6 +56,12 @@ TEST(HybridFilterState, AFilterThatIsReadGoesOnToTheSameBytes) {
   FilterConfiguration withoutLines = configuration(ParticleFilterOptions::Proposal::standard);
   withoutLines.useLines = false, withoutLines.loopClosing.enabled = false;
   expectSameEnd(withoutLines, drive, 60);
+  for (const auto proposal :
+       {ParticleFilterOptions::Proposal::improved, ParticleFilterOptions::Proposal::standard}) {
+    FilterConfiguration withFeatures = configuration(proposal);
+    withFeatures.features.enabled = true;
+    expectSameEnd(withFeatures, drive, 60);
+  }
 }
 
 TEST(HybridFilterState, LoopsCloseAfterReading) {

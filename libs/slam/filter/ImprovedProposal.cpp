@@ -29,6 +29,7 @@ ImprovedProposal::ImprovedProposal(const FilterConfiguration& c)
       useLines_(c.useLines),
       lines_(c),
       lineWeight_(c.lineWeight),
+      features_(c.features),
       matcher_(c.matcher) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
@@ -36,12 +37,16 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   const MotionDistribution motion = motionAfter(particle, stepMotion, motion_, options_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const TPose2D start = particle.path.back() + stepMotion.start;
+  const TPose2D predicted = stepMotion.hasSlipped ? start : motion.mean;
   std::optional<LineLikelihood> lines;
-  if (useLines_)
-    lines.emplace(scan.lines, stepMotion.hasSlipped ? start : motion.mean, *particle.lines, lines_);
+  if (useLines_) lines.emplace(scan.lines, predicted, *particle.lines, lines_);
+  std::optional<FeatureLikelihood> features;
+  if (features_.enabled)
+    features.emplace(scan.features, predicted, motion.covariance, *particle.features, features_);
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
     if (lines) density += (*lines)(pose);
+    if (features) density += (*features)(pose);
     return density;
   };
   ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
@@ -63,6 +68,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
       proposed.lineWeight = lineWeightAt(proposed.pose);
       proposed.logWeight += (*lines)(proposed.pose).value;
     }
+    if (features) proposed.logWeight += (*features)(proposed.pose).value;
     return proposed;
   }
 

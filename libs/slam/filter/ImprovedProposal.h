@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/RandomStream.h"
+#include "slam/filter/FeatureLikelihood.h"
 #include "slam/filter/LineLikelihood.h"
 #include "slam/filter/SlipRecovery.h"
 
@@ -17,11 +18,11 @@ struct Proposed {
   LineWeight lineWeight;
 };
 
-/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(x | x', odometry).
-/// Scan matching finds its maximum and a normal approximation there. Poses sampled from it, with importance
-/// weights, give the mean and covariance of the proposal. Their mean weight estimates the integral of p,
-/// which is the particle's incremental weight, independent of the pose drawn. In directions the scan does not
-/// constrain, as along a corridor, the motion model's uncertainty remains.
+/// The target density of a step is  p(x) = p(scan | x, grid) p(lines | x, database) p(features | x, database)
+/// p(x | x', odometry). Scan matching finds its maximum and a normal approximation there. Poses sampled from
+/// it, with importance weights, give the mean and covariance of the proposal. Their mean weight estimates the
+/// integral of p, which is the particle's incremental weight, independent of the pose drawn. In directions
+/// the scan does not constrain, as along a corridor, the motion model's uncertainty remains.
 ///
 /// If the match fits the map worse than min_fit, the pose is drawn from the motion model with weight p(scan |
 /// x, grid) p(lines | x, database). Its expectation is the same integral, so matched and unmatched particles
@@ -39,6 +40,7 @@ class ImprovedProposal {
   bool useLines_;
   LineLikelihoodOptions lines_;
   LineWeightOptions lineWeight_;
+  FeatureOptions features_;
   ScanMatcher matcher_;
 };
 

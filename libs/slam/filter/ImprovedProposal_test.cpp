@@ -11,6 +11,8 @@ namespace {
 using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
+/// By which the robot moves farther than its odometry says.
+const TPose2D kMore(0.01, -0.008, 0.01);
 const StepMotion kMotion{kOdometry, kOdometry, false};
 
 FilterConfiguration configuration(bool useLines) {
@@ -25,7 +27,7 @@ FilterConfiguration configuration(bool useLines) {
 /// A scan whose true pose differs slightly from the odometry.
 PreparedScan scanAfterwards(const test::Walls& walls, const TPose2D& start) {
   RandomStream random(2, 0, 0);
-  return test::prepared(walls, start + kOdometry + TPose2D(0.01, -0.008, 0.01), random);
+  return test::prepared(walls, start + kOdometry + kMore, random);
 }
 
 struct Moments {
@@ -196,6 +198,30 @@ TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
   }
   // Each wall has half of the weight: 2 sigma for both directions together, and a margin for the tails.
   EXPECT_LT(std::sqrt(square), 2.5 * c.improved.lineSigmaRho);
+}
+
+/// The paper's Fig. 5: lines do not narrow the spread along a corridor.
+TEST(ImprovedProposal, AKnownPillarNarrowsTheSpreadAlongACorridor) {
+  FilterConfiguration c;
+  c.matcher.sigma = 0.35;
+  c.motion.distance.varianceD = 0.04;
+  c.features.enabled = true;
+  const TPose2D start(-0.3, 0.1, 0), truth = start + kOdometry + kMore;
+  PreparedScan scan = scanAfterwards(kCorridor, start);
+  PointFeature pillar;
+  pillar.kind = FeatureKind::pillar;
+  pillar.radius = 0.2;
+  pillar.covariance = 0.01 * 0.01 * Eigen::Matrix2d::Identity();
+  pillar.position = truth.inverseComposePoint({3, 0.9});
+  scan.features = {pillar};
+  Particle particle = test::particleAt(kCorridor, start);
+  const double without = proposed(c, particle, scan, 300).covariance(0, 0);
+  for (int i = 0; i < 10; ++i) particle.features.write().update({transformed(pillar, truth)}, c.features);
+  const Moments with = proposed(c, particle, scan, 300);
+  EXPECT_GT(std::sqrt(without), 0.03);
+  EXPECT_LT(std::sqrt(with.covariance(0, 0)), 0.015);
+  const TPose2D centre = motionDistribution(start, kOdometry, MotionBelief().model(c.motion)).mean;
+  EXPECT_NEAR(with.mean.x(), truth.x - centre.x, 0.015);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ImprovedProposals, testing::Bool(),

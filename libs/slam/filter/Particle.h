@@ -2,6 +2,7 @@
 /// @brief One hypothesis of the filter: Table 1 of the paper.
 #pragma once
 
+#include "slam/features/FeatureDatabase.h"
 #include "slam/filter/Path.h"
 #include "slam/grid/CowPtr.h"
 #include "slam/grid/OccupancyGrid.h"
@@ -11,11 +12,14 @@
 
 namespace hybrid_slam {
 
-/// {path, grid, line database}, shared between copies; the odometry error estimate and the last weights.
+/// {path, grid, line database, features}, shared between copies; the odometry error estimate and the last
+/// weights.
 struct Particle {
   Path path;
   OccupancyGrid grid;
   CowPtr<LineDatabase> lines{LineDatabase()};
+  /// Not in `visit`: ParticleSet adds them if they are on, so that sessions without them stay as they are.
+  CowPtr<FeatureDatabase> features{FeatureDatabase()};
   MotionBelief motion;
 
   double logWeight = 0;   ///< after the last weighting, before resampling; the best particle is its argmax

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/RandomStream.h"
+#include "slam/filter/FeatureLikelihood.h"
 #include "slam/filter/Threads.h"
 #include "slam/motion/SpreadNormals.h"
 
@@ -39,6 +40,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       association_(c.association),
       database_(c.database),
       lineWeight_(c.lineWeight),
+      features_(c.features),
       profiler_(profiler),
       gridWeight_(c.gridWeight, c.grid.resolution),
       improvedProposal_(c),
@@ -181,17 +183,24 @@ void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan
   step_.resampled = hasResampled();
 }
 
-// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9).
+// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9). Features are its future
+// work.
 ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose,
                                        const PreparedScan& scan) const {
   Weight weight;
   weight.logGrid = gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, particle.grid);
   if (useLines_) weight.line = lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
+  if (features_.enabled)
+    weight.logFeatures =
+        FeatureLikelihood(scan.features, pose, Eigen::Matrix3d::Zero(), *particle.features, features_)(pose)
+            .value;
   return weight;
 }
 
-/// w_grid^exponent x w_line: beams are far from independent, so only w_grid is tempered.
-double ParticleSet::Weight::log(double exponent) const { return exponent * logGrid + std::log(line.value); }
+/// w_grid^exponent x w_line x w_features: beams are far from independent, so only w_grid is tempered.
+double ParticleSet::Weight::log(double exponent) const {
+  return exponent * logGrid + std::log(line.value) + logFeatures;
+}
 
 void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
   particle.gridWeight = std::exp(weight.logGrid);
@@ -250,25 +259,33 @@ void ParticleSet::updateMaps(const PreparedScan& scan) {
     if (isCopy(i)) return;
     const TPose2D pose = particle.path.back();
     particle.grid.insert(scan.beams, pose, grid_);
-    if (!useLines_) return;
-    std::vector<LineSegment> lines;
-    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, pose));
-    particle.lines.write().update(lines, database_, association_);
+    if (useLines_) {
+      std::vector<LineSegment> lines;
+      for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, pose));
+      particle.lines.write().update(lines, database_, association_);
+    }
+    if (features_.enabled) {
+      std::vector<PointFeature> features;
+      for (const PointFeature& feature : scan.features) features.push_back(transformed(feature, pose));
+      particle.features.write().update(features, features_);
+    }
   });
   for (size_t i = 1; i < m_particles.size(); ++i)
     if (isCopy(i)) {
       m_particles[i].d->grid = m_particles[i - 1].d->grid;
       m_particles[i].d->lines = m_particles[i - 1].d->lines;
+      m_particles[i].d->features = m_particles[i - 1].d->features;
     }
 }
 
 void ParticleSet::continueFrom(const std::vector<TPose2D>& path, const OccupancyGrid& grid,
-                               const LineDatabase& lines) {
+                               const LineDatabase& lines, const FeatureDatabase& features) {
   Particle corrected = best();
   corrected.path = Path();
   for (const TPose2D& pose : path) corrected.path.push(pose);
   corrected.grid = grid;
   corrected.lines = CowPtr<LineDatabase>(lines);
+  corrected.features = CowPtr<FeatureDatabase>(features);
   corrected.logWeight = 0;
   for (auto& particle : m_particles) {
     *particle.d = corrected;

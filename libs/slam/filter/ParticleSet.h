@@ -48,7 +48,7 @@ class ParticleSet : public MrptParticles {
 
   /// All particles become copies of the best one with this path and map.
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path, const OccupancyGrid& grid,
-                    const LineDatabase& lines);
+                    const LineDatabase& lines, const FeatureDatabase& features);
   /// Notes in lastStep that a loop was closed.
   void setLoop(const LoopClosure& closure) { step_.loop = closure; }
 
@@ -69,6 +69,10 @@ class ParticleSet : public MrptParticles {
     for (size_t i = 0; i < count; ++i) {
       if constexpr (State::kIsReading) m_particles.emplace_back().d.reset(new Particle());
       state(*m_particles[i].d, m_particles[i].log_w);
+      if (features_.enabled) {
+        state(m_particles[i].d->features);
+        state.check(bool(m_particles[i].d->features), "a particle has no features");
+      }
       state.check(m_particles[i].d->grid.resolution() == grid_.resolution, "a grid has other cells");
       state.check(m_particles[i].d->motion.isPlausible(motion_), "a motion model is impossible");
     }
@@ -81,6 +85,7 @@ class ParticleSet : public MrptParticles {
   struct Weight {
     double logGrid;  ///< ln w_grid before tempering
     LineWeight line;
+    double logFeatures = 0;
     double log(double exponent) const;
   };
   void sampleFromMotionModel(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
@@ -105,6 +110,7 @@ class ParticleSet : public MrptParticles {
   AssociationOptions association_;
   LineDatabaseOptions database_;
   LineWeightOptions lineWeight_;
+  FeatureOptions features_;
   mrpt::system::CTimeLogger* profiler_;
   GridWeight gridWeight_;
   ImprovedProposal improvedProposal_;

@@ -1,5 +1,6 @@
 #include "slam/filter/PreparedScan.h"
 
+#include "slam/features/FeatureDetection.h"
 #include "slam/grid/BeamSelection.h"
 
 namespace hybrid_slam {
@@ -9,13 +10,18 @@ ScanPreparation::ScanPreparation(const FilterConfiguration& c)
       weighedBeams_(c.gridWeight.beams),
       matchedBeams_(c.matcher.beams),
       useLines_(c.useLines),
-      lineExtraction_(c.lineExtraction) {}
+      lineExtraction_(c.lineExtraction),
+      features_(c.features) {}
 
 PreparedScan ScanPreparation::operator()(const Scans& observed) const {
   const LaserScans scans = toLaserScans(observed, maxRange_);
   const BeamSelection selection(scans);
-  return {scans, ScanBeams(scans), ScanBeams(scans, selection.take(weighedBeams_)),
-          ScanBeams(scans, selection.take(matchedBeams_)), lines(scans)};
+  return {scans,
+          ScanBeams(scans),
+          ScanBeams(scans, selection.take(weighedBeams_)),
+          ScanBeams(scans, selection.take(matchedBeams_)),
+          lines(scans),
+          features(scans)};
 }
 
 std::vector<LineSegment> ScanPreparation::lines(const LaserScans& scans) const {
@@ -23,6 +29,15 @@ std::vector<LineSegment> ScanPreparation::lines(const LaserScans& scans) const {
   if (!useLines_) return all;
   for (const LaserScan& scan : scans)
     for (const LineSegment& line : extractLines(scan, lineExtraction_)) all.push_back(line);
+  return all;
+}
+
+std::vector<PointFeature> ScanPreparation::features(const LaserScans& scans) const {
+  std::vector<PointFeature> all;
+  if (!features_.enabled) return all;
+  for (const LaserScan& scan : scans)
+    for (const PointFeature& feature : detectFeatures(scan, lineExtraction_, features_))
+      all.push_back(withModelError(feature, features_.sigma));
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/LaserScan.h"
+#include "slam/features/PointFeature.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/grid/ScanBeams.h"
 #include "slam/lines/LineSegment.h"
@@ -18,6 +19,8 @@ struct PreparedScan {
   ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
   ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
   std::vector<LineSegment> lines;  ///< robot frame; empty if lines are off
+  /// Robot frame, with the errors of the pose (`withModelError`); empty if features are off.
+  std::vector<PointFeature> features = {};
 };
 
 /// Line detection (Sec. III-B) and all other work common to the particles.
@@ -27,12 +30,15 @@ class ScanPreparation {
   PreparedScan operator()(const Scans& observed) const;
   /// Only the lines, robot frame; empty if lines are off.
   std::vector<LineSegment> lines(const LaserScans& scans) const;
+  /// Only the features, as in PreparedScan.
+  std::vector<PointFeature> features(const LaserScans& scans) const;
 
  private:
   double maxRange_;
   int weighedBeams_, matchedBeams_;
   bool useLines_;
   LineExtractionOptions lineExtraction_;
+  FeatureOptions features_;
 };
 
 }  // namespace hybrid_slam

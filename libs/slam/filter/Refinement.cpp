@@ -29,12 +29,18 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
               const std::optional<ScanMap>& base) {
   const ScanPreparation prepare(configuration);
-  ScanMap map{gridOf(scans, configuration.grid, base), base ? base->lines : LineDatabase()};
+  ScanMap map{gridOf(scans, configuration.grid, base), base ? base->lines : LineDatabase(),
+              base ? base->features : FeatureDatabase()};
   for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
-    std::vector<LineSegment> lines = prepare.lines(toLaserScans(posed.scans, configuration.grid.maxRange));
+    const LaserScans scan = toLaserScans(posed.scans, configuration.grid.maxRange);
+    std::vector<LineSegment> lines = prepare.lines(scan);
     for (LineSegment& line : lines) line = transformed(line, posed.pose);
     map.lines.update(lines, configuration.database, configuration.association);
+    if (!configuration.features.enabled) continue;
+    std::vector<PointFeature> features = prepare.features(scan);
+    for (PointFeature& feature : features) feature = transformed(feature, posed.pose);
+    map.features.update(features, configuration.features);
   }
   return map;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/LaserScan.h"
+#include "slam/features/FeatureDatabase.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/LineDatabase.h"
@@ -29,6 +30,7 @@ struct PosedScans {
 struct ScanMap {
   OccupancyGrid grid;
   LineDatabase lines;
+  FeatureDatabase features = {};  ///< not in `visit`: a run that maps on collects its own
 
   template <class State>
   void visit(State& state) {

@@ -1,0 +1,98 @@
+#include "slam/features/FeatureDatabase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hybrid_slam {
+
+namespace {
+
+constexpr double kGate = 9;           // squared standard deviations
+constexpr double kFarthest = 2;       // m: no two observations of a feature are farther apart
+constexpr double kRadiusError = 0.1;  // share of the radius that its variance does not cover
+
+Eigen::Vector2d innovation(const PointFeature& seen, const PointFeature& known) {
+  return {seen.position.x - known.position.x, seen.position.y - known.position.y};
+}
+
+}  // namespace
+
+void FeatureOptions::describe(OptionTable& table) {
+  table.add("enabled", enabled, "weigh corners and arcs of the scan by the particle's map of them");
+  table.add("min_wall", minWall, 0.1, 100, "m", "shortest visible wall at a corner");
+  table.add("max_radius", maxRadius, 0, 100, "m", "of an arc: a pillar or a round hall; 0: no arcs");
+  table.add("sigma", sigma, 0.001, 10, "m",
+            "standard deviation of a feature's position in addition to that of its fit");
+  table.add("floor", floor, 1e-6, 1, "", "weight of a feature that the map does not confirm");
+  table.add("min_count", minCount, 1, 1000, "features observed less often are not used, and pruned");
+  table.add("prune_interval", pruneInterval, 1, 10000,
+            "updates between prunings, and grace period of a new feature");
+}
+
+std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known) {
+  if (seen.kind != known.kind) return std::nullopt;
+  const Eigen::Vector2d off = innovation(seen, known);
+  if (std::abs(off.x()) > kFarthest || std::abs(off.y()) > kFarthest) return std::nullopt;
+  if (seen.isCorner()) {
+    if (std::abs(std::remainder(seen.direction - known.direction, 2 * M_PI)) > M_PI / 4) return std::nullopt;
+  } else {
+    const double error = kRadiusError * known.radius;
+    if (std::pow(seen.radius - known.radius, 2) >
+        kGate * (seen.radiusVariance + known.radiusVariance + error * error))
+      return std::nullopt;
+  }
+  const double squares = off.dot((seen.covariance + known.covariance).inverse() * off);
+  if (!(squares <= kGate)) return std::nullopt;
+  return squares;
+}
+
+MapFeature merged(const MapFeature& feature, const PointFeature& seen) {
+  MapFeature result = feature;
+  const Eigen::Matrix2d gain = feature.covariance * (feature.covariance + seen.covariance).inverse();
+  const Eigen::Vector2d by = gain * innovation(seen, feature);
+  result.position += mrpt::math::TPoint2D(by.x(), by.y());
+  // Joseph's form stays symmetric and positive definite.
+  const Eigen::Matrix2d rest = Eigen::Matrix2d::Identity() - gain;
+  result.covariance =
+      rest * feature.covariance * rest.transpose() + gain * seen.covariance * gain.transpose();
+  result.covariance(1, 0) = result.covariance(0, 1);  // rounding
+  if (feature.radiusVariance + seen.radiusVariance > 0) {
+    const double share = feature.radiusVariance / (feature.radiusVariance + seen.radiusVariance);
+    result.radius += share * (seen.radius - feature.radius);
+    result.radiusVariance *= 1 - share;
+  }
+  ++result.count;
+  return result;
+}
+
+void FeatureDatabase::update(const std::vector<PointFeature>& seen, const FeatureOptions& options) {
+  ++updates_;
+  for (const PointFeature& feature : seen) {
+    if (const MapFeature* match = closestMatch(feature))
+      features_[static_cast<size_t>(match - features_.data())] = merged(*match, feature);
+    else
+      features_.push_back({feature, 1, updates_});
+  }
+  if (updates_ % options.pruneInterval != 0) return;
+  const auto isHopeless = [&](const MapFeature& feature) {
+    return feature.count < options.minCount && updates_ - feature.inserted >= options.pruneInterval;
+  };
+  features_.erase(std::remove_if(features_.begin(), features_.end(), isHopeless), features_.end());
+}
+
+const MapFeature* FeatureDatabase::closestMatch(const PointFeature& seen, int minCount) const {
+  const MapFeature* closest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const MapFeature& feature : features_) {
+    if (feature.count < minCount) continue;
+    const auto squares = matchDistance(seen, feature);
+    if (squares && *squares < least) {
+      least = *squares;
+      closest = &feature;
+    }
+  }
+  return closest;
+}
+
+}  // namespace hybrid_slam

@@ -1,0 +1,59 @@
+/// @file FeatureDatabase.h
+/// @brief The corners and arcs of a particle's map.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/features/FeatureOptions.h"
+#include "slam/features/PointFeature.h"
+
+namespace hybrid_slam {
+
+struct MapFeature : PointFeature {
+  int count = 1;     ///< number of observations, including the first
+  int inserted = 0;  ///< update that inserted it
+
+  template <class State>
+  void visit(State& state) {
+    PointFeature::visit(state);
+    state(count, inserted);
+    constexpr int kMost = 1'000'000'000;  // far below the greatest int
+    state.check(1 <= count && count <= kMost && 0 <= inserted && inserted <= kMost,
+                "a feature is impossible");
+  }
+};
+
+/// Squared Mahalanobis distance of two observations of one feature, or of an observation and a feature. Empty
+/// if they are not the same: of different kind, corners turned by more than 45 deg, radii three standard
+/// deviations apart, or positions more than three.
+std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known);
+
+/// The Kalman update of a feature by an observation.
+MapFeature merged(const MapFeature& feature, const PointFeature& seen);
+
+/// The features of one particle, in the map frame.
+class FeatureDatabase {
+ public:
+  /// Merges each observation into the feature that it matches best, or inserts it. Every pruneInterval steps,
+  /// removes features seen fewer than minCount times, except those younger than that.
+  /// @param seen  map frame, with the errors of the pose (`withModelError`)
+  void update(const std::vector<PointFeature>& seen, const FeatureOptions& options);
+
+  const std::vector<MapFeature>& features() const { return features_; }
+
+  /// The closest match among the features observed at least `minCount` times, or null.
+  const MapFeature* closestMatch(const PointFeature& seen, int minCount = 1) const;
+
+  template <class State>
+  void visit(State& state) {
+    state(features_, updates_);
+    state.check(0 <= updates_ && updates_ <= 1'000'000'000, "the features have an impossible age");
+  }
+
+ private:
+  std::vector<MapFeature> features_;
+  int updates_ = 0;
+};
+
+}  // namespace hybrid_slam

@@ -1,0 +1,22 @@
+/// @file FeatureOptions.h
+/// @brief Settings of the corners and arcs.
+#pragma once
+
+#include "base/Options.h"
+
+namespace hybrid_slam {
+
+/// Section [features].
+struct FeatureOptions : Options {
+  bool enabled = false;
+  double minWall = 0.3;   ///< m
+  double maxRadius = 15;  ///< m
+  double sigma = 0.05;    ///< m
+  double floor = 0.1;
+  int minCount = 3;
+  int pruneInterval = 10;
+
+  void describe(OptionTable& table) override;
+};
+
+}  // namespace hybrid_slam
