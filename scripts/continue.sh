@@ -14,7 +14,7 @@ error() {  # TRAJECTORY RELATIONS LOG
   "$bin/slam-eval" relations --trajectory "$1" --relations "$2" "${bridge[@]}" |
     python3 -c "import json, sys; r = json.load(sys.stdin); print(r['used'], '|', round(r['trans_mean_m'], 4))"
 }
-echo "| log | relations | uncut (m) | relations | continued (m) | place found after (scans) |"
+echo "| log | relations, uncut | error, uncut (m) | relations, continued | error, continued (m) | localised after (scans) |"
 echo "|---|---|---|---|---|---|"
 for log in intel-lab csail fr079 mit-killian; do
   zcat "$logs/$log.clf.gz" >"$out/whole.clf"
