@@ -27,7 +27,7 @@ hybrid_slam_find_library(lz4 lz4frame.h)
 hybrid_slam_find(Threads)
 hybrid_slam_find(nlohmann_json)
 hybrid_slam_find(yaml-cpp)
-hybrid_slam_find(OpenCV COMPONENTS core imgcodecs)
+hybrid_slam_find(OpenCV COMPONENTS core imgcodecs imgproc)
 # dxflib brings no CMake package.
 find_library(HYBRID_SLAM_DXFLIB dxflib REQUIRED)
 find_path(HYBRID_SLAM_DXFLIB_HEADERS dxflib/dl_dxf.h REQUIRED)
@@ -36,7 +36,6 @@ find_package(CLI11 REQUIRED)
 
 if(HYBRID_SLAM_STUDY)
   hybrid_slam_find(nanoflann)
-  hybrid_slam_find(OpenCV COMPONENTS core imgproc)
 endif()
 
 if(HYBRID_SLAM_GUI)

@@ -121,7 +121,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
 
 void FilterRun::writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log) {
   savedCell_ = result.grid.getResolution();
-  saveRosMap(folder_, result.grid);
+  saveRosMap(folder_, result.grid, result.trajectory);
   saveGridMap(folder_, result.grid);
   saveLines(folder_, result.lines);
   if (configuration_.run.method == Method::hybrid)

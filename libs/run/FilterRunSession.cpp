@@ -109,7 +109,7 @@ void FilterRun::saveMapTo(const std::string& path) {
   const auto lines = filter_->bestLines();
   folder.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(trajectory, out); });
   savePicture(folder, grid, trajectory, lines);
-  saveRosMap(folder, grid);
+  saveRosMap(folder, grid, trajectory);
   saveLines(folder, lines);
   if (!hybrid_) return;
   const ScanMap map = hybrid_->bestMap();

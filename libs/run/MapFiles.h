@@ -14,14 +14,14 @@
 
 namespace hybrid_slam::run {
 
-/// `map.png`: the grid, the path (red), the lines (green), the robot at the end (light blue) and
-/// circles around doubtful places (orange). At most 2^26 pixels, 2^14 on a side: larger maps are reduced.
+/// `map.png`, see `mapPicture`.
 void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
                  const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines,
                  const std::vector<DoubtfulPlace>& doubtful = {});
 
-/// `map.pgm` and `map.yaml` for ROS's map_server: 0 occupied, 254 free, 205 unknown.
-void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);
+/// `map.pgm` and `map.yaml` for ROS's map_server, see `MapRaster`.
+void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
+                const files::Trajectory& trajectory);
 
 /// `map.gridmap.gz`: the serialised COccupancyGridMap2D.
 void saveGridMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);

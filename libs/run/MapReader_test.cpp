@@ -87,9 +87,9 @@ TEST_F(MapReader, ARosMapKeepsWhatIsOccupiedFreeAndUnknown) {
       for (int y = -40; y < 80; ++y) {
         const double occupied = grid.occupancy({x, y});
         if (occupied > 0.65) expected.tiles().set({x, y}, kOccupied);
-        if (occupied < 0.35) expected.tiles().set({x, y}, kFree);
+        if (occupied < 0.5) expected.tiles().set({x, y}, kFree);
       }
-    saveRosMap(folder, toMrpt(grid));
+    saveRosMap(folder, toMrpt(grid), {});
     expectSameCells(readMap(folder.path("map.yaml")), expected);
   }
 }

@@ -86,7 +86,7 @@ MergeOutcome merge(const MergeOptions& options) {
   if (!trajectory.empty())
     folder.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(trajectory, out); });
   savePicture(folder, grid, trajectory, lines);
-  saveRosMap(folder, grid);
+  saveRosMap(folder, grid, trajectory);
   saveGridMap(folder, grid);
   saveLines(folder, lines);
   folder.write("config.ini", [&](std::ostream& out) { out << configuration.text(); });

@@ -1,0 +1,138 @@
+#include "run/MapPicture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "run/MapFrame.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+const cv::Scalar kPath(0, 0, 220), kLine(0, 160, 0), kRobot(255, 180, 80), kDoubtful(0, 140, 255);  // BGR
+
+/// Cells along the side of a pixel, so that a picture has at most 2^26 pixels (RGB: 200 MB), 2^14 on a side.
+int reductionOf(const MapRaster& map) {
+  constexpr double kMostPixels = 1 << 26, kLongestSide = 1 << 14;
+  const double pixels = static_cast<double>(map.width()) * map.height();
+  const double longest = std::max(map.width(), map.height());
+  return static_cast<int>(
+      std::ceil(std::max({1.0, std::sqrt(pixels / kMostPixels), longest / kLongestSide})));
+}
+
+cv::Mat cellsOf(const MapRaster& map, int enlarged, int reduced) {
+  cv::Mat picture((map.height() * enlarged + reduced - 1) / reduced,
+                  (map.width() * enlarged + reduced - 1) / reduced, CV_8UC3);
+  for (int y = 0; y < picture.rows; ++y) {
+    uint8_t* pixel = picture.ptr<uint8_t>(y);
+    for (int x = 0; x < picture.cols; ++x, pixel += 3)
+      std::fill_n(pixel, 3, map.at(x * reduced / enlarged, y * reduced / enlarged, reduced));
+  }
+  return picture;
+}
+
+/// Draws what is given in metres, smooth and at fractions of pixels; what is outside is cut off.
+class Pen {
+ public:
+  Pen(cv::Mat& map, const MapArea& area)
+      : map_(map), area_(area), thin_(thinLine(std::max(map.cols, map.rows))) {}
+
+  int thin() const { return thin_; }
+  double radius(double metres) const { return metres * area_.pixelsPerMetre; }
+  void line(double x0, double y0, double x1, double y1, const cv::Scalar& colour, int thickness) {
+    cv::line(map_, at(x0, y0), at(x1, y1), colour, thickness, cv::LINE_AA, kShift);
+  }
+  void circle(double x, double y, double pixels, const cv::Scalar& colour, int thickness) {
+    cv::circle(map_, at(x, y), static_cast<int>(std::lround(pixels * (1 << kShift))), colour, thickness,
+               cv::LINE_AA, kShift);
+  }
+
+ private:
+  static constexpr int kShift = 4;  // bits of a pixel's fractions
+  cv::Point at(double x, double y) const {
+    const auto fixedPoint = [this](double metres) {
+      constexpr double kFarthest = 1 << 20;
+      const double pixels = std::clamp(metres * area_.pixelsPerMetre - 0.5, -kFarthest, kFarthest);
+      return static_cast<int>(std::lround(pixels * (1 << kShift)));
+    };
+    return {fixedPoint(x - area_.left), fixedPoint(area_.top - y)};
+  }
+  cv::Mat& map_;
+  MapArea area_;
+  int thin_;
+};
+
+void drawRobot(Pen& pen, const mrpt::math::TPose2D& robot) {
+  const double radius = std::max(4., pen.radius(kRobotRadius)), metres = radius / pen.radius(1);
+  pen.circle(robot.x, robot.y, radius, kRobot, 2 * pen.thin());
+  pen.line(robot.x, robot.y, robot.x + metres * std::cos(robot.phi), robot.y + metres * std::sin(robot.phi),
+           kRobot, 2 * pen.thin());
+}
+
+void draw(Pen pen, const MapMarks& marks) {
+  for (const DatabaseLine& line : marks.lines)
+    pen.line(line.start.x, line.start.y, line.end.x, line.end.y, kLine, 2 * pen.thin());
+  const files::Trajectory& path = marks.trajectory;
+  for (size_t i = 1; i < path.size(); ++i)
+    pen.line(path[i - 1].pose.x, path[i - 1].pose.y, path[i].pose.x, path[i].pose.y, kPath, pen.thin());
+  if (!path.empty()) drawRobot(pen, path.back().pose);
+  for (const DoubtfulPlace& place : marks.doubtful)
+    pen.circle(place.at.x, place.at.y, pen.radius(std::min(1 + place.length / 2, 5.0)), kDoubtful,
+               3 * pen.thin());
+}
+
+LegendEntry cells(const char* label, uint8_t grey) {
+  return {label, 1.5, [grey](cv::Mat& picture, const cv::Rect& symbol) {
+            cv::rectangle(picture, symbol, cv::Scalar::all(grey), cv::FILLED);
+            cv::rectangle(picture, symbol, cv::Scalar::all(120), 1);
+          }};
+}
+
+LegendEntry stroke(const char* label, const cv::Scalar& colour, int thickness) {
+  return {label, 2, [=](cv::Mat& picture, const cv::Rect& symbol) {
+            const int y = symbol.y + symbol.height / 2;
+            cv::line(picture, {symbol.x, y}, {symbol.x + symbol.width, y}, colour, thickness, cv::LINE_AA);
+          }};
+}
+
+LegendEntry circle(const char* label, const cv::Scalar& colour, int thickness, bool hasHeading) {
+  return {label, 1, [=](cv::Mat& picture, const cv::Rect& symbol) {
+            const int radius = symbol.height / 2;
+            const cv::Point centre(symbol.x + radius, symbol.y + radius);
+            cv::circle(picture, centre, radius, colour, thickness, cv::LINE_AA);
+            if (hasHeading)
+              cv::line(picture, centre, centre + cv::Point(radius, 0), colour, thickness, cv::LINE_AA);
+          }};
+}
+
+std::vector<LegendEntry> legendOf(const MapMarks& marks, int thin) {
+  std::vector<LegendEntry> legend{cells("occupied", MapRaster::kOccupied), cells("free", MapRaster::kFree),
+                                  cells("unknown", MapRaster::kUnknown)};
+  if (!marks.trajectory.empty()) {
+    legend.push_back(stroke("path", kPath, thin));
+    legend.push_back(circle("robot at the end", kRobot, 2 * thin, true));
+  }
+  if (!marks.lines.empty()) legend.push_back(stroke("lines", kLine, 2 * thin));
+  if (!marks.doubtful.empty()) legend.push_back(circle("doubtful place", kDoubtful, 3 * thin, false));
+  return legend;
+}
+
+}  // namespace
+
+std::string mapPicture(const MapRaster& map, const MapMarks& marks) {
+  // Small maps are enlarged, so that path and lines do not hide the walls.
+  const int enlarged = std::clamp(2000 / std::max(map.width(), map.height()), 1, 4);
+  const int reduced = reductionOf(map);
+  const MapArea area{map.left(), map.bottom() + map.height() * map.cell(), enlarged / (reduced * map.cell())};
+  cv::Mat picture = cellsOf(map, enlarged, reduced);
+  drawGrid(picture, area);
+  draw(Pen(picture, area), marks);
+  picture = framed(picture, area, legendOf(marks, thinLine(std::max(picture.cols, picture.rows))));
+  // Encoded in memory: libpng would print a full disk to standard error itself.
+  std::vector<unsigned char> png;
+  cv::imencode(".png", picture, png);
+  return {png.begin(), png.end()};
+}
+
+}  // namespace hybrid_slam::run
