@@ -187,7 +187,7 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
 TEST_F(HybridSlam, AllMethodsAndProposals) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string options :
-       {"-m hybrid", "-m general", "-m stock", "-p standard", "-p improved", "-p auxiliary_standard",
+       {"-m hybrid", "-m general", "-m linemap", "-m stock", "-p standard", "-p improved", "-p auxiliary_standard",
         "-p auxiliary_optimal", "-m general -p auxiliary_optimal"}) {
     SCOPED_TRACE(options);
     fs::remove_all(output);
@@ -201,7 +201,7 @@ TEST_F(HybridSlam, AllMethodsAndProposals) {
     EXPECT_GT(metrics["updates"], 3);
     const std::string method = options[1] == 'm' ? options.substr(3, options.find(' ', 3) - 3) : "hybrid";
     EXPECT_EQ(metrics["method"], method);
-    EXPECT_EQ(metrics["lines"] == 0, method != "hybrid");
+    EXPECT_EQ(metrics["lines"] == 0, method == "general" || method == "stock");
   }
 }
 
@@ -261,7 +261,7 @@ TEST_F(HybridSlam, WrongCommandLine) {
   expectError(replay(log, "-n 99999999999"), "99999999999");
   expectError(replay(log, "-s -1"), "wrong value `-1`: command line, section [particle_filter], key `seed`");
   expectError(replay(log, "-j -1"), "key `threads`");
-  expectError(replay(log, "-m wrong"), "expected one of hybrid | general | stock");
+  expectError(replay(log, "-m wrong"), "expected one of hybrid | general | linemap | stock");
   expectError(replay(log, "-p wrong"), "expected one of standard");
   expectError(replay(log, "--set"), "--set");
   expectError(replay(log, "--set particle_filter.particles"), "SECTION.KEY=VALUE");

@@ -4,17 +4,35 @@
 
 namespace hybrid_slam::run {
 
+namespace {
+
+using Method = RunOptions::Method;
+
+const std::vector<std::pair<Method, std::string>> kMethods{{Method::hybrid, "hybrid"},
+                                                           {Method::general, "general"},
+                                                           {Method::linemap, "linemap"},
+                                                           {Method::stock, "stock"}};
+
+}  // namespace
+
+std::string nameOf(Method method) {
+  for (const auto& [known, name] : kMethods)
+    if (known == method) return name;
+  return {};
+}
+
 void RunOptions::describe(OptionTable& t) {
-  t.add("method", method,
-        {{Method::hybrid, "hybrid"}, {Method::general, "general"}, {Method::stock, "stock"}},
-        "hybrid: the paper's filter; general: without lines; stock: MRPT's CMetricMapBuilderRBPF");
+  t.add(
+      "method", method, kMethods,
+      "hybrid: the paper's filter; general: without lines; linemap: without grids, sampling from the motion "
+      "model; stock: MRPT's CMetricMapBuilderRBPF");
   t.add("rawlog", rawlog, "log to replay if the command line names none");
   t.add("output", output, "folder for the results if the command line names none");
   t.add("particles_every", particlesEvery, 0, 1000000,
         "updates between snapshots of all particles in particles.csv; 0: no particles.csv");
   t.add("refine", refine, 0, 100,
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
-        "not for stock");
+        "not for linemap and stock");
 }
 
 namespace {
@@ -26,12 +44,18 @@ Configuration::Configuration(const std::string& file, const std::vector<std::str
                              const files::Sections& more)
     : more_(more) {
   warnings = files::loadIni(source, file, settings, sections(), kStockSection, kExpected);
-  filter.useLines = run.method == RunOptions::Method::hybrid;
+  setMethod(run.method);
 }
 
 void Configuration::load(const std::string& text, const std::string& file) {
   files::loadIniText(source, text, file, {}, sections(), kStockSection, kExpected);
-  filter.useLines = run.method == RunOptions::Method::hybrid;
+  setMethod(run.method);
+}
+
+void Configuration::setMethod(Method method) {
+  run.method = method;
+  filter.useLines = method == Method::hybrid || method == Method::linemap;
+  filter.useGrid = method != Method::linemap;
 }
 
 files::Sections Configuration::sections() {

@@ -17,7 +17,7 @@ namespace hybrid_slam::run {
 
 /// Section [run].
 struct RunOptions : Options {
-  enum class Method { hybrid, general, stock };
+  enum class Method { hybrid, general, linemap, stock };
 
   Method method = Method::hybrid;
   std::string rawlog;
@@ -35,6 +35,9 @@ struct RunOptions : Options {
   /// @}
   void describe(OptionTable& table) override;
 };
+
+/// As in `--method`, such as "hybrid".
+std::string nameOf(RunOptions::Method method);
 
 /// All settings of a replay. Other sections (MRPT's, a grabber's) are ignored.
 struct Configuration {
@@ -60,6 +63,8 @@ struct Configuration {
   files::Sections sections();
   /// Sets a key of ours unless the file or the command line sets it. @return whether it did
   bool setDefault(const std::string& section, const std::string& key, const std::string& value);
+  /// Chooses the method, and with it which maps the particles hold.
+  void setMethod(RunOptions::Method method);
   /// All our keys with their values, and the file's other sections; reading it back gives the same run.
   std::string text();
 

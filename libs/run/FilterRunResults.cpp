@@ -19,8 +19,6 @@
 namespace hybrid_slam::run {
 namespace {
 
-using Method = RunOptions::Method;
-
 /// s, between the earliest and the latest pose.
 double durationOf(const files::Trajectory& trajectory) {
   const auto [first, last] =
@@ -58,7 +56,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     if (use != Use::skipped)
       scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
   }
-  if (configuration_.filter.loopClosing.enabled && !base_) {
+  if (configuration_.filter.closesLoops() && !base_) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
@@ -91,7 +89,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (hybrid_) result.map = hybrid_->bestMap();
   result.trajectory = recorder_.trajectory(result.path);
-  if (hybrid_ && configuration_.run.refine > 0) {
+  if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
     readings::RawlogSource scans(file, configuration_.input, log);
     refineResult(result, scans);
   }
@@ -124,8 +122,7 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   saveRosMap(folder_, result.grid, result.trajectory);
   saveGridMap(folder_, result.grid);
   saveLines(folder_, result.lines);
-  if (configuration_.run.method == Method::hybrid)
-    savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
+  if (configuration_.filter.useLines) savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
   std::vector<bool> isUpdate;
   for (const Use use : uses_) isUpdate.push_back(use == Use::update);
   readings::RawlogSource again(file, configuration_.input, log);
@@ -136,7 +133,7 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   verdict_ = verdictOf(evidence);
-  const bool hasLines = configuration_.run.method == Method::hybrid;
+  const bool hasLines = configuration_.filter.useLines;
   writeCovarianceFile(result,
                       pathCovariances(result.path, particleCovariances_, evidence.returning, hasLines));
 }
@@ -173,9 +170,8 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
   const bool isWhole = uses_.size() == log.scans;
   const double wall = secondsBefore_ + secondsSince(start_);
   const double duration = isWhole ? log.duration : durationOf(result.trajectory);
-  const char* const names[] = {"hybrid", "general", "stock"};
   nlohmann::ordered_json metrics{
-      {"method", names[static_cast<int>(configuration_.run.method)]},
+      {"method", nameOf(configuration_.run.method)},
       {"particles", filter_->particlePoses().size()},
       {"particles_min", particlesMin_},
       {"particles_max", particlesMax_},

@@ -113,7 +113,7 @@ void FilterRun::saveMapTo(const std::string& path) {
   saveLines(folder, lines);
   if (!hybrid_) return;
   const ScanMap map = hybrid_->bestMap();
-  if (configuration_.run.method == RunOptions::Method::hybrid) savePlan(folder, floorPlanOf(lines, map.grid));
+  if (configuration_.filter.useLines) savePlan(folder, floorPlanOf(lines, map.grid));
   saveSessionTo(folder.path(kSessionName), map, hybrid_->bestPath());
 }
 

@@ -20,8 +20,9 @@ std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration) {
   if (!run.priorPlan.empty() && run.method != RunOptions::Method::hybrid)
     throw InputError("a floor plan is a prior on lines", "option --prior-plan", "expected method hybrid");
   if (file.empty()) return std::nullopt;
-  if (run.method == RunOptions::Method::stock)
-    throw InputError("MRPT's filter does not take a map", file, "expected method hybrid or general");
+  if (run.method != RunOptions::Method::hybrid && run.method != RunOptions::Method::general)
+    throw InputError("method " + nameOf(run.method) + " does not take a map", file,
+                     "expected method hybrid or general");
   ScanMap map = readKnownMap(file);
   const double cell = map.grid.resolution();
   configuration.setDefault("grid", "resolution", numberText(cell));

@@ -9,6 +9,7 @@
 
 #include "base/Options.h"
 #include "slam/features/FeatureOptions.h"
+#include "slam/filter/LineMapWeight.h"
 #include "slam/grid/GridWeight.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/lines/LineAssociation.h"
@@ -62,6 +63,7 @@ struct ImprovedProposalOptions : Options {
 /// The filter and its parts, one section each.
 struct FilterConfiguration {
   bool useLines = true;  ///< false: the same filter without lines, `--method general`
+  bool useGrid = true;   ///< false: particles without grids, weighed by their lines, `--method linemap`
   ParticleFilterOptions filter;
   MotionModelOptions motion;
   GridOptions grid;
@@ -71,6 +73,7 @@ struct FilterConfiguration {
   LineDatabaseOptions database;
   LineWeightOptions lineWeight;
   FeatureOptions features;
+  LineMapOptions lineMap;
   ImprovedProposalOptions improved;
   ScanMatcherOptions matcher;
   LoopClosingOptions loopClosing;
@@ -78,7 +81,15 @@ struct FilterConfiguration {
   /// Distance (m) or rotation (rad) between updates.
   double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
   double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
-  bool usesMatches() const { return filter.proposal == ParticleFilterOptions::Proposal::improved; }
+  /// Without grids there is nothing to match scans to, nor to close loops with.
+  bool usesMatches() const { return useGrid && filter.proposal == ParticleFilterOptions::Proposal::improved; }
+  bool closesLoops() const { return useGrid && loopClosing.enabled; }
+  /// Of the line databases.
+  LineDatabaseOptions databaseOptions() const {
+    LineDatabaseOptions options = database;
+    if (!useGrid) options.minLength = lineMap.minLength;
+    return options;
+  }
 
   /// (section, options) of every part.
   std::vector<std::pair<std::string, Options*>> sections() {
@@ -94,6 +105,7 @@ struct FilterConfiguration {
             {"line_database", &database},
             {"line_weight", &lineWeight},
             {"features", &features},
+            {"line_map", &lineMap},
             {"improved_proposal", &improved},
             {"scan_matcher", &matcher},
             {"loop_closing", &loopClosing}};

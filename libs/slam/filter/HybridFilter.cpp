@@ -15,8 +15,9 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       updateAngle_(configuration.updateAngle()),
       prepare_(configuration),
       particles_(configuration, &profiler()),
-      remembersScans_(configuration.loopClosing.enabled),
-      loopCloser_(configuration.loopClosing, configuration.grid) {
+      remembersScans_(configuration.closesLoops() || !configuration.useGrid),
+      loopCloser_(configuration.loopClosing, configuration.grid),
+      pathGrid_(configuration.grid) {
   checkMemory(configuration);
   reset();
 }
@@ -44,7 +45,7 @@ void HybridFilter::update(const Scans& scans) {
   particles_.updateMaps(scan);  // step 4, map estimation: grids and line databases, Sec. III-C, eq. (7)-(8)
   mapping.stop();
   if (remembersScans_) updateScans_.push_back(scans);
-  if (configuration_.loopClosing.enabled) closeLoops(scan);
+  if (configuration_.closesLoops()) closeLoops(scan);
 
   odometry_ = TPose2D();
   hasMap_ = true;
@@ -83,7 +84,7 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   for (PosedScans& known : known_) known.pose = origin + known.pose;
   loopCloser_.turn(origin.phi);
   continueFrom(path);
-  remembersScans_ = configuration_.loopClosing.enabled;
+  remembersScans_ = configuration_.closesLoops();
   if (!remembersScans_) updateScans_.clear();
 }
 
@@ -112,7 +113,11 @@ std::vector<TPose2D> HybridFilter::bestPath() const {
   return poses;
 }
 
-mrpt::maps::COccupancyGridMap2D HybridFilter::bestGrid() const { return toMrpt(particles_.best().grid); }
+const OccupancyGrid& HybridFilter::bestOccupancy() const {
+  return configuration_.useGrid ? particles_.best().grid : pathGrid_.of(bestPath(), updateScans_);
+}
+
+mrpt::maps::COccupancyGridMap2D HybridFilter::bestGrid() const { return toMrpt(bestOccupancy()); }
 
 std::vector<DatabaseLine> HybridFilter::bestLines() const {
   const auto& lines = particles_.best().lines->lines();

@@ -5,6 +5,7 @@
 #include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/ParticleSet.h"
+#include "slam/filter/PathGrid.h"
 #include "slam/filter/Refinement.h"
 #include "slam/loops/LoopCloser.h"
 
@@ -29,9 +30,9 @@ class HybridFilter : public Filter {
   std::vector<WeightedPose> particlePoses() const override { return particles_.poses(); }
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
-  /// Of the best particle.
+  /// Of the best particle; without grids, the scans of the updates along its path.
   ScanMap bestMap() const {
-    return {particles_.best().grid, *particles_.best().lines, *particles_.best().features};
+    return {bestOccupancy(), *particles_.best().lines, *particles_.best().features};
   }
 
   /// Keeps the scans until `joinMap`, also without loop closing.
@@ -41,7 +42,7 @@ class HybridFilter : public Filter {
   /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
 
-  /// Of each update, with loop closing; else empty.
+  /// Of each update, with loop closing or without grids; else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
   /// Whether the map holds nothing else than these.
   bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }
@@ -65,6 +66,7 @@ class HybridFilter : public Filter {
   template <class State>
   void visit(State& state);
   void update(const Scans& scans);
+  const OccupancyGrid& bestOccupancy() const;
   void closeLoops(const PreparedScan& scan);
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path);
 
@@ -79,6 +81,7 @@ class HybridFilter : public Filter {
   std::optional<ScanMap> base_;     ///< of an earlier run
   std::vector<PosedScans> known_;   ///< in the map before the first update
   std::vector<Scans> updateScans_;  ///< if remembersScans_
+  mutable PathGrid pathGrid_;       ///< of the best path, without grids
 };
 
 }  // namespace hybrid_slam

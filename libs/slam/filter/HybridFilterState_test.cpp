@@ -62,6 +62,9 @@ TEST(HybridFilterState, AFilterThatIsReadGoesOnToTheSameBytes) {
     withFeatures.features.enabled = true;
     expectSameEnd(withFeatures, drive, 60);
   }
+  FilterConfiguration withoutGrids = configuration(ParticleFilterOptions::Proposal::improved);
+  withoutGrids.useGrid = false;
+  expectSameEnd(withoutGrids, drive, 60);
 }
 
 TEST(HybridFilterState, LoopsCloseAfterReading) {

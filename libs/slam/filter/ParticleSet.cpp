@@ -32,17 +32,20 @@ class StageTimer {
 ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger* profiler)
     : MrptParticles(c.filter),
       useLines_(c.useLines),
+      useGrid_(c.useGrid),
+      usesMatches_(c.usesMatches()),
       filter_(c.filter),
       motion_(c.motion),
       grid_(c.grid),
-      gridExponent_(c.gridWeight.exponent),
+      exponent_(c.useGrid ? c.gridWeight.exponent : c.lineMap.exponent),
       improvedExponent_(c.improved.exponent),
       association_(c.association),
-      database_(c.database),
+      database_(c.databaseOptions()),
       lineWeight_(c.lineWeight),
       features_(c.features),
       profiler_(profiler),
       gridWeight_(c.gridWeight, c.grid.resolution),
+      lineMapWeight_(c.lineMap, c.grid.maxRange),
       improvedProposal_(c),
       matcher_(c.matcher),
       newSlipRecovery_(c),
@@ -122,20 +125,16 @@ void ParticleSet::startPathAt(const TPose2D& start) {
 void ParticleSet::sampleAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {
   const StageTimer timer(profiler_, "3 sample, weigh");
   proposeAndWeigh(odometry, scan);
+  if (!useGrid_) return;
   const Particle& bestParticle = best();
   ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, bestParticle.grid);
   step_.degeneracy = degeneracy(scanInformation(likelihood, bestParticle.path.back()));
 }
 
 void ParticleSet::proposeAndWeigh(const TPose2D& odometry, const PreparedScan& scan) {
-  switch (filter_.proposal) {
-    case Proposal::standard:
-      return sampleFromMotionModel(odometry, scan);
-    case Proposal::improved:
-      return sampleAroundMatches(odometry, scan);
-    default:
-      return sampleByMrpt(odometry, scan);
-  }
+  if (filter_.isAuxiliary()) return sampleByMrpt(odometry, scan);
+  if (usesMatches_) return sampleAroundMatches(odometry, scan);
+  sampleFromMotionModel(odometry, scan);
 }
 
 // As in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
@@ -147,7 +146,7 @@ void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedS
     particle.motion.learn(odometry, particle.path.lastMotion(), motion_);
     const Weight weight = weigh(particle, particle.path.back(), scan);
     setWeight(particle, weight);
-    m_particles[i].log_w += weight.log(gridExponent_);
+    m_particles[i].log_w += weight.log(exponent_);
   });
   summarise(odometry);
 }
@@ -176,7 +175,7 @@ void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedSca
 // MRPT's auxiliary filters, which resample as they sample.
 void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan) {
   auxiliaryStep(odometry, motion_, [&](const Particle& particle, const TPose2D& pose) {
-    return weigh(particle, pose, scan).log(gridExponent_);
+    return weigh(particle, pose, scan).log(exponent_);
   });
   forEachParticle([&](size_t, Particle& p) { setWeight(p, weigh(p, p.path.back(), scan)); });
   summarise(odometry);
@@ -188,6 +187,11 @@ void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan
 ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose,
                                        const PreparedScan& scan) const {
   Weight weight;
+  if (!useGrid_) {
+    weight.logGrid = lineMapWeight_.meanLogLikelihood(scan.weighedBeams, pose, *particle.lines);
+    weight.line.seen = static_cast<int>(scan.lines.size());
+    return weight;
+  }
   weight.logGrid = gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, particle.grid);
   if (useLines_) weight.line = lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
   if (features_.enabled)
@@ -258,7 +262,7 @@ void ParticleSet::updateMaps(const PreparedScan& scan) {
   forEachParticle([&](size_t i, Particle& particle) {
     if (isCopy(i)) return;
     const TPose2D pose = particle.path.back();
-    particle.grid.insert(scan.beams, pose, grid_);
+    if (useGrid_) particle.grid.insert(scan.beams, pose, grid_);
     if (useLines_) {
       std::vector<LineSegment> lines;
       for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, pose));

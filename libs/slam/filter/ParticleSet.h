@@ -81,9 +81,8 @@ class ParticleSet : public MrptParticles {
   }
 
  private:
-  using Proposal = ParticleFilterOptions::Proposal;
   struct Weight {
-    double logGrid;  ///< ln w_grid before tempering
+    double logGrid;  ///< ln w_grid before tempering; without grids, that of the beams against the lines
     LineWeight line;
     double logFeatures = 0;
     double log(double exponent) const;
@@ -102,17 +101,18 @@ class ParticleSet : public MrptParticles {
   template <class Body>
   void forEachParticle(const Body& body);
 
-  bool useLines_;
+  bool useLines_, useGrid_, usesMatches_;
   ParticleFilterOptions filter_;
   MotionModelOptions motion_;
   GridOptions grid_;
-  double gridExponent_, improvedExponent_;
+  double exponent_, improvedExponent_;
   AssociationOptions association_;
   LineDatabaseOptions database_;
   LineWeightOptions lineWeight_;
   FeatureOptions features_;
   mrpt::system::CTimeLogger* profiler_;
   GridWeight gridWeight_;
+  LineMapWeight lineMapWeight_;
   ImprovedProposal improvedProposal_;
   ScanMatcher matcher_;
   const SlipRecovery newSlipRecovery_;

@@ -7,7 +7,7 @@ namespace hybrid_slam {
 
 ScanPreparation::ScanPreparation(const FilterConfiguration& c)
     : maxRange_(c.grid.maxRange),
-      weighedBeams_(c.gridWeight.beams),
+      weighedBeams_(c.useGrid ? c.gridWeight.beams : c.lineMap.beams),
       matchedBeams_(c.matcher.beams),
       useLines_(c.useLines),
       lineExtraction_(c.lineExtraction),

@@ -16,7 +16,7 @@ namespace hybrid_slam {
 struct PreparedScan {
   LaserScans scans;
   ScanBeams beams;                 ///< every beam, for insertion
-  ScanBeams weighedBeams;          ///< `beams` of [grid_weight]
+  ScanBeams weighedBeams;          ///< `beams` of [grid_weight] or [line_map]
   ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
   std::vector<LineSegment> lines;  ///< robot frame; empty if lines are off
   /// Robot frame, with the errors of the pose (`withModelError`); empty if features are off.

@@ -11,11 +11,11 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-const std::vector<std::string> kMethods{"hybrid", "general", "stock"};
+const std::vector<std::string> kMethods{"hybrid", "general", "linemap", "stock"};
 
 void checkMethod(const std::string& method, const std::string& where) {
   if (std::find(kMethods.begin(), kMethods.end(), method) == kMethods.end())
-    throw InputError("unknown method `" + method + "`", where, "expected hybrid, general or stock");
+    throw InputError("unknown method `" + method + "`", where, "expected hybrid, general, linemap or stock");
 }
 
 std::string lower(std::string text) {
@@ -93,7 +93,7 @@ ParticleCount parseParticleCount(const std::string& text) {
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
                               const std::vector<ParticleCount>& particles) {
   if (methods.empty())
-    throw InputError("no method", "option --methods", "expected one or more of hybrid, general, stock");
+    throw InputError("no method", "option --methods", "expected one or more of hybrid, general, linemap, stock");
   for (const std::string& method : methods) checkMethod(method, "option --methods");
   const auto isCompared = [&](const std::string& method) {
     return method.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace hybrid_slam::window {
-std::string nameOf(run::RunOptions::Method method) {
-  const char* const names[] = {"hybrid", "general", "stock"};
-  return names[static_cast<int>(method)];
-}
-
 UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses) {
   UncertaintyEllipse ellipse;
   if (poses.empty()) return ellipse;
@@ -39,7 +34,7 @@ UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses) {
 
 FilterWatch::FilterWatch(const run::Configuration& configuration)
     : method_(nameOf(configuration.run.method)),
-      useLines_(configuration.run.method == run::RunOptions::Method::hybrid),
+      useLines_(configuration.filter.useLines),
       lineWeight_(configuration.filter.lineWeight),
       prepare_(configuration.filter) {}
 

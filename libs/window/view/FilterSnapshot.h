@@ -40,7 +40,7 @@ struct UncertaintyEllipse {
 };
 
 struct FilterSnapshot {
-  std::string method;  ///< "hybrid", "general", "stock"
+  std::string method;  ///< as in `--method`
   size_t updates = 0;
   MapImage map;  ///< of the best particle, like the next three
   /// One pose per update; the last is the current one. In a fixed map: since the place has been known, empty
@@ -78,9 +78,6 @@ class FilterWatch {
   Scans scans_;                                         ///< of the last update
   std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update
 };
-
-/// "hybrid", "general" or "stock".
-std::string nameOf(run::RunOptions::Method method);
 
 /// The uncertainty ellipse of weighted poses.
 UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses);

@@ -28,9 +28,8 @@ struct Lane {
 
   static run::Configuration withMethod(run::Configuration c, run::RunOptions::Method method,
                                        const std::string& folder) {
-    c.run.method = method;
+    c.setMethod(method);
     c.run.output = folder;
-    c.filter.useLines = method == run::RunOptions::Method::hybrid;
     return c;
   }
 

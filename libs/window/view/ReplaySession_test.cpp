@@ -180,7 +180,7 @@ TEST_F(ReplaySessionTest, AfterAFailureOfTheFilterTheResultsUpToItCanBeExported)
   session.exportResults(folder.path("out"));
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
   EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
-  c.run.method = Method::stock;
+  c.setMethod(Method::stock);
   c.run.output = folder.path("offline");
   const std::atomic<bool> stop{false};
   EXPECT_FALSE(run::replay(c, true, stop).incomplete.empty());
