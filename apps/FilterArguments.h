@@ -19,7 +19,8 @@ struct FilterArguments {
   /// -m, -p
   void addMethod(CLI::App& app) {
     app.add_option("-m,--method", method,
-                   "hybrid, general (without lines), linemap (lines alone) or stock (MRPT's own RBPF)");
+                   "hybrid, general (without lines), linemap (lines alone), ortho (lines at right angles) or "
+                   "stock (MRPT's own RBPF)");
     app.add_option("-p,--proposal", proposal,
                    "improved (default), standard (the paper's), auxiliary_standard or auxiliary_optimal");
   }

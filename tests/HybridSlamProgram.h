@@ -49,7 +49,8 @@ class HybridSlam : public testing::Test {
     const auto isMethod = [&](const std::string& name) {
       return metrics.find("\"method\": \"" + name + "\"") != std::string::npos;
     };
-    if (isMethod("stock")) expected.erase(std::find(expected.begin(), expected.end(), "session.hslam"));
+    if (isMethod("ortho") || isMethod("stock"))
+      expected.erase(std::find(expected.begin(), expected.end(), "session.hslam"));
     if (isMethod("general") || isMethod("stock"))
       expected.erase(std::remove_if(expected.begin(), expected.end(),
                                     [](const std::string& name) { return name.rfind("plan.", 0) == 0; }),

@@ -149,7 +149,7 @@ TEST_F(HybridSlam, InvalidReadingsAreIgnoredBeamByBeam) {
   const float odd[] = {kNaN, HUGE_VALF, -HUGE_VALF, -3, 0, 20, 81.83f, 1e30f};
   const test::Log unmarked =
       withBeams([&odd](auto& scan, size_t i) { scan.setScanRange(i, odd[i / 9 % 8]); });
-  for (const std::string method : {"hybrid", "general", "linemap", "stock"}) {
+  for (const std::string method : {"hybrid", "general", "linemap", "ortho", "stock"}) {
     SCOPED_TRACE(method);
     expectDone(replay(marked, "-m " + method));
     const std::string expected = result("trajectory.tum");

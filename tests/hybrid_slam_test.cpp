@@ -187,8 +187,8 @@ TEST_F(HybridSlam, ProfilePrintsTheStagesAndChangesNoResult) {
 TEST_F(HybridSlam, AllMethodsAndProposals) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(24, 80, 61));
   for (const std::string options :
-       {"-m hybrid", "-m general", "-m linemap", "-m stock", "-p standard", "-p improved", "-p auxiliary_standard",
-        "-p auxiliary_optimal", "-m general -p auxiliary_optimal"}) {
+       {"-m hybrid", "-m general", "-m linemap", "-m ortho", "-m stock", "-p standard", "-p improved",
+        "-p auxiliary_standard", "-p auxiliary_optimal", "-m general -p auxiliary_optimal"}) {
     SCOPED_TRACE(options);
     fs::remove_all(output);
     expectDone(replay(log, options));
@@ -261,7 +261,7 @@ TEST_F(HybridSlam, WrongCommandLine) {
   expectError(replay(log, "-n 99999999999"), "99999999999");
   expectError(replay(log, "-s -1"), "wrong value `-1`: command line, section [particle_filter], key `seed`");
   expectError(replay(log, "-j -1"), "key `threads`");
-  expectError(replay(log, "-m wrong"), "expected one of hybrid | general | linemap | stock");
+  expectError(replay(log, "-m wrong"), "expected one of hybrid | general | linemap | ortho | stock");
   expectError(replay(log, "-p wrong"), "expected one of standard");
   expectError(replay(log, "--set"), "--set");
   expectError(replay(log, "--set particle_filter.particles"), "SECTION.KEY=VALUE");

@@ -261,6 +261,8 @@ TEST_F(Sessions, OptionsThatExcludeEachOther) {
   EXPECT_THAT(err, HasSubstr("expected 0.1 m as in " + session));
   EXPECT_EQ(run("'" + log + "' -o '" + other + "' -m linemap --continue '" + session + "'"), 2);
   EXPECT_THAT(err, HasSubstr("method linemap does not take a map"));
+  EXPECT_EQ(run("'" + log + "' -o '" + other + "' -m ortho --resume '" + session + "'"), 2);
+  EXPECT_THAT(err, HasSubstr("expected hybrid as in " + session));
   EXPECT_FALSE(fs::exists(other));
 }
 

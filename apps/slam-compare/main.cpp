@@ -48,7 +48,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->required()
       ->type_name("DIR");
   app.add_option("-m,--methods", line.methods,
-                 "list of hybrid, general, linemap, stock; the others are tested against the first")
+                 "list of hybrid, general, linemap, ortho, stock; the others are tested against the first")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();

@@ -11,6 +11,7 @@ using Method = RunOptions::Method;
 const std::vector<std::pair<Method, std::string>> kMethods{{Method::hybrid, "hybrid"},
                                                            {Method::general, "general"},
                                                            {Method::linemap, "linemap"},
+                                                           {Method::ortho, "ortho"},
                                                            {Method::stock, "stock"}};
 
 }  // namespace
@@ -25,14 +26,14 @@ void RunOptions::describe(OptionTable& t) {
   t.add(
       "method", method, kMethods,
       "hybrid: the paper's filter; general: without lines; linemap: without grids, sampling from the motion "
-      "model; stock: MRPT's CMetricMapBuilderRBPF");
+      "model; ortho: a Kalman filter over lines at right angles; stock: MRPT's CMetricMapBuilderRBPF");
   t.add("rawlog", rawlog, "log to replay if the command line names none");
   t.add("output", output, "folder for the results if the command line names none");
   t.add("particles_every", particlesEvery, 0, 1000000,
         "updates between snapshots of all particles in particles.csv; 0: no particles.csv");
   t.add("refine", refine, 0, 100,
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
-        "not for linemap and stock");
+        "not for linemap, ortho and stock");
 }
 
 namespace {
@@ -54,13 +55,14 @@ void Configuration::load(const std::string& text, const std::string& file) {
 
 void Configuration::setMethod(Method method) {
   run.method = method;
-  filter.useLines = method == Method::hybrid || method == Method::linemap;
+  filter.useLines = method != Method::general && method != Method::stock;
   filter.useGrid = method != Method::linemap;
 }
 
 files::Sections Configuration::sections() {
   files::Sections all{{"run", &run}, {"input", &input}};
   for (const auto& section : filter.sections()) all.push_back(section);
+  all.emplace_back("ortho", &ortho);
   all.insert(all.end(), more_.begin(), more_.end());
   return all;
 }

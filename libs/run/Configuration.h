@@ -12,12 +12,13 @@
 #include "files/IniFile.h"
 #include "readings/RawlogSource.h"
 #include "slam/filter/FilterOptions.h"
+#include "slam/ortho/OrthoOptions.h"
 
 namespace hybrid_slam::run {
 
 /// Section [run].
 struct RunOptions : Options {
-  enum class Method { hybrid, general, linemap, stock };
+  enum class Method { hybrid, general, linemap, ortho, stock };
 
   Method method = Method::hybrid;
   std::string rawlog;
@@ -44,6 +45,7 @@ struct Configuration {
   RunOptions run;
   readings::InputOptions input;
   FilterConfiguration filter;
+  OrthoOptions ortho;
   /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
 

@@ -110,7 +110,8 @@ TEST_F(ConfigurationTest, WrongTypeAndRange) {
   for (const char* value : {"many", "", "3.5", "-1", "1e9", "nan", "inf", "3 4"})
     EXPECT_EQ(errorOf(std::string("[particle_filter]\nparticles = ") + value + "\n"),
               "wrong value `" + std::string(value) + "`" + where);
-  EXPECT_THAT(errorOf("[run]\nmethod = best\n"), HasSubstr("expected one of hybrid | general | linemap | stock"));
+  EXPECT_THAT(errorOf("[run]\nmethod = best\n"),
+              HasSubstr("expected one of hybrid | general | linemap | ortho | stock"));
   EXPECT_THAT(errorOf("[input]\nrequire_odometry = maybe\n"), HasSubstr("expected true or false"));
   EXPECT_THAT(errorOf("[grid]\nresolution = 0\n"), HasSubstr("expected a number in 0.01..1 m"));
 }

@@ -13,6 +13,7 @@
 #include "run/ResultFiles.h"
 #include "run/StepsTable.h"
 #include "slam/filter/StockMapBuilder.h"
+#include "slam/ortho/OrthoFilter.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -66,6 +67,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
                                                    memoryLimit() / 2);
     cell_ = stock->cellSize();
     filter_ = std::move(stock);
+  } else if (configuration.run.method == Method::ortho) {
+    filter_ = std::make_unique<OrthoFilter>(configuration.filter, configuration.ortho);
   } else if (!configuration.run.localizeIn.empty()) {
     auto localizer =
         std::make_unique<Localizer>(configuration.filter, map->grid, map->lines, configuration.run.start);

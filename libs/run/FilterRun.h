@@ -105,7 +105,7 @@ class FilterRun {
     std::vector<mrpt::math::TPose2D> path;
     mrpt::maps::COccupancyGridMap2D grid;
     std::vector<DatabaseLine> lines;
-    ScanMap map;  ///< of our filter: the same grid and lines
+    ScanMap map;  ///< of our filters: the same grid and lines
   };
   template <class State>
   void visit(State& state);
@@ -115,6 +115,7 @@ class FilterRun {
   Verdict verdictOfLocalization() const;
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
+  ScanMap currentMap() const;  ///< of a method with lines
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void saveSessionTo(const std::string& path, const ScanMap& map,
                      const std::vector<mrpt::math::TPose2D>& poses);

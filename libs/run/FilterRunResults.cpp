@@ -87,7 +87,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
-  if (hybrid_) result.map = hybrid_->bestMap();
+  if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
   result.trajectory = recorder_.trajectory(result.path);
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
     readings::RawlogSource scans(file, configuration_.input, log);
@@ -170,9 +170,10 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
   const bool isWhole = uses_.size() == log.scans;
   const double wall = secondsBefore_ + secondsSince(start_);
   const double duration = isWhole ? log.duration : durationOf(result.trajectory);
+  const bool isOne = configuration_.run.method == RunOptions::Method::ortho;
   nlohmann::ordered_json metrics{
       {"method", nameOf(configuration_.run.method)},
-      {"particles", filter_->particlePoses().size()},
+      {"particles", isOne ? 1 : filter_->particlePoses().size()},
       {"particles_min", particlesMin_},
       {"particles_max", particlesMax_},
       {"seed", configuration_.filter.filter.seed},

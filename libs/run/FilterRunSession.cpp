@@ -111,15 +111,21 @@ void FilterRun::saveMapTo(const std::string& path) {
   savePicture(folder, grid, trajectory, lines);
   saveRosMap(folder, grid, trajectory);
   saveLines(folder, lines);
+  if (configuration_.filter.useLines && !localizer_) savePlan(folder, floorPlanOf(lines, currentMap().grid));
   if (!hybrid_) return;
   const ScanMap map = hybrid_->bestMap();
-  if (configuration_.filter.useLines) savePlan(folder, floorPlanOf(lines, map.grid));
   saveSessionTo(folder.path(kSessionName), map, hybrid_->bestPath());
+}
+
+ScanMap FilterRun::currentMap() const {
+  if (hybrid_) return hybrid_->bestMap();
+  return {fromMrpt(filter_->bestGrid()), LineDatabase(filter_->bestLines())};
 }
 
 void FilterRun::resume(SessionReader& session) {
   if (!hybrid_)
-    throw InputError("MRPT's filter has no sessions", session.file(), "expected method hybrid or general");
+    throw InputError("method " + nameOf(configuration_.run.method) + " has no sessions", session.file(),
+                     "expected method hybrid or general");
   updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
   std::error_code ignored;  // what a killed run leaves of its next checkpoint

@@ -11,11 +11,12 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-const std::vector<std::string> kMethods{"hybrid", "general", "linemap", "stock"};
+const std::vector<std::string> kMethods{"hybrid", "general", "linemap", "ortho", "stock"};
 
 void checkMethod(const std::string& method, const std::string& where) {
   if (std::find(kMethods.begin(), kMethods.end(), method) == kMethods.end())
-    throw InputError("unknown method `" + method + "`", where, "expected hybrid, general, linemap or stock");
+    throw InputError("unknown method `" + method + "`", where,
+                     "expected hybrid, general, linemap, ortho or stock");
 }
 
 std::string lower(std::string text) {
@@ -93,7 +94,8 @@ ParticleCount parseParticleCount(const std::string& text) {
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
                               const std::vector<ParticleCount>& particles) {
   if (methods.empty())
-    throw InputError("no method", "option --methods", "expected one or more of hybrid, general, linemap, stock");
+    throw InputError("no method", "option --methods",
+                     "expected one or more of hybrid, general, linemap, ortho, stock");
   for (const std::string& method : methods) checkMethod(method, "option --methods");
   const auto isCompared = [&](const std::string& method) {
     return method.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
