@@ -31,9 +31,7 @@ class HybridFilter : public Filter {
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
   /// Of the best particle; without grids, the scans of the updates along its path.
-  ScanMap bestMap() const {
-    return {bestOccupancy(), *particles_.best().lines, *particles_.best().features};
-  }
+  ScanMap bestMap() const { return {bestOccupancy(), *particles_.best().lines, *particles_.best().features}; }
 
   /// Keeps the scans until `joinMap`, also without loop closing.
   void expectMap() { remembersScans_ = true; }
