@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/Errors.h"
+#include "base/Options.h"
 #include "files/InstalledFiles.h"
 
 namespace hybrid_slam {
@@ -43,10 +44,30 @@ inline void openStandardDescriptors() {
     if (::fcntl(descriptor, F_GETFD) < 0) (void)!::open("/dev/null", O_RDWR);  // the lowest number free
 }
 
+/// Whether a person reads standard output.
+inline bool isTerminal() { return ::isatty(STDOUT_FILENO) == 1; }
+
 /// Whether everything printed has reached standard output.
 inline bool isPrinted() {
   std::cout.flush();
   return std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
+}
+
+/// "the nearest option is `--particles`; ..." for the first unknown option that is nearly one.
+inline std::string nearestOption(const CLI::App& app) {
+  std::vector<std::string> names;
+  const auto addNames = [&names](const CLI::App& of) {
+    for (const CLI::Option* option : of.get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  };
+  addNames(app);
+  for (const CLI::App* command : app.get_subcommands()) addNames(*command);
+  for (const std::string& given : app.remaining(true)) {
+    const std::string name = given.substr(0, given.find('=')), nearest = nearestName(name, names);
+    if (name.rfind("--", 0) == 0 && 3 * editDistance(name, nearest) <= name.size())
+      return "the nearest option is `" + nearest + "`, ";
+  }
+  return {};
 }
 
 /// Reads the command line.
@@ -61,6 +82,8 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     const int code = app.exit(request, out);
     std::cout << files::withInstalledPages(out.str());
     return code;
+  } catch (const CLI::ExtrasError& error) {
+    throw InputError(error.what(), "command line", nearestOption(app) + "see " HYBRID_SLAM_PROGRAM " --help");
   } catch (const CLI::ParseError& error) {
     throw InputError(error.what(), "command line", "see " HYBRID_SLAM_PROGRAM " --help");
   }

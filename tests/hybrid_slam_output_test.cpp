@@ -169,6 +169,14 @@ TEST_F(HybridSlam, ATerminalShowsABarWithTheTimeLeft) {
   EXPECT_THAT(text, HasSubstr("\n100 scans, ")) << "the bar's line is ended";
 }
 
+TEST_F(HybridSlam, ATerminalShowsTheManualWithoutMarkdown) {
+  const auto [text, code] = onTerminal({"hybrid-slam", "--help-config"});
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("\r\n[particle_filter]\r\n"), Not(HasSubstr("|---")), Not(HasSubstr("`"))));
+  EXPECT_THAT(text, testing::ContainsRegex("  particles +=  ?[0-9]+  .1\\.\\.[0-9]+.\r\n      [a-z]"));
+}
+
 TEST_F(HybridSlam, CtrlCWritesTheResultsSoFar) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4000));
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

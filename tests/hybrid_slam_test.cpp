@@ -252,6 +252,8 @@ TEST_F(HybridSlam, WrongCommandLine) {
   expectError(run(""), "no log");
   expectError(run("'" + ini + "' -o '" + output + "'"), "no log");
   expectError(replay(log, "--particels 3"), "--particels");
+  for (const char* option : {"--paticles", "--paticles=3", "--Particles"})
+    expectError(replay(log, option), "the nearest option is `--particles`, see hybrid-slam --help");
   expectError(replay(log, "one more"), "one");
   expectError(replay(log, "-n"), "--particles");
   expectError(replay(log, "-n -1"),

@@ -100,6 +100,19 @@ TEST_F(Log2Rawlog, BrokenLinesAreReportedAndSkipped) {
   EXPECT_THAT(out, HasSubstr("1 broken lines"));
 }
 
+TEST_F(Log2Rawlog, OnlyTheFirstBrokenLinesArePrinted) {
+  std::string rows = scanRow("10");
+  for (int i = 0; i < 5000; ++i) rows += "ODOM 1 2\n";
+  const std::string log = folder.write("in.clf", rows);
+  EXPECT_EQ(convert(log), 0);
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 11);
+  EXPECT_THAT(err, testing::EndsWith("log2rawlog: warning: more broken lines: " + log +
+                                     "; only counted from here on\n"));
+  EXPECT_THAT(out, HasSubstr("5000 broken lines"));
+  EXPECT_EQ(convert(log, "--format dpslam"), 2);
+  EXPECT_LE(std::count(err.begin(), err.end(), '\n'), 12);
+}
+
 TEST_F(Log2Rawlog, StrictStopsAtABrokenLine) {
   const std::string log = folder.write("in.clf", scanRow("10") + "ODOM 1 2\n" + scanRow("11"));
   expectError(convert(log, "--strict"), "line 2; 2 fields");
@@ -117,6 +130,20 @@ TEST_F(Log2Rawlog, OptionsReachTheConversion) {
   EXPECT_THAT(out, HasSubstr(" 0.0 s,"));
   EXPECT_EQ(convert(carmen, "--time ipc"), 0);
   EXPECT_THAT(out, HasSubstr(" 10.0 s,"));
+}
+
+TEST_F(Log2Rawlog, AMaximumRangeThatDoesNotFitTheLogGivesAWarning) {
+  const std::string log = folder.write("in.clf", scanRow("10") + scanRow("11", "81.91"));
+  EXPECT_EQ(convert(log, "--max-range 1000"), 0);
+  EXPECT_THAT(
+      err, HasSubstr("a SICK laser in 80 m mode reports for no return: " + log + "; --max-range 80 drops"));
+  EXPECT_EQ(convert(log, "--max-range 0.05"), 0);
+  EXPECT_EQ(err, "log2rawlog: warning: 362 of 362 readings are at or beyond 0.05 m: " + log +
+                     "; --max-range makes them no returns\n");
+  for (const char* option : {"", "--max-range 80", "--max-range 3"}) {
+    EXPECT_EQ(convert(log, option), 0);
+    EXPECT_EQ(err, "") << option;
+  }
 }
 
 TEST_F(Log2Rawlog, WarnsOfTheEightMetreMode) {

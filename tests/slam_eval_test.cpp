@@ -42,6 +42,20 @@ TEST_F(SlamEval, HelpAndVersion) {
   EXPECT_EQ(version.out, "slam-eval " HYBRID_SLAM_VERSION "\n");
 }
 
+TEST_F(SlamEval, RelationsThatAreNotUsedAreCounted) {
+  write("estimate.tum", kStraight);
+  write("truth.relations", "0 1 1 0 0 0 0 0\n0.5 2 1.5 0 0 0 0 0\n1.5 3 1.5 0 0 0 0 0\n");
+  const std::string call = "relations --trajectory estimate.tum --relations truth.relations";
+  const Outcome o = run(call);
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(json::parse(o.out).at("used"), 1);
+  EXPECT_EQ(o.err,
+            "slam-eval: warning: 2 of 3 relations not used: no pose within 0.006 s of their times in "
+            "estimate.tum; --odometry carries poses to them\n");
+  write("odometry.txt", "0 0 0 0\n0.5 0.5 0 0\n1 1 0 0\n1.5 1.5 0 0\n2 2 0 0\n3 3 0 0\n");
+  EXPECT_EQ(figures(call + " --odometry odometry.txt").at("used"), 3);
+}
+
 TEST_F(SlamEval, AteByHand) {
   write("truth.tum", kStraight);
   write("estimate.tum", kLonger);

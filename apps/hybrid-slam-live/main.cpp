@@ -102,7 +102,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   live::LiveOptions options;
   const files::Sections sections{{"live", &options}};
   if (line.wantsManual) {
-    files::writeManual(sections, std::cout);
+    (isTerminal() ? files::writePlainManual : files::writeManual)(sections, std::cout);
     return 0;
   }
   if (line.config.empty()) return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini");

@@ -71,7 +71,7 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
 
 int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (line.wantsManual) {
-    std::cout << run::configurationManual();
+    std::cout << (isTerminal() ? run::plainConfigurationManual() : run::configurationManual());
     return 0;
   }
   const std::string usage = "expected hybrid-slam [config.ini] LOG";

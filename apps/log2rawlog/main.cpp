@@ -45,11 +45,20 @@ void printSummary(const std::string& output, const readings::LogSummary& s, bool
 
 /// A SICK laser reports "no return" as 8183 to 8191 units: cm in the 80 m mode, mm in the 8 m mode, where
 /// they look like walls.
-void warnOfShortMode(const std::string& input, float longestRange) {
-  if (longestRange < 8.1829f || longestRange > 8.1911f) return;
-  std::cerr << "log2rawlog: warning: the longest readings are " << longestRange
-            << " m, which a SICK laser in 8 m mode reports for no return: " << input
-            << "; --max-range 8.18 drops them\n";
+void warnOfNoReturns(const std::string& input, float longestRange) {
+  const auto warnOf = [&](const char* mode, const char* limit) {
+    std::cerr << "log2rawlog: warning: the longest readings are " << longestRange
+              << " m, which a SICK laser in " << mode << " mode reports for no return: " << input
+              << "; --max-range " << limit << " drops them\n";
+  };
+  if (longestRange > 8.1829f && longestRange < 8.1911f) warnOf("8 m", "8.18");
+  if (longestRange > 81.829f && longestRange < 81.911f) warnOf("80 m", "80");
+}
+
+void warnOfShortRange(const std::string& input, const readings::LogSummary& s, double maxRange) {
+  if (2 * s.rangesBeyond > s.ranges)
+    warn({std::to_string(s.rangesBeyond) + " of " + std::to_string(s.ranges) + " readings are at or beyond " +
+          numberText(maxRange) + " m: " + input + "; --max-range makes them no returns"});
 }
 
 void warnOfJumps(const std::string& input, const readings::LogSummary& s, const std::string& unit) {
@@ -121,14 +130,21 @@ int convert(int argc, char** argv) {
 
   const bool isBag = bags::isBag(input);
   const std::string unit = isBag ? "message" : "line";
+  // A file of another format has thousands.
+  constexpr size_t kMostReports = 10;
+  size_t broken = 0;
   const auto report = [&](size_t number, const std::string& why) {
-    warn({"broken " + unit + ": " + input + ", " + unit + " " + std::to_string(number) + "; " + why});
+    if (++broken <= kMostReports)
+      warn({"broken " + unit + ": " + input + ", " + unit + " " + std::to_string(number) + "; " + why});
+    else if (broken == kMostReports + 1)
+      warn({"more broken " + unit + "s: " + input + "; only counted from here on"});
   };
   const auto summary = readings::convertLog(input, output, options, report, topics.bag);
   warn(summary.notes);
   if (!summary.defect.empty())
     warn({summary.format + " " + summary.defect + ": " + input + "; converted up to this point"});
-  warnOfShortMode(input, summary.longestRange);
+  warnOfNoReturns(input, summary.longestRange);
+  if (options.maxRange) warnOfShortRange(input, summary, *options.maxRange);
   warnOfJumps(input, summary, unit);
   printSummary(output, summary, isBag);
   return 0;

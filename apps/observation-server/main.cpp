@@ -40,7 +40,8 @@ int run(const CommandLine& line) {
   const files::Sections sections{{"server", &options}};
   if (line.wantsManual) {
     sensors::PioneerOptions pioneer;
-    files::writeManual({{"server", &options}, {"PIONEER", &pioneer}}, std::cout);
+    const files::Sections all{{"server", &options}, {"PIONEER", &pioneer}};
+    (isTerminal() ? files::writePlainManual : files::writeManual)(all, std::cout);
     return 0;
   }
   if (line.config.empty())

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -118,7 +119,8 @@ int parseAndRun(int argc, char** argv) {
                  "OUT.rawlog; also writes OUT.tum and OUT.png, and with\n"
                  "doors or boxes OUT.truth.plan")
       ->required();
-  app.add_option("-s,--seed", line.seed, "noise seed, overrides the INI file")->check(CLI::NonNegativeNumber);
+  app.add_option("-s,--seed", line.seed, "noise seed, overrides the INI file")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--session", line.session, "session of the building, overrides the INI file")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--set", line.settings, "override a key of the INI file, SECTION.KEY=VALUE; repeatable")

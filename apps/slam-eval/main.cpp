@@ -15,6 +15,7 @@
 #include <string>
 
 #include "Program.h"
+#include "base/Numbers.h"
 #include "files/Trajectory.h"
 #include "readings/EndPointReader.h"
 #include "run/PlanFiles.h"
@@ -65,6 +66,10 @@ Json relationsJson(const CommandLine& line) {
       line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
   const evaluation::RelationErrors errors = evaluation::evaluateRelations(
       trajectory, relations, line.odometry.empty() ? nullptr : &odometry, line.relationTolerance);
+  if (errors.used < errors.relations && line.odometry.empty())
+    warn({std::to_string(errors.relations - errors.used) + " of " + std::to_string(errors.relations) +
+          " relations not used: no pose within " + numberText(line.relationTolerance) +
+          " s of their times in " + line.trajectory + "; --odometry carries poses to them"});
   return {{"relations", errors.relations},
           {"used", errors.used},
           {"trans_mean_m", errors.translation.mean},

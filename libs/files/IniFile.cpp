@@ -15,8 +15,14 @@
 namespace hybrid_slam::files {
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// Like MRPT's INI files, which ignore the case of sections.
+bool isSame(const std::string& a, const std::string& b) {
+  return mrpt::system::lowerCase(a) == mrpt::system::lowerCase(b);
+}
+
+bool contains(const std::vector<std::string>& sections, const std::string& name) {
+  return std::any_of(sections.begin(), sections.end(),
+                     [&name](const auto& known) { return isSame(known, name); });
 }
 
 constexpr size_t kLongestIniLine = 10000,
@@ -160,19 +166,6 @@ bool isIni(const std::string& path) {
     return line.front() == '[' && line.find(']') != std::string::npos;
   }
   return false;
-}
-
-void writeManual(const Sections& sections, std::ostream& out) {
-  for (const auto& [name, options] : sections) {
-    out << "\n## [" << name << "]\n\n| key | default | unit | range | meaning |\n|---|---|---|---|---|\n";
-    for (const Option& option : options->table()) {
-      std::string range = option.range;
-      for (size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 4)
-        range.replace(at, 1, "&#124;"), at += 2;
-      out << "| `" << option.key << "` | " << option.get() << " | " << option.unit << " | " << range << " | "
-          << option.why << " |\n";
-    }
-  }
 }
 
 }  // namespace hybrid_slam::files

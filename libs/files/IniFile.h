@@ -42,4 +42,8 @@ bool isIni(const std::string& path);
 /// Every key with default, unit, range and meaning: a Markdown table per section.
 void writeManual(const Sections& sections, std::ostream& out);
 
+/// The same for a terminal: keys and defaults as in an INI file, their meaning in lines of at most 80
+/// characters.
+void writePlainManual(const Sections& sections, std::ostream& out);
+
 }  // namespace hybrid_slam::files

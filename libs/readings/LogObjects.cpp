@@ -77,6 +77,8 @@ void LogObjects::operator()(const LaserRecord& record) {
     (*this)(OdometryRecord{record.time, *record.odometry});
   ++summary.scans;
   seenAt(record.time);
+  for (const auto range : record.ranges)
+    if (range > 0 && std::isfinite(range)) ++summary.ranges, summary.rangesBeyond += range >= maxRange_;
   const auto observation = observationOf(record, maxRange_);
   for (size_t i = 0; i < observation->getScanSize(); ++i)
     if (observation->getScanRangeValidity(i))

@@ -25,6 +25,7 @@ struct LogSummary {
   double earliest = 0, latest = 0;             ///< s
   double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
   float longestRange = 0;                      ///< m, among the valid readings
+  size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
   /// Odometry readings over kMaxStep apart, rows over a day apart: how many, and the line of the first (text
   /// logs).
   size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;

@@ -81,6 +81,15 @@ std::string Configuration::text() {
   return all.getContent();
 }
 
+std::string plainConfigurationManual() {
+  std::ostringstream out;
+  out << "Sections and keys of the INI file: default, range and meaning. Keys that are\n"
+         "omitted keep their default; some are read off the log (doc/configuration.md).\n";
+  Configuration defaults;
+  files::writePlainManual(defaults.sections(), out);
+  return out.str();
+}
+
 std::string configurationManual() {
   std::ostringstream out;
   out << "# Configuration\n\n"

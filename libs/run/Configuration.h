@@ -76,6 +76,8 @@ struct Configuration {
 
 /// Every section and key with default, unit, range and meaning, as Markdown: doc/configuration.md.
 std::string configurationManual();
+/// The same for a terminal.
+std::string plainConfigurationManual();
 
 /// The main section of MRPT's rbpf-slam.
 inline const char* const kStockSection = "MappingApplication";

@@ -69,10 +69,17 @@ TEST_F(ConfigurationTest, NoneOfOurSections) {
   EXPECT_EQ(errorOf("[MappingApplication]\nsampleSize = 3\n"), "no error") << "MRPT's own INI";
 }
 
+TEST_F(ConfigurationTest, TheCaseOfSectionsDoesNotMatter) {
+  EXPECT_EQ(load("[Particle_Filter]\nparticles = 7\n").filter.filter.particles, 7);
+  EXPECT_EQ(load("[PARTICLE_FILTER]\nparticles = 7\n", {"particle_filter.seed=3"}).filter.filter.seed, 3);
+  const Configuration set = load("[particle_filter]\nparticles = 7\n", {"PARTICLE_FILTER.particles=8"});
+  EXPECT_EQ(set.filter.filter.particles, 8);
+  EXPECT_EQ(load("[run]\n", {"Particle_Filter.particles=8"}).filter.filter.particles, 8);
+}
+
 TEST_F(ConfigurationTest, MisspeltSection) {
   EXPECT_EQ(errorOf("[run]\n[particlefilter]\nparticles = 3\n"),
             "unknown section [particlefilter]: " + ini + "; the nearest known section is [particle_filter]");
-  EXPECT_THAT(errorOf("[Run]\n[grid]\n"), HasSubstr("[run]"));
   EXPECT_THAT(errorOf("[run]\n[gird]\n"), HasSubstr("[grid]"));
   EXPECT_THAT(errorOf("[grid]\n[rnu]\n"), HasSubstr("[run]"));
   EXPECT_EQ(errorOf("[run]\n[gui]\nx=1\n[grab]\n[laser]\n[MappingApplication_pointsMap_00_insertOpts]\n"),

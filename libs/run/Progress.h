@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "run/TimeLeft.h"
+
 namespace hybrid_slam::run {
 
 /// Writes to standard error, at most five times per second on a terminal and every ten seconds otherwise.
@@ -26,6 +28,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   size_t total_;
+  TimeLeft timeLeft_;
   bool isQuiet_, isTerminal_, hasBar_ = false;
   Clock::time_point start_, last_;
 };
