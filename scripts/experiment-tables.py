@@ -5,6 +5,7 @@
   scripts/experiment-tables.py search FOLDER       of scripts/search-settings.sh: search.md in FOLDER
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
   scripts/experiment-tables.py frames FOLDER       of scripts/frames.sh: frames.md in FOLDER
+  scripts/experiment-tables.py features FOLDER    of scripts/features.sh: features.md in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 Also prints the tables. Needs gnuplot for the figures."""
@@ -16,7 +17,7 @@ from pathlib import Path
 
 WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
           "sheared-6": "CSIE, sheared 6 deg", "wing": "wing at 30 deg", "octagon": "octagon",
-          "round": "round hall", "clutter": "clutter", "intel": "Intel", "csail": "MIT CSAIL",
+          "round": "round hall", "clutter": "clutter", "corridor": "corridor and hall", "intel": "Intel", "csail": "MIT CSAIL",
           "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
 ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first available in a world
 
@@ -34,6 +35,7 @@ class Group:
         error = next((tree["figures"][e] for e in ERRORS if e in tree.get("figures", {})), {})
         self.median = error.get("median")
         self.against = error.get("against_first", {})
+        self.along = tree.get("figures", {}).get("std_along_m", {})  # standard deviation along the heading
 
     @property
     def rate(self):
@@ -130,6 +132,32 @@ def frames(folder):
     print(text)
 
 
+def along(group):
+    against = group.along.get("against_first")
+    ratio = f", {against['median_ratio']:.2f} times, p {against['wilcoxon_p']:.2g}" if against else ""
+    return f"{100 * group.along['median']:.2f} cm{ratio}"
+
+
+def features(folder):
+    """The default with features against without, paired over seeds."""
+    mark = "<!-- made by: scripts/features.sh -->\n"
+    spreads = []
+    for exponent in (25, 6, 2, 1):
+        for g in groups(folder / f"csie-corridor-exponent-{exponent}"):
+            if g is not g.first:
+                spreads.append([str(exponent), g.first.cell(), g.cell(), along(g.first), along(g)])
+    text = mark + markdown(["exponent", "without", "with features", "along, without", "along, with"], spreads) + "\n"
+    rows = []
+    for world in WORLDS:
+        for proposal in ("standard", "improved"):
+            for g in groups(folder / f"{world}-{proposal}"):
+                name = g.name.removeprefix("hybrid").removeprefix("-") or "none"
+                rows.append([WORLDS[world], proposal, name, g.cell(), "" if g is g.first else g.paired(), along(g)])
+    text += mark + markdown(["world", "proposal", "features", "result", "against none", "along the heading"], rows)
+    (folder / "features.md").write_text(text)
+    print(text)
+
+
 def legend(lines, levels):
     """The legend in a separate panel, to save space in the plots."""
     entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
@@ -203,7 +231,8 @@ set grid lc '#dddddd'
 
 
 def main():
-    commands = {"weights": weights, "search": search, "particles": particles, "frames": frames}
+    commands = {"weights": weights, "search": search, "particles": particles, "frames": frames,
+                "features": features}
     if len(sys.argv) == 5 and sys.argv[1] == "always":
         sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
                          for g in groups(sys.argv[2])))

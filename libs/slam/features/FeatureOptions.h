@@ -11,7 +11,7 @@ struct FeatureOptions : Options {
   bool enabled = false;
   double minWall = 0.3;   ///< m
   double maxRadius = 15;  ///< m
-  double sigma = 0.05;    ///< m
+  double sigma = 0.02;    ///< m
   double floor = 0.1;
   int minCount = 3;
   int pruneInterval = 10;
