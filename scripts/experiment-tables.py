@@ -5,10 +5,12 @@
   scripts/experiment-tables.py search FOLDER       of scripts/search-settings.sh: search.md in FOLDER
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
   scripts/experiment-tables.py frames FOLDER       of scripts/frames.sh: frames.md in FOLDER
-  scripts/experiment-tables.py features FOLDER    of scripts/features.sh: features.md in FOLDER
+  scripts/experiment-tables.py features FOLDER     of scripts/features.sh: features.md in FOLDER
+  scripts/experiment-tables.py line-methods FOLDER of scripts/line-methods.sh: line-methods.md in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 Also prints the tables. Needs gnuplot for the figures."""
+import gzip
 import json
 import math
 import subprocess
@@ -36,6 +38,7 @@ class Group:
         self.median = error.get("median")
         self.against = error.get("against_first", {})
         self.along = tree.get("figures", {}).get("std_along_m", {})  # standard deviation along the heading
+        self.figures = {name: figure["median"] for name, figure in tree.get("figures", {}).items()}
 
     @property
     def rate(self):
@@ -158,6 +161,29 @@ def features(folder):
     print(text)
 
 
+def line_methods(folder):
+    """Methods with and without grids, and the size of a particle's map: a byte for each known cell, 72 for each line;
+    of ortho the covariance of its state."""
+    rows = []
+    for world in WORLDS:
+        for path in (folder / world, folder / f"{world}-ortho"):
+            for group in groups(path):
+                lines = group.figures["lines"]
+                size = f"{0.072 * lines:.0f}"
+                if group.name == "ortho":
+                    size = f"{0.008 * (lines + 3) ** 2:.0f}"
+                elif group.name != "linemap":
+                    run = next((path / "runs").glob(f"{group.name}-{group.particles}-*"))
+                    cells = gzip.decompress((run / "map.gridmap.gz").read_bytes())
+                    size = f"{(len(cells) - cells.count(0)) / 1000:.0f} + {size}"
+                rows.append([WORLDS[world], group.name, str(group.particles), group.cell(), f"{lines:.0f}", size,
+                             f"{group.figures['cpu_s']:.1f}"])
+    text = "<!-- made by: scripts/line-methods.sh -->\n" + markdown(
+        ["log", "method", "particles", "successes, error (m)", "lines", "map of a particle (kB)", "CPU (s)"], rows)
+    (folder / "line-methods.md").write_text(text)
+    print(text)
+
+
 def legend(lines, levels):
     """The legend in a separate panel, to save space in the plots."""
     entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
@@ -232,7 +258,7 @@ set grid lc '#dddddd'
 
 def main():
     commands = {"weights": weights, "search": search, "particles": particles, "frames": frames,
-                "features": features}
+                "features": features, "line-methods": line_methods}
     if len(sys.argv) == 5 and sys.argv[1] == "always":
         sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
                          for g in groups(sys.argv[2])))

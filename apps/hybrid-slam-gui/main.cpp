@@ -51,11 +51,13 @@ wxIMPLEMENT_APP_NO_MAIN(GuiApp);
 
 int main(int argc, char** argv) {
   const auto parseAndShow = [&] {
-    CLI::App app{"Replays logs and maps live robot data in a window, with the hybrid and the general filter",
-                 "hybrid-slam-gui"};
+    CLI::App app{
+        "Replays logs in a window, with the hybrid filter beside another method, and maps live robot data",
+        "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
     files.add(app, std::string(hybrid_slam::kLogMeans) + " (default: [run] rawlog)");
     hybrid_slam::FilterArguments filter;
+    filter.addMethod(app);
     filter.addParticles(app);
     hybrid_slam::SessionArguments session;
     session.addMap(app);

@@ -17,7 +17,7 @@ struct LineMapOptions : Options {
   int beams = 0;
   double sigma = 0.03;  ///< m
   double inFront = 0.3, random = 0.1;
-  double exponent = 60;
+  double exponent = 30;
 
   void describe(OptionTable& table) override;
 };

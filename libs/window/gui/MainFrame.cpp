@@ -87,7 +87,7 @@ void MainFrame::makeMenus() {
   view->Append(kFit, "&Whole map\tCtrl+0");
   view->AppendSeparator();
   for (const auto& [id, name] :
-       std::initializer_list<std::pair<int, const char*>>{{kGeneral, "Show &general filter\tCtrl+1"},
+       std::initializer_list<std::pair<int, const char*>>{{kGeneral, "Show &second filter\tCtrl+1"},
                                                           {kParticles, "&Particles\tCtrl+2"},
                                                           {kPath, "P&ath\tCtrl+3"},
                                                           {kLines, "&Lines and direction\tCtrl+4"},

@@ -30,7 +30,8 @@ const char* nameOf(State state) {
 ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
   auto* const column = new wxBoxSizer(wxVERTICAL);
   auto* const panes = new wxBoxSizer(wxHORIZONTAL);
-  for (const char* title : {"hybrid filter: File, Open rawlog", "general filter: the same without lines"}) {
+  for (const char* title :
+       {"hybrid filter: File, Open rawlog", "general filter, the same without lines, or the method of -m"}) {
     canvases_.push_back(new MapCanvas(this, title, view_, [this] { redraw(); }));
     panes->Add(canvases_.back(), wxSizerFlags(1).Expand().Border(wxALL, FromDIP(2)));
   }
@@ -76,9 +77,7 @@ void ReplayPage::open(const run::Configuration& configuration) {
   told_ = 0;
   shown_.reset();
   view_->fixed.reset();
-  using Method = run::RunOptions::Method;
-  session_ =
-      std::make_unique<ReplaySession>(configuration, std::vector<Method>{Method::hybrid, Method::general});
+  session_ = std::make_unique<ReplaySession>(configuration, comparedMethods(configuration));
   faster(0);
 }
 

@@ -1,5 +1,5 @@
 /// @file ReplayPage.h
-/// @brief The hybrid and the general filter side by side on the same log, with player controls.
+/// @brief The hybrid filter and another method side by side on the same log, with player controls.
 #pragma once
 
 #include <wx/button.h>

@@ -87,6 +87,12 @@ struct ReplaySession::Pass {
   bool isOver() const { return isFinished() || hasFailed || !next; }
 };
 
+std::vector<run::RunOptions::Method> comparedMethods(const run::Configuration& configuration) {
+  using Method = run::RunOptions::Method;
+  const Method chosen = configuration.run.method;
+  return {Method::hybrid, chosen == Method::hybrid ? Method::general : chosen};
+}
+
 ReplaySession::ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods)
     : configuration_(configuration), methods_(methods), thread_([this] { work(); }) {}
 

@@ -35,7 +35,7 @@ class ReplaySession {
   using Method = run::RunOptions::Method;
 
   /// Starts reading configuration.run.rawlog; paused before the first scan.
-  /// @param methods  one filter each, with the same settings except for the lines
+  /// @param methods  one filter each, with the same settings except for the maps
   ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods);
   /// Waits for the current scan or export to finish.
   ~ReplaySession();
@@ -96,5 +96,8 @@ class ReplaySession {
   /// @}
   std::thread thread_;
 };
+
+/// The methods to show side by side: hybrid, and the configured one; general if that is hybrid as well.
+std::vector<run::RunOptions::Method> comparedMethods(const run::Configuration& configuration);
 
 }  // namespace hybrid_slam::window

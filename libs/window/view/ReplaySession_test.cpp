@@ -117,6 +117,33 @@ TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
   EXPECT_EQ(test::contentOf(folder.path("out/hybrid/metrics.json")), first);
 }
 
+TEST_F(ReplaySessionTest, ShowsMethodsWithoutGridsByTheirScans) {
+  ReplaySession session(laps(), {Method::linemap, Method::ortho});
+  session.seek(20);
+  ASSERT_TRUE(reaches(session, State::paused, 20));
+  for (const auto& filter : session.snapshot()->filters) {
+    EXPECT_EQ(filter->path.size(), filter->updates);
+    EXPECT_FALSE(filter->lines.empty()) << filter->method;
+    EXPECT_GT(filter->map.width, 20) << filter->method;
+  }
+  session.saveMap(folder.path("saved"));
+  ASSERT_TRUE(test::happens([&] { return !session.snapshot()->note.empty(); }));
+  EXPECT_FALSE(test::contentOf(folder.path("saved/ortho/plan.svg")).empty());
+  EXPECT_FALSE(test::contentOf(folder.path("saved/linemap/session.hslam")).empty());
+}
+
+TEST_F(ReplaySessionTest, TheConfiguredMethodIsBesideHybrid) {
+  run::Configuration c = laps();
+  const auto expect = [&c](Method configured, Method second) {
+    c.setMethod(configured);
+    EXPECT_EQ(comparedMethods(c), (std::vector<Method>{Method::hybrid, second}));
+  };
+  expect(Method::hybrid, Method::general);
+  expect(Method::general, Method::general);
+  expect(Method::ortho, Method::ortho);
+  expect(Method::linemap, Method::linemap);
+}
+
 TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {
   ReplaySession session(laps(), {Method::hybrid});
   ASSERT_TRUE(reaches(session, State::paused, 0));
