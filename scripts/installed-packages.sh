@@ -25,6 +25,8 @@ for package in hybrid-slam hybrid-slam-gui; do
 done
 (cd /root && simul-floorplan -q config-ini/simul-csie-corridor.ini -o robot.rawlog)
 (cd /root && hybrid-slam -q config-ini/csie-lms100.ini robot.rawlog -o paper)
+loaded=$(LD_PRELOAD=libhybrid_slam_mrpt_plugin.so.0.1 /bin/true 2>&1)
+[[ -z $loaded ]] || fail "the plugin for MRPT's programs: $loaded"
 (hybrid-slam /dev/null 2>&1 || true) | grep -q "error: " || fail "no error"
 
 echo "== completion"

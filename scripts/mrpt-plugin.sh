@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # MRPT's rbpf-slam with and without the line weight of the plugin: table of doc/mrpt-plugin.md.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/mrpt-plugin.sh [OUT]     OUT defaults to out/mrpt-plugin
-# SEEDS=5 runs of each log and variant, one after the other; about 9 minutes. Resumes after an interruption.
+# SEEDS=5 runs of each log, proposal and variant, one after the other; about 15 minutes. Resumes after an interruption.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/mrpt-plugin}
 data=${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}
@@ -33,27 +33,40 @@ errors() {
   esac
 }
 
+# The proposals: MRPT's PF_algorithm and the number of particles.
+declare -A edits=([standard]='s/^PF_algorithm.*/PF_algorithm = 0/; s/^sampleSize.*/sampleSize = 20/' [icp]='')
 for log in csie intel-lab; do
-  for lines in 0 1; do
-    for ((seed = 1; seed <= ${SEEDS:-5}; ++seed)); do
-      folder=$out/$log/$lines/$seed
-      [[ ! -f $folder/errors.json ]] || continue
-      mkdir -p "$folder"
-      cd "$folder"
-      sed "s/^logOutput_dir.*/logOutput_dir = log/; s/^RANDOM_SEED.*/RANDOM_SEED = $seed/
-           s/^hybridLineMap_count.*/hybridLineMap_count = $lines/" "$ini" >rbpf-slam.ini
-      LD_PRELOAD=$plugin rbpf-slam rbpf-slam.ini "$out/$log.rawlog" </dev/null >rbpf-slam.log 2>&1
-      trajectory >trajectory.tum
-      errors $log >part.json
-      mv part.json errors.json
+  for proposal in standard icp; do
+    for lines in 0 1; do
+      for ((seed = 1; seed <= ${SEEDS:-5}; ++seed)); do
+        folder=$out/$log/$proposal/$lines/$seed
+        [[ ! -f $folder/errors.json ]] || continue
+        mkdir -p "$folder"
+        cd "$folder"
+        sed "s/^logOutput_dir.*/logOutput_dir = log/; s/^RANDOM_SEED.*/RANDOM_SEED = $seed/
+             s/^hybridLineMap_count.*/hybridLineMap_count = $lines/; ${edits[$proposal]}" "$ini" >rbpf-slam.ini
+        LD_PRELOAD=$plugin rbpf-slam rbpf-slam.ini "$out/$log.rawlog" </dev/null >rbpf-slam.log 2>&1
+        trajectory >trajectory.tum
+        errors $log >part.json
+        mv part.json errors.json
+      done
     done
   done
 done
 
 median() { sort -g | awk '{ all[NR] = $1 } END { printf "%.3f (%.3f)", (all[int((NR + 1) / 2)] + all[int(NR / 2) + 1]) / 2, all[NR] }'; }
-figures() { cat "$out/$1/$2"/*/errors.json | sed -nE "s/.*\"$3\": ([0-9.e+-]+).*/\1/p" | median; }
-echo "| | without | with the plugin |"
-echo "|---|---|---|"
-echo "| CSIE, absolute trajectory error (m) | $(figures csie 0 trans_rmse_m) | $(figures csie 1 trans_rmse_m) |"
-echo "| Intel, translation error of the relations (m) | $(figures intel-lab 0 trans_mean_m) | $(figures intel-lab 1 trans_mean_m) |"
-echo "| Intel, rotation error of the relations (deg) | $(figures intel-lab 0 rot_mean_deg) | $(figures intel-lab 1 rot_mean_deg) |"
+# figures LOG PROPOSAL KEY: median and worst of the seeds, without and with lines
+figures() {
+  local lines
+  for lines in 0 1; do
+    cat "$out/$1/$2/$lines"/*/errors.json | sed -nE "s/.*\"$3\": ([0-9.e+-]+).*/\1/p" | median
+    echo -n ' | '
+  done
+}
+echo "| log | proposal | error | without | with the plugin |"
+echo "|---|---|---|---|---|"
+for proposal in standard icp; do
+  echo "| CSIE | $proposal | trajectory (m) | $(figures csie $proposal trans_rmse_m)"
+  echo "| Intel | $proposal | relations (m) | $(figures intel-lab $proposal trans_mean_m)"
+  echo "| Intel | $proposal | relations (deg) | $(figures intel-lab $proposal rot_mean_deg)"
+done
