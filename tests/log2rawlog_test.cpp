@@ -147,7 +147,7 @@ TEST_F(Log2Rawlog, AMaximumRangeThatDoesNotFitTheLogGivesAWarning) {
 }
 
 TEST_F(Log2Rawlog, WarnsOfTheEightMetreMode) {
-  const std::string log = folder.write("in.clf", scanRow("10", "8.183"));
+  const std::string log = folder.write("in.clf", scanRow("10", "8.183") + scanRow("11") + scanRow("12"));
   EXPECT_EQ(convert(log), 0);
   EXPECT_THAT(err, HasSubstr("--max-range 8.18 drops them"));
   EXPECT_EQ(convert(log, "--max-range 8.18"), 0);
