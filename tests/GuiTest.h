@@ -36,12 +36,14 @@ using testing::HasSubstr;
 class Dialogs : public wxModalDialogHook {
  public:
   std::vector<std::string> messages;  ///< of message boxes
+  std::vector<std::string> titles;    ///< of other dialogs, which are cancelled
  protected:
   int Enter(wxDialog* dialog) override {
     if (auto* const message = dynamic_cast<wxMessageDialogBase*>(dialog)) {
       messages.push_back(message->GetMessage().utf8_string());
       return wxID_OK;
     }
+    titles.push_back(dialog->GetTitle().utf8_string());
     return wxID_CANCEL;
   }
 };

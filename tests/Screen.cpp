@@ -28,4 +28,19 @@ Screen grabScreen() {
   return screen;
 }
 
+bool hasWindowManager() {
+  Display* const display = XOpenDisplay(nullptr);
+  if (!display) throw std::runtime_error("no X display");
+  const Atom running = XInternAtom(display, "_NET_SUPPORTING_WM_CHECK", False);
+  Atom type = None;
+  int format = 0;
+  unsigned long count = 0, left = 0;
+  unsigned char* value = nullptr;
+  XGetWindowProperty(display, DefaultRootWindow(display), running, 0, 1, False, AnyPropertyType, &type,
+                     &format, &count, &left, &value);
+  if (value) XFree(value);
+  XCloseDisplay(display);
+  return type != None;
+}
+
 }  // namespace hybrid_slam::test

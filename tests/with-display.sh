@@ -1,9 +1,11 @@
 #!/bin/sh
-# Runs a program of the window on a virtual screen (Xvfb); exits with 77, which ctest takes for skipped,
-# where there is none. SCREEN: its size, 1280x800; GDK_SCALE=2 makes it one of twice the density.
-if command -v xvfb-run >/dev/null && command -v xauth >/dev/null; then
-  exec env NO_AT_BRIDGE=1 GTK_A11Y=none GDK_BACKEND=x11 xvfb-run -a -s "-screen 0 ${SCREEN:-1280x800}x24" "$@"
+# Runs a program of the window on a virtual screen (Xvfb) with a window manager (openbox), which gives it the
+# keyboard; exits with 77, which ctest takes for skipped, where these are missing. SCREEN: its size, 1280x800;
+# GDK_SCALE=2 makes it one of twice the density.
+if command -v xvfb-run >/dev/null && command -v xauth >/dev/null && command -v openbox >/dev/null; then
+  exec env NO_AT_BRIDGE=1 GTK_A11Y=none GDK_BACKEND=x11 xvfb-run -a -s "-screen 0 ${SCREEN:-1280x800}x24" \
+    sh -c 'openbox >/dev/null 2>&1 & exec "$@"' sh "$@"
 fi
 if [ -n "$DISPLAY" ]; then exec "$@"; fi
-echo "skipped: no screen: neither xvfb-run (Debian: xvfb, xauth) nor DISPLAY is there"
+echo "skipped: no screen: neither xvfb-run (Debian: xvfb, xauth, openbox) nor DISPLAY is there"
 exit 77

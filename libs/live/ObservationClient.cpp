@@ -32,6 +32,7 @@ void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
     } catch (const std::runtime_error& e) {
       fault = messageOf(e);
     }
+    isConnected_ = false;
     if (fault.empty()) continue;
     log_.report(subject, fault + "; trying again");
     const auto start = Clock::now();
@@ -62,6 +63,7 @@ void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
         pause_ = kShortestPause;
       }
       isFirst = false;
+      isConnected_ = true;
       if (hasEnded_) return;
     }
   }

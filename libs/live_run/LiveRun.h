@@ -59,6 +59,7 @@ class LiveRun {
   ///         up to it have been written; the recording is kept
   std::string finish(size_t lost);
 
+  const std::string& recording() const { return recording_.path(); }  ///< the rawlog of this run
   size_t skipped() const { return skipped_; }
 
  private:

@@ -46,6 +46,11 @@ class FilterRun {
   /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
   void resume(SessionReader& session);
+  /// The state of the run as bytes. Empty for MRPT's filter, in a fixed map, and while a start is searched
+  /// for: these have none.
+  std::string state();
+  /// Goes on from `state` of a run with this configuration, before the first reading.
+  void restore(const std::string& state);
   /// Passes over the readings that the session has processed.
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);
@@ -117,6 +122,7 @@ class FilterRun {
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
   ScanMap currentMap() const;  ///< of a method with lines
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
+  void writeState(StateWriter& out);
   void saveSessionTo(const std::string& path, const ScanMap& map,
                      const std::vector<mrpt::math::TPose2D>& poses);
   void saveToDatedFolder();

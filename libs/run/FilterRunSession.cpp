@@ -66,11 +66,32 @@ void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
   StateWriter out(bytes);
   SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
   writeHeader(out, header);
+  writeState(out);
+  saveSession(path, bytes);
+}
+
+void FilterRun::writeState(StateWriter& out) {
   const double before = secondsBefore_;
   secondsBefore_ += secondsSince(start_);
   visit(out);
   secondsBefore_ = before;
-  saveSession(path, bytes);
+}
+
+std::string FilterRun::state() {
+  std::string bytes;
+  if (!hybrid_ || search_ || planSearch_) return bytes;
+  StateWriter out(bytes);
+  out(updateTimes_);
+  writeState(out);
+  return bytes;
+}
+
+void FilterRun::restore(const std::string& state) {
+  StateReader in(state);
+  in(updateTimes_);
+  visit(in);
+  search_.reset();
+  planSearch_.reset();
 }
 
 /// A full disk must not end the run.

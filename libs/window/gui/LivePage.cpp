@@ -2,12 +2,20 @@
 
 #include <wx/sizer.h>
 
-#include "base/Errors.h"
 #include "window/gui/Messages.h"
 
 namespace hybrid_slam::window {
 
 using State = LiveSnapshot::State;
+
+namespace {
+
+const char* nameOf(State state) {
+  const char* const names[] = {"running", "writing the results", "done", "failed"};
+  return names[static_cast<int>(state)];
+}
+
+}  // namespace
 
 LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   auto* const row = new wxBoxSizer(wxHORIZONTAL);
@@ -40,7 +48,7 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
 
 void LivePage::setSettings(std::shared_ptr<const Settings> settings) {
   settings_ = std::move(settings);
-  if (settings_ && !settings_->live.server.empty()) server_->SetValue(settings_->live.server);
+  if (!settings_->live.server.empty()) server_->SetValue(settings_->live.server);
 }
 
 bool LivePage::isRunning() const {
@@ -51,16 +59,10 @@ bool LivePage::isRunning() const {
 
 void LivePage::connectOrStop() {
   if (isRunning()) return session_->stop();
-  try {
-    start();
-  } catch (const std::exception& e) {
-    showError(this, messageOf(e));
-  }
+  orTell(this, [this] { start(); });
 }
 
 void LivePage::start() {
-  if (!settings_)
-    throw InputError("no settings", "the live view", "open an INI file first: File, Open INI file");
   const std::string server = server_->GetValue().utf8_string();
   live::hostAndPort(server, "the live view's server");
   session_.reset();
@@ -92,10 +94,12 @@ void LivePage::refresh() {
   shown_ = now;
   canvas_->show(now->filter);
   plots_->show({now->filter});
-  const char* const states[] = {"running", "writing the results", "done", "failed"};
-  text_->SetLabel(wxString::Format("%zu scans, %s", now->scans, states[static_cast<int>(now->state)]));
+  text_->SetLabel(now->state == State::running && !now->isConnected
+                      ? wxString("no connection, trying")
+                      : wxString::Format("%zu scans, %s", now->scans, nameOf(now->state)));
   button_->SetLabel(isRunning() ? "Stop" : "Connect");
   if (!isNews) return;
+  if (now->state == State::done && onRecording_) onRecording_(now->recording);
   if (now->state == State::done) showNotice(this, now->message);
   if (now->state == State::failed) showError(this, now->message);
 }

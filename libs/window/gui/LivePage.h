@@ -8,6 +8,7 @@
 #include <wx/stattext.h>
 #include <wx/textctrl.h>
 
+#include <functional>
 #include <memory>
 
 #include "window/gui/MapCanvas.h"
@@ -24,6 +25,8 @@ class LivePage : public wxPanel {
   void setSettings(std::shared_ptr<const Settings> settings);
   /// Starts a run with the server in the text field, or ends the current run.
   void connectOrStop();
+  /// Called with the recording of each finished run.
+  void setOnRecording(std::function<void(const std::string&)> action) { onRecording_ = std::move(action); }
   /// Polls the session; call several times per second.
   void refresh();
   bool isRunning() const;
@@ -35,6 +38,7 @@ class LivePage : public wxPanel {
   MapCanvas* canvas() const { return canvas_; }
   /// The newest event of the run; empty without one.
   std::string note() const { return shown_ && !shown_->events.empty() ? shown_->events.back() : ""; }
+  std::string state() const { return text_->GetLabel().utf8_string(); }
   LiveSession* session() const { return session_.get(); }
 
  private:
@@ -48,6 +52,7 @@ class LivePage : public wxPanel {
   MapCanvas* canvas_ = nullptr;
   PlotPanel* plots_;
   wxListBox* events_;
+  std::function<void(const std::string&)> onRecording_;
   std::unique_ptr<LiveSession> session_;
   std::shared_ptr<const LiveSnapshot> shown_;
 };

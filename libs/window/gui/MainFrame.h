@@ -2,6 +2,7 @@
 /// @brief The main window: menus with shortcuts, the replay and the live page.
 #pragma once
 
+#include <wx/dnd.h>
 #include <wx/frame.h>
 #include <wx/notebook.h>
 #include <wx/timer.h>
@@ -10,39 +11,11 @@
 #include <string>
 
 #include "window/gui/LivePage.h"
+#include "window/gui/MenuBar.h"
 #include "window/gui/ReplayPage.h"
 #include "window/gui/Settings.h"
 
 namespace hybrid_slam::window {
-
-/// Menu entries.
-enum Command {
-  kOpenIni = wxID_HIGHEST + 1,
-  kOpenRawlog,
-  kSaveIni,
-  kExportPicture,
-  kExportResults,
-  kOpenMap,
-  kSaveMap,
-  kPlay,
-  kStep,
-  kRestart,
-  kSeek,
-  kFaster,
-  kSlower,
-  kParameters,
-  kZoomIn,
-  kZoomOut,
-  kFit,
-  kGeneral,
-  kParticles,
-  kPath,
-  kLines,
-  kScanLines,
-  kEllipse,
-  kReplayPage,
-  kLivePage
-};
 
 class MainFrame : public wxFrame {
  public:
@@ -71,13 +44,27 @@ class MainFrame : public wxFrame {
   const Settings* settings() const { return settings_.get(); }
 
  private:
-  void makeMenus();
+  /// A log that is dropped on the window is opened.
+  class LogDrop : public wxFileDropTarget {
+   public:
+    explicit LogDrop(MainFrame& frame) : frame_(frame) {}
+    bool OnDropFiles(wxCoord x, wxCoord y, const wxArrayString& names) override;
+
+   private:
+    MainFrame& frame_;
+  };
+
   void bindFileMenu();
   void bindReplayMenu();
   void bindViewMenu();
+  void bindKeys();
+  void enableCommands();
+  bool isReplayShown() const { return pages_->GetSelection() == 0; }
+  MapCanvas* canvas() const { return isReplayShown() ? replay_->canvas(0) : live_->canvas(); }
   void use(const std::shared_ptr<Settings>& settings);
   void openIni();
-  void openRawlog();
+  void openLog();
+  void openLog(const std::string& log);
   void saveIni();
   void exportPicture();
   void exportResults();

@@ -15,7 +15,13 @@ MapCanvas::MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr
   Bind(wxEVT_MOUSEWHEEL, &MapCanvas::onWheel, this);
   Bind(wxEVT_MOTION, &MapCanvas::onMotion, this);
   Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base class would take the focus
-  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) { lastMouse_ = event.GetPosition(); });
+  // The base class would swallow every key, also those of the menus.
+  for (const auto& key : {wxEVT_CHAR, wxEVT_CHAR_HOOK})
+    Unbind(key, &CWxGLCanvasBase::OnChar, static_cast<CWxGLCanvasBase*>(this));
+  Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent& event) {
+    SetFocus();
+    lastMouse_ = event.GetPosition();
+  });
   Bind(wxEVT_LEFT_DCLICK, [this](wxMouseEvent&) {
     shared_->fixed.reset();
     onChange_();
@@ -27,6 +33,12 @@ void MapCanvas::show(const std::shared_ptr<const FilterSnapshot>& filter) {
   filter_ = filter;
   map_ = filter ? mapPlane(filter->map) : nullptr;
   Refresh(false);
+}
+
+void MapCanvas::setTitle(const std::string& title) {
+  if (title == title_) return;
+  title_ = title;
+  if (!filter_) Refresh(false);
 }
 
 PictureSize MapCanvas::size() const { return {GetClientSize().x, GetClientSize().y}; }

@@ -26,6 +26,9 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
             std::function<void()> onChange);
 
   void show(const std::shared_ptr<const FilterSnapshot>& filter);
+  /// Shown while there is no map.
+  void setTitle(const std::string& title);
+  const std::string& title() const { return title_; }
   void zoom(double factor);
   const std::shared_ptr<const FilterSnapshot>& shown() const { return filter_; }
   MapView view() const;

@@ -43,7 +43,7 @@ void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const Plot& plo
   high = roundedUp(high);
   double width = 0, height = 0;
   to.GetTextExtent("0", &width, &height);
-  to.DrawText(wxString::Format("%s, 0 to %g; to %.0f s", plot.title, high, end), area.m_x, area.m_y);
+  to.DrawText(plot.title, area.m_x, area.m_y);
   const double top = area.m_y + height + 3, bottom = area.m_y + area.m_height;
   to.SetBrush(*wxWHITE_BRUSH);
   to.SetPen(*wxGREY_PEN);
@@ -61,6 +61,11 @@ void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const Plot& plo
     to.SetPen(wxPen(colourOf(i), 1));
     to.StrokePath(curve);
   }
+  // The ends of the axes are inside: beside the title they would overlap in a narrow window.
+  const wxString last = wxString::Format("%.0f s", end);
+  to.DrawText(wxString::Format("%g", high), area.m_x + 3, top + 1);
+  to.GetTextExtent(last, &width, &height);
+  to.DrawText(last, area.m_x + area.m_width - width - 3, bottom - height - 1);
 }
 
 }  // namespace

@@ -30,9 +30,8 @@ const char* nameOf(State state) {
 ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
   auto* const column = new wxBoxSizer(wxVERTICAL);
   auto* const panes = new wxBoxSizer(wxHORIZONTAL);
-  for (const char* title :
-       {"hybrid filter: File, Open rawlog", "general filter, the same without lines, or the method of -m"}) {
-    canvases_.push_back(new MapCanvas(this, title, view_, [this] { redraw(); }));
+  for (size_t i = 0; i < 2; ++i) {
+    canvases_.push_back(new MapCanvas(this, "", view_, [this] { redraw(); }));
     panes->Add(canvases_.back(), wxSizerFlags(1).Expand().Border(wxALL, FromDIP(2)));
   }
   column->Add(panes, 1, wxEXPAND);
@@ -47,29 +46,57 @@ void ReplayPage::addControls(wxSizer* to) {
   const auto add = [&](wxWindow* control, int share = 0) {
     row->Add(control, wxSizerFlags(share).CentreVertical().Border(wxALL, FromDIP(4)));
   };
-  auto* const again = new wxButton(this, wxID_ANY, "Restart");
-  play_ = new wxButton(this, wxID_ANY, "Play");
-  auto* const one = new wxButton(this, wxID_ANY, "Step");
+  const auto button = [&](const char* name, const char* help) {
+    auto* const made = new wxButton(this, wxID_ANY, name, wxDefaultPosition, wxDefaultSize, wxBU_EXACTFIT);
+    made->SetToolTip(help);
+    return made;
+  };
+  restart_ = button("Restart", "Back to before the first scan (F7)");
+  back_ = button("Back", "One scan back (left arrow)");
+  play_ = button("Play", "Play or pause (space bar, F5)");
+  step_ = button("Step", "One scan forward (right arrow, F6)");
   speed_ = new wxChoice(this, wxID_ANY);
   for (const Speed& speed : kSpeeds) speed_->Append(speed.name);
   speed_->SetSelection(kUsualSpeed);
   place_ = new wxSlider(this, wxID_ANY, 0, 0, 1);
   text_ = new wxStaticText(this, wxID_ANY, "no log", wxDefaultPosition, FromDIP(wxSize(270, -1)),
                            wxST_NO_AUTORESIZE);
-  for (wxWindow* control : std::initializer_list<wxWindow*>{again, play_, one, speed_}) add(control);
+  speed_->SetToolTip("Pace of the replay, as a multiple of the log's (Ctrl+Up, Ctrl+Down)");
+  place_->SetToolTip("Place in the log: drag to go to a scan (Ctrl+G)");
+  for (wxWindow* control : std::initializer_list<wxWindow*>{restart_, back_, play_, step_, speed_})
+    add(control);
   add(place_, 1);
   add(text_);
   to->Add(row, 0, wxEXPAND);
 
-  again->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { restart(); });
+  restart_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { restart(); });
+  back_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { stepBack(); });
   play_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { playOrPause(); });
-  one->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { step(); });
+  step_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { step(); });
   speed_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { faster(0); });
   place_->Bind(wxEVT_SCROLL_THUMBTRACK, [this](wxScrollEvent&) { isSliding_ = true; });
   place_->Bind(wxEVT_SCROLL_CHANGED, [this](wxScrollEvent&) {
     isSliding_ = false;
     seek(static_cast<size_t>(place_->GetValue()));
   });
+  enableControls();
+  showTitles();
+}
+
+void ReplayPage::enableControls() {
+  for (wxWindow* control : std::initializer_list<wxWindow*>{restart_, back_, play_, step_, speed_, place_})
+    if (control->IsThisEnabled() != hasLog()) control->Enable(hasLog());
+}
+
+/// What to do, while there is no map.
+void ReplayPage::showTitles() {
+  std::string hint = "File, Open log, or drop a log here";
+  if (session_) hint = "reading the log";
+  if (hasLog())
+    hint = shown_->state == State::failed ? "the log could not be replayed" : "press Space to play";
+  canvases_[0]->setTitle("hybrid filter: " + hint);
+  canvases_[1]->setTitle(session_ ? "second filter: " + hint
+                                  : "general filter, the same without lines, or the method of -m");
 }
 
 void ReplayPage::open(const run::Configuration& configuration) {
@@ -79,6 +106,9 @@ void ReplayPage::open(const run::Configuration& configuration) {
   view_->fixed.reset();
   session_ = std::make_unique<ReplaySession>(configuration, comparedMethods(configuration));
   faster(0);
+  enableControls();
+  showTitles();
+  for (MapCanvas* canvas : canvases_) canvas->show(nullptr);
 }
 
 void ReplayPage::refresh() {
@@ -89,6 +119,8 @@ void ReplayPage::refresh() {
   for (size_t i = 0; i < std::min(canvases_.size(), now->filters.size()); ++i)
     canvases_[i]->show(now->filters[i]);
   plots_->show(now->filters);
+  enableControls();
+  showTitles();
   const bool isPlaying = now->state == State::playing;
   play_->SetLabel(isPlaying ? "Pause" : "Play");
   if (now->total > 0 && place_->GetMax() != static_cast<int>(now->total))
@@ -103,12 +135,15 @@ void ReplayPage::refresh() {
 }
 
 void ReplayPage::playOrPause() {
-  if (!session_) return;
-  session_->snapshot()->state == State::playing ? session_->pause() : session_->play();
+  if (session_) session_->playOrPause();
 }
 
 void ReplayPage::step() {
   if (session_) session_->step();
+}
+
+void ReplayPage::stepBack() {
+  if (session_) session_->stepBack();
 }
 
 void ReplayPage::restart() { seek(0); }

@@ -28,6 +28,7 @@ class ReplayPage : public wxPanel {
 
   void playOrPause();
   void step();
+  void stepBack();
   void restart();
   void seek(size_t scan);
   void faster(int steps);
@@ -37,16 +38,22 @@ class ReplayPage : public wxPanel {
   MapCanvas* canvas(size_t i) const { return canvases_.at(i); }
   /// The newest event of the replay; empty without one.
   std::string note() const { return shown_ ? shown_->note : ""; }
+  /// Whether a log can be played; false while it is read.
+  bool hasLog() const { return shown_ && shown_->state != ReplaySnapshot::State::loading; }
+  std::string speed() const { return speed_->GetStringSelection().utf8_string(); }
+  wxWindow* stepButton() const { return step_; }
   ReplaySession* session() const { return session_.get(); }
 
  private:
   void addControls(wxSizer* to);
+  void enableControls();
+  void showTitles();
   void redraw();
 
   std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
   std::vector<MapCanvas*> canvases_;
   PlotPanel* plots_ = nullptr;
-  wxButton* play_ = nullptr;
+  wxButton *restart_ = nullptr, *back_ = nullptr, *play_ = nullptr, *step_ = nullptr;
   wxChoice* speed_ = nullptr;
   wxSlider* place_ = nullptr;
   wxStaticText* text_ = nullptr;

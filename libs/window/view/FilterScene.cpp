@@ -148,19 +148,17 @@ class ScenePainter {
                    ahead(at, *filter_.dominatingDirection + turn, radius));
   }
   void caption() {
-    std::string text = mrpt::format("%s: %zu updates", filter_.method.c_str(), filter_.updates);
-    if (filter_.place) text += ", " + describe(*filter_.place);
-    if (isPlaceKnown()) text += mrpt::format(", ESS %.0f %%", 100 * filter_.step.ess);
-    if (isPlaceKnown() && (!filter_.lines.empty() || !filter_.scanLines.empty()))
-      text += mrpt::format(", %zu lines, %d of %d matched", filter_.lines.size(), filter_.step.linesMatched,
-                           filter_.step.linesSeen);
     mrpt::opengl::TFontParams font;
     font.vfont_name = "sans";
     font.vfont_scale = static_cast<float>(11 * density_);
     font.color = {1, 1, 1};
     font.draw_shadow = true;
     font.shadow_color = {0, 0, 0};
-    main_->addTextMessage(8 * density_, -18 * density_, text, 0, font);
+    size_t line = 0;
+    for (const std::string& text : captionOf(filter_)) {
+      main_->addTextMessage(8 * density_, -18 * static_cast<double>(line + 1) * density_, text, line, font);
+      ++line;
+    }
   }
   const COpenGLScene::Ptr& scene() const { return scene_; }
 
@@ -185,6 +183,20 @@ class ScenePainter {
 };
 
 }  // namespace
+
+std::vector<std::string> captionOf(const FilterSnapshot& filter) {
+  std::vector<std::string> lines{mrpt::format("%s: %zu updates", filter.method.c_str(), filter.updates)};
+  if (filter.place) lines.push_back(describe(*filter.place));
+  if (filter.place && !filter.place->isKnown) return lines;
+  lines[0] += mrpt::format(", ESS %.0f %%", 100 * filter.step.ess);
+  const auto matched = std::count_if(filter.scanLines.begin(), filter.scanLines.end(),
+                                     [](const ScanLine& line) { return line.isMatched; });
+  if (!filter.lines.empty() || !filter.scanLines.empty())
+    lines.push_back(mrpt::format("%zu lines; of the scan: %zu of %zu match", filter.lines.size(),
+                                 static_cast<size_t>(matched), filter.scanLines.size()));
+  if (filter.verdict) lines.push_back("so far " + filter.verdict->name());
+  return lines;
+}
 
 MapView wholeMap(const MapImage& map, PictureSize size) {
   MapView view;

@@ -33,6 +33,10 @@ struct Layers {
   bool particles = true, path = true, lines = true, scanLines = true, ellipse = true;
 };
 
+/// What is written over the map, a line each: updates, place, lines, verdict. The lines that match are those
+/// drawn as such.
+std::vector<std::string> captionOf(const FilterSnapshot& filter);
+
 /// The view of the whole map.
 MapView wholeMap(const MapImage& map, PictureSize size);
 

@@ -32,14 +32,18 @@ UncertaintyEllipse uncertaintyOf(const std::vector<WeightedPose>& poses) {
   return ellipse;
 }
 
-FilterWatch::FilterWatch(const run::Configuration& configuration)
+FilterWatch::FilterWatch(const run::Configuration& configuration, bool judges)
     : method_(nameOf(configuration.run.method)),
       useLines_(configuration.filter.useLines),
+      judges_(judges),
       lineWeight_(configuration.filter.lineWeight),
       prepare_(configuration.filter) {}
 
 void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, bool isUpdate) {
   if (!start_) start_ = reading.timestamp;
+  if (isUpdate && judges_ && !view.place())
+    compared_.add(view.bestPath().back(), view.updates() - 1, reading.scans);
+  slips_ += isUpdate && view.lastStep().slipped.value_or(false);
   const auto place = view.place();
   if (!place) knownFrom_ = 0;
   if (place && !place->isKnown) {
@@ -56,7 +60,14 @@ void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, 
   linesBefore_ = std::exchange(linesAfter_, view.bestLines());
 }
 
-std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& view) const {
+run::Verdict FilterWatch::verdict(const FilterSnapshot& now) const {
+  run::Evidence evidence = compared_.evidence(now.path);
+  evidence.spread = std::hypot(now.step.stdX, now.step.stdY);
+  evidence.slips = slips_;
+  return verdictOf(evidence);
+}
+
+std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bool withVerdict) const {
   auto out = std::make_shared<FilterSnapshot>();
   out->method = method_;
   out->updates = view.updates();
@@ -71,6 +82,7 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
+  if (withVerdict && judges_ && !out->place) out->verdict = verdict(*out);
   if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
   for (const LineSegment& line : prepare_(scans_).lines) {

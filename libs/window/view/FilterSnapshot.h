@@ -11,6 +11,7 @@
 
 #include "readings/ReadingAssembler.h"
 #include "run/Configuration.h"
+#include "run/VerdictCheck.h"
 #include "slam/filter/FilterView.h"
 #include "slam/filter/PreparedScan.h"
 #include "slam/lines/LineDatabase.h"
@@ -53,28 +54,35 @@ struct FilterSnapshot {
   std::vector<ScanLine> scanLines;            ///< of the last update
   UncertaintyEllipse ellipse;
   std::vector<PlotRow> plot;
-  FilterStep step;  ///< the last update
+  FilterStep step;                      ///< the last update
+  std::optional<run::Verdict> verdict;  ///< on the path so far; empty in a fixed map, or if not asked for
 };
 
 /// Collects snapshots of one filter in its thread.
 class FilterWatch {
  public:
   /// @param configuration  of the filter
-  explicit FilterWatch(const run::Configuration& configuration);
+  /// @param judges         keeps the scans, for verdicts
+  explicit FilterWatch(const run::Configuration& configuration, bool judges = false);
 
   /// Call after each scan. @param isUpdate  whether it caused an update
   void saw(const FilterView& view, const readings::Reading& reading, bool isUpdate);
   /// Copies the grid, which takes some ms: call only when needed for display.
-  std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view) const;
+  /// @param withVerdict  compares the scans along the path, which may take 0.1 s
+  std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
 
  private:
+  run::Verdict verdict(const FilterSnapshot& now) const;
+
   std::string method_;
-  bool useLines_;
+  bool useLines_, judges_;
   LineWeightOptions lineWeight_;
   ScanPreparation prepare_;
   std::optional<double> start_;  ///< s
   size_t knownFrom_ = 0;         ///< update since which the place has been known
   std::vector<PlotRow> plot_;
+  run::ComparedScans compared_;                         ///< for the verdict
+  size_t slips_ = 0;                                    ///< updates whose odometry was rejected
   Scans scans_;                                         ///< of the last update
   std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update
 };

@@ -81,11 +81,15 @@ std::string LiveSession::run() {
   });
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
              [&] {
+               if (const bool isConnected = client.isConnected(); isConnected != snapshot()->isConnected)
+                 publish([&](LiveSnapshot& next) { next.isConnected = isConnected; });
                if (wantsSave_.exchange(false)) live.requestSave();
                return isStopping_ || live.hasFailed();
              });
   publish([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
-  return live.finish(client.lost());
+  const std::string summary = live.finish(client.lost());
+  publish([&](LiveSnapshot& next) { next.recording = live.recording(); });
+  return summary;
 }
 
 }  // namespace hybrid_slam::window

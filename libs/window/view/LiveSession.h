@@ -18,9 +18,11 @@ namespace hybrid_slam::window {
 struct LiveSnapshot {
   enum class State { running, finishing, done, failed };
   State state = State::running;
+  bool isConnected = false;
   size_t scans = 0;
   std::vector<std::string> events;               ///< of the connection and the filter, one line each
   std::string message;                           ///< summary of the run, or why it failed
+  std::string recording;                         ///< rawlog of the finished run
   std::shared_ptr<const FilterSnapshot> filter;  ///< null before the first update
 };
 

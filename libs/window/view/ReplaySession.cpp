@@ -1,91 +1,24 @@
 #include "window/view/ReplaySession.h"
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/Errors.h"
 #include "files/StagedFolder.h"
-#include "files/TemporaryFolder.h"
-#include "run/FilterRun.h"
 #include "run/LogSettings.h"
+#include "window/view/ReplayPass.h"
 
 namespace hybrid_slam::window {
 namespace {
 
 using State = ReplaySnapshot::State;
-using Clock = std::chrono::steady_clock;
+using Clock = ReplayPass::Clock;
 
 /// Interval between snapshots during a replay: copying the grids takes time from the filters.
 constexpr auto kPictureInterval = std::chrono::milliseconds(80);
 
-/// One filter, with its results in a temporary folder until an export.
-struct Lane {
-  Lane(const run::Configuration& all, run::RunOptions::Method method, const std::string& folder)
-      : configuration(withMethod(all, method, folder)), run(configuration), watch(configuration) {}
-
-  static run::Configuration withMethod(run::Configuration c, run::RunOptions::Method method,
-                                       const std::string& folder) {
-    c.setMethod(method);
-    c.run.output = folder;
-    return c;
-  }
-
-  /// On the first call, writes the results to its folder.
-  /// @param target  final folder, for config.ini
-  /// @throws InputError if that failed, now or on the first call
-  void finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target) {
-    if (!std::exchange(isFinished, true)) {
-      configuration.run.output = target;
-      try {
-        run.finish(file, log, nlohmann::ordered_json::object());
-      } catch (...) {
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-  }
-
-  run::Configuration configuration;
-  run::FilterRun run;
-  FilterWatch watch;
-  bool isFinished = false;     ///< accepts no more scans
-  std::exception_ptr failure;  ///< why the results could not be written
-};
-
 }  // namespace
-
-/// One pass through the log.
-struct ReplaySession::Pass {
-  Pass(const run::Configuration& configuration, const std::vector<Method>& methods,
-       const readings::RawlogSummary& summary)
-      : file(configuration.run.rawlog), log(summary), source(file, configuration.input, log) {
-    for (const Method method : methods)
-      lanes.push_back(std::make_unique<Lane>(configuration, method, folder.path(nameOf(method))));
-    next = source.next();
-    if (next) start = next->timestamp;
-  }
-
-  std::string file;
-  readings::RawlogSummary log;
-  readings::RawlogSource source;
-  files::TemporaryFolder folder;
-  std::vector<std::unique_ptr<Lane>> lanes;
-  std::optional<readings::Reading> next;
-  double start = 0, time = 0;  ///< s: time of the first scan; time since
-  size_t scans = 0;
-  bool isOutdated = true;  ///< the published maps are not current
-  bool hasFailed = false;  ///< the filter or the log, at the next scan
-  Clock::time_point lastScan, lastPicture;
-  std::vector<std::shared_ptr<const FilterSnapshot>> pictures;
-
-  bool isFinished() const {
-    return std::any_of(lanes.begin(), lanes.end(), [](const auto& lane) { return lane->isFinished; });
-  }
-  bool isOver() const { return isFinished() || hasFailed || !next; }
-};
 
 std::vector<run::RunOptions::Method> comparedMethods(const run::Configuration& configuration) {
   using Method = run::RunOptions::Method;
@@ -107,9 +40,7 @@ ReplaySession::~ReplaySession() {
 
 void ReplaySession::play() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  goal_ = Goal::play;
-  wantsRestart_ |= snapshot_->state == State::ended || snapshot_->state == State::failed;
-  wake_.notify_all();
+  startPlaying();
 }
 
 void ReplaySession::pause() {
@@ -118,20 +49,48 @@ void ReplaySession::pause() {
   wake_.notify_all();
 }
 
+void ReplaySession::playOrPause() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (goal_ == Goal::pause) return startPlaying();
+  goal_ = Goal::pause;
+  wake_.notify_all();
+}
+
+void ReplaySession::startPlaying() {
+  goal_ = Goal::play;
+  if (snapshot_->state == State::ended || snapshot_->state == State::failed) restartFrom(0);
+  wake_.notify_all();
+}
+
 void ReplaySession::step() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  // Steps requested in quick succession add up.
-  target_ = (goal_ == Goal::reach ? target_ : snapshot_->scans) + 1;
-  goal_ = Goal::reach;
-  wake_.notify_all();
+  reach(goingTo() + 1);
+}
+
+void ReplaySession::stepBack() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const size_t from = goingTo();
+  if (from > 0) reach(from - 1);
 }
 
 void ReplaySession::seek(size_t scan) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  reach(scan);
+}
+
+/// Steps requested in quick succession add up.
+size_t ReplaySession::goingTo() const { return goal_ == Goal::reach ? target_ : scans_; }
+
+void ReplaySession::reach(size_t scan) {
   goal_ = Goal::reach;
   target_ = scan;
-  wantsRestart_ |= snapshot_->state == State::failed;
+  if (snapshot_->state == State::failed) restartFrom(0);
   wake_.notify_all();
+}
+
+void ReplaySession::restartFrom(size_t scan) {
+  wantsRestart_ = true;
+  restartAt_ = scan;
 }
 
 void ReplaySession::setSpeed(double factor) {
@@ -181,8 +140,9 @@ void ReplaySession::runPass() {
     });
     applyLogSettings(run::readLogSettings(file, configuration_.input, *log_), configuration_);
   }
-  Pass pass(configuration_, methods_, *log_);
-  ++runs_;
+  const auto* const from = checkpoints_.upTo(std::exchange(restartAt_, 0));
+  ReplayPass pass(configuration_, methods_, *log_, from);
+  if (!from) ++runs_;
   publish(pass, State::paused, false);
   if (!pass.log.defect.empty())
     tell(
@@ -202,11 +162,11 @@ void ReplaySession::runPass() {
 }
 
 /// Waits until the next scan is due. @return false to abort this pass
-bool ReplaySession::hasWork(Pass& pass) {
+bool ReplaySession::hasWork(ReplayPass& pass) {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    if (goal_ == Goal::reach && (target_ < pass.scans || (pass.isFinished() && target_ > pass.scans)))
-      wantsRestart_ = true;
+    scans_ = pass.scans;
+    if (goal_ == Goal::reach && mustJump(pass)) restartFrom(target_);
     if (isClosing_ || wantsRestart_) return false;
     if (saveTo_) {
       const std::string folder = *std::exchange(saveTo_, std::nullopt);
@@ -239,8 +199,15 @@ bool ReplaySession::hasWork(Pass& pass) {
   }
 }
 
+/// Back, on after an export, or to a checkpoint ahead.
+bool ReplaySession::mustJump(const ReplayPass& pass) const {
+  if (target_ <= pass.scans) return target_ < pass.scans;
+  const auto* const ahead = checkpoints_.upTo(target_);
+  return pass.isFinished() || (ahead && ahead->first > pass.scans + checkpoints_.every());
+}
+
 /// @return whether the scan is due; otherwise there was a request, or the maps were published
-bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass) {
+bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, ReplayPass& pass) {
   if (speed_ <= 0) return true;
   // Skip pauses in the log.
   const double gap = std::clamp(pass.next->timestamp - pass.start - pass.time, 0.0, 2.0);
@@ -257,28 +224,20 @@ bool ReplaySession::waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass)
          !wantsRestart_;
 }
 
-void ReplaySession::advance(Pass& pass) {
-  pass.lastScan = Clock::now();
-  for (const auto& lane : pass.lanes) {
-    const bool isUpdate = lane->run.process(*pass.next);
-    lane->watch.saw(lane->run.view(), *pass.next, isUpdate);
-    pass.isOutdated |= isUpdate;
-    for (const std::string& text : lane->run.takeNotes())
-      note(nameOf(lane->configuration.run.method) + ": " + text);
-  }
-  ++pass.scans;
-  pass.time = pass.next->timestamp - pass.start;
-  pass.next = pass.source.next();
-  publish(pass, State::playing, pass.isOutdated && Clock::now() - pass.lastPicture >= kPictureInterval);
+void ReplaySession::advance(ReplayPass& pass) {
+  for (const std::string& text : pass.advance()) note(text);
+  if (checkpoints_.isDue(pass.scans))
+    if (auto checkpoint = pass.checkpoint()) checkpoints_.add(pass.scans, std::move(*checkpoint));
+  // The scan that is shown is always that of the maps.
+  const bool isDue = Clock::now() - pass.lastPicture >= kPictureInterval;
+  if (isDue || !pass.isOutdated) publish(pass, State::playing, pass.isOutdated);
 }
 
-void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
+void ReplaySession::exportPass(ReplayPass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
-    std::vector<std::string> names;
-    for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
-    files::StagedFolder staged(folder, names, false);
+    files::StagedFolder staged(folder, pass.names(), false);
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method);
       lane->finish(pass.file, pass.log, staged.finalPath(name));
@@ -294,15 +253,13 @@ void ReplaySession::exportPass(Pass& pass, const std::string& folder) {
   }
 }
 
-void ReplaySession::savePass(Pass& pass, const std::string& folder) {
+void ReplaySession::savePass(ReplayPass& pass, const std::string& folder) {
   try {
     if (pass.scans == 0)
       throw InputError("no map yet", "before the first scan", "play or step the log first");
     if (pass.isFinished())
       throw InputError("the replay has ended", "its results are exported", "play it again to save a map");
-    std::vector<std::string> names;
-    for (const auto& lane : pass.lanes) names.push_back(nameOf(lane->configuration.run.method));
-    files::StagedFolder staged(folder, names, false);
+    files::StagedFolder staged(folder, pass.names(), false);
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method);
       lane->configuration.run.output = staged.finalPath(name);  // for a run that is resumed from the session
@@ -322,10 +279,11 @@ void ReplaySession::note(const std::string& text) {
   snapshot_ = next;
 }
 
-void ReplaySession::publish(Pass& pass, State state, bool withMaps) {
+void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
   if (withMaps && pass.scans > 0) {
     pass.pictures.clear();
-    for (const auto& lane : pass.lanes) pass.pictures.push_back(lane->watch.snapshot(lane->run.view()));
+    for (const auto& lane : pass.lanes)
+      pass.pictures.push_back(lane->watch.snapshot(lane->run.view(), state != State::playing));
     pass.lastPicture = Clock::now();
   }
   if (withMaps) pass.isOutdated = false;

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "run/Configuration.h"
-#include "window/view/FilterSnapshot.h"
+#include "window/view/Checkpoints.h"
 
 namespace hybrid_slam::window {
+
+struct ReplayPass;
 
 /// Immutable state of a replay.
 struct ReplaySnapshot {
@@ -44,10 +46,13 @@ class ReplaySession {
 
   void play();
   void pause();
+  void playOrPause();
   /// One scan forward, then paused.
   void step();
-  /// Runs at full speed until just after this scan (from 1), then paused. Going back restarts the replay,
-  /// which gives the same maps. 0: before the first scan.
+  /// One scan back, then paused.
+  void stepBack();
+  /// Runs at full speed until just after this scan (from 1), then paused. Going back resumes the nearest
+  /// checkpoint before, or restarts the replay; either gives the same maps. 0: before the first scan.
   void seek(size_t scan);
   /// @param factor  of real time; 0: as fast as possible
   void setSpeed(double factor);
@@ -62,17 +67,24 @@ class ReplaySession {
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
 
  private:
-  struct Pass;
   enum class Goal { pause, play, reach };
+  /// @name With mutex_ locked
+  /// @{
+  void startPlaying();
+  void reach(size_t scan);
+  size_t goingTo() const;
+  void restartFrom(size_t scan);
+  bool mustJump(const ReplayPass& pass) const;
+  /// @}
   void work();
   void runPass();
-  bool hasWork(Pass& pass);
-  bool waitUntilDue(std::unique_lock<std::mutex>& lock, Pass& pass);
-  void advance(Pass& pass);
-  void exportPass(Pass& pass, const std::string& folder);
-  void savePass(Pass& pass, const std::string& folder);
+  bool hasWork(ReplayPass& pass);
+  bool waitUntilDue(std::unique_lock<std::mutex>& lock, ReplayPass& pass);
+  void advance(ReplayPass& pass);
+  void exportPass(ReplayPass& pass, const std::string& folder);
+  void savePass(ReplayPass& pass, const std::string& folder);
   void note(const std::string& text);
-  void publish(Pass& pass, ReplaySnapshot::State state, bool withMaps);
+  void publish(ReplayPass& pass, ReplaySnapshot::State state, bool withMaps);
   void tell(const std::string& message, bool isError, ReplaySnapshot::State state);
 
   run::Configuration configuration_;  ///< of the thread; with the settings read off the log
@@ -83,7 +95,9 @@ class ReplaySession {
   /// @name Guarded by mutex_
   /// @{
   Goal goal_ = Goal::pause;
-  size_t target_ = 0;  ///< scan to reach
+  size_t target_ = 0;     ///< scan to reach
+  size_t scans_ = 0;      ///< processed; the snapshot may be older
+  size_t restartAt_ = 0;  ///< scan that the next pass is to reach
   double speed_ = 1;
   bool isClosing_ = false, wantsRestart_ = false;
   std::optional<std::string> exportTo_, saveTo_;
@@ -92,6 +106,7 @@ class ReplaySession {
   /// @name Used by the session's thread only
   /// @{
   std::optional<readings::RawlogSummary> log_;
+  Checkpoints checkpoints_;
   size_t runs_ = 0;
   /// @}
   std::thread thread_;
