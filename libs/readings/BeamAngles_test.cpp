@@ -34,7 +34,8 @@ TEST(BeamAngles, AnUnknownNumberHasNoStep) {
 TEST(BeamAngles, TheMiddleBeamPointsAhead) {
   for (size_t beams = 1; beams < 50; ++beams) {
     const BeamAngles angles = beamAngles(beams, 0.1);
-    EXPECT_NEAR(angles.first + static_cast<double>(beams / 2) * angles.step, 0, 1e-12) << beams;
+    const size_t middle = beams / 2;
+    EXPECT_NEAR(angles.first + static_cast<double>(middle) * angles.step, 0, 1e-12) << beams;
   }
 }
 

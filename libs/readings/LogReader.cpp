@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::readings {
 
-LogReader::LogReader(const std::string& file, std::shared_ptr<const BagPlan> plan) : file_(file) {
+LogReader::LogReader(const std::string& file, const std::shared_ptr<const BagPlan>& plan) : file_(file) {
   const auto report = [this](size_t number, const std::string&) {
     if (brokenLines_++ == 0) firstBroken_ = number;
   };

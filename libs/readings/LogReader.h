@@ -24,7 +24,7 @@ class LogReader {
   /// @param plan  of a bag; null: what is clear
   /// @throws InputError if the file is missing or unreadable, if a text file is not a log, or if it is not
   ///         clear what to use of a bag
-  explicit LogReader(const std::string& file, std::shared_ptr<const BagPlan> plan = nullptr);
+  explicit LogReader(const std::string& file, const std::shared_ptr<const BagPlan>& plan = nullptr);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;

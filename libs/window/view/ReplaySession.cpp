@@ -154,6 +154,7 @@ void ReplaySession::runPass() {
     } catch (const std::exception& e) {
       if (pass.scans == 0) throw;
       pass.hasFailed = true;
+      publish(pass, State::ended, true);
       tell("run failed: " + messageOf(e) + ", " + pass.source.place() +
                "; the results up to this point can be exported",
            true, State::ended);
