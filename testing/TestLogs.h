@@ -31,6 +31,7 @@ using mrpt::obs::CObservation2DRangeScan;
 using Log = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
 constexpr double kHalfLength = 5, kHalfWidth = 3;  ///< m, of the room around the origin, along x and y
+constexpr double kRoomArea = 4 * kHalfLength * kHalfWidth;  ///< m^2
 constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 
 inline mrpt::Clock::time_point stamp(double time) {

@@ -157,7 +157,10 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   EXPECT_THAT(status(0), HasSubstr(folder.path("live/saved-20")));
   ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
   const wxImage screen = screenshot("live");
-  EXPECT_GT(count(screen, *frame->live()->canvas(), 255, 255, 255), 10000u);
+  const double metre = frame->live()->canvas()->view().scale;
+  EXPECT_GT(static_cast<double>(count(screen, *frame->live()->canvas(), 255, 255, 255)),
+            0.2 * test::kRoomArea * metre * metre)
+      << "what many beams have crossed";
   EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
   EXPECT_GT(count(screen, *frame->live()->canvas(), 220, 0, 0), 30u) << "path and particles";
   menu(window::kPath);

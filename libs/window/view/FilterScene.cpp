@@ -201,11 +201,12 @@ std::vector<std::string> captionOf(const FilterSnapshot& filter) {
 MapView wholeMap(const MapImage& map, PictureSize size) {
   MapView view;
   if (map.width == 0) return view;
-  view.centreX = (map.left + map.right()) / 2;
-  view.centreY = (map.bottom + map.top()) / 2;
-  const double free = std::max(size.height - 60, 1);  // space for the caption above, and the same below
+  constexpr double kCaption = 60, kMargin = 6;  // pixels above and below the map
+  const double free = std::max(size.height - kCaption - kMargin, 1.0);
   view.scale = std::min(size.width / (map.right() - map.left), free / (map.top() - map.bottom));
   view.scale = std::max(view.scale, 0.01);
+  view.centreX = (map.left + map.right()) / 2;
+  view.centreY = (map.bottom + map.top()) / 2 + (kCaption - kMargin) / 2 / view.scale;
   return view;
 }
 

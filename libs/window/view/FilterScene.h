@@ -37,7 +37,7 @@ struct Layers {
 /// drawn as such.
 std::vector<std::string> captionOf(const FilterSnapshot& filter);
 
-/// The view of the whole map.
+/// The view of the whole map, below the caption.
 MapView wholeMap(const MapImage& map, PictureSize size);
 
 /// The grid as a plane, reusable in many scenes: its texture is uploaded once. Null for an empty map.
