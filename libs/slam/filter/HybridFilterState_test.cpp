@@ -150,8 +150,8 @@ TEST(HybridFilter, MapsOnInTheMapOfAnEarlierRun) {
   process(second, drive, half, half + 10);
   second.joinMap(first.bestMap(), drive[half + 9].truth);
   process(second, drive, half + 10, drive.size());
-  const TPose2D begin = second.bestPath().front(), first_ = drive[half].truth;
-  EXPECT_LT(std::hypot(begin.x - first_.x, begin.y - first_.y), 0.1);
+  const TPose2D begin = second.bestPath().front(), start = drive[half].truth;
+  EXPECT_LT(std::hypot(begin.x - start.x, begin.y - start.y), 0.1);
   const TPose2D end = second.bestPath().back(), truth = drive.back().truth;
   EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.1);
   const auto before = first.bestMap().grid.tiles().bounds(), after = second.bestMap().grid.tiles().bounds();
