@@ -52,19 +52,19 @@ TEST_F(Sessions, AKilledRunIsResumedToTheSameBytes) {
   RandomStream random(1, 0, 0);
   size_t killed = 0;
   for (int k = 0; k < 8; ++k) {
-    const std::string out_k = folder.path("killed-" + std::to_string(k)), saved = out_k + "/session.hslam";
+    const std::string part = folder.path("killed-" + std::to_string(k)), saved = part + "/session.hslam";
     {
       test::ChildProgram program(folder, "killed",
-                                 {HYBRID_SLAM, ini, log, "-o", out_k, "--checkpoint-every", "0.001"});
+                                 {HYBRID_SLAM, ini, log, "-o", part, "--checkpoint-every", "0.001"});
       ASSERT_TRUE(test::happens([&] { return fs::exists(saved) || program.hasEnded(); }));
       std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(100000 * random.uniform())));
       killed += !program.hasEnded();
     }
-    if (fs::exists(out_k + "/metrics.json")) continue;
-    EXPECT_FALSE(fs::exists(out_k + "/trajectory.tum"));
+    if (fs::exists(part + "/metrics.json")) continue;
+    EXPECT_FALSE(fs::exists(part + "/trajectory.tum"));
     EXPECT_EQ(run("--resume '" + saved + "'"), 0) << err;
-    expectSame(expected, out_k);
-    EXPECT_THAT(test::namesIn(out_k), testing::UnorderedElementsAreArray(test::kResults));
+    expectSame(expected, part);
+    EXPECT_THAT(test::namesIn(part), testing::UnorderedElementsAreArray(test::kResults));
   }
   EXPECT_GE(killed, 3u);
 }

@@ -51,12 +51,12 @@ class FullListener {
     ::inet_pton(AF_INET, address, &place_.sin_addr);
     sockets_.emplace_back(::socket(AF_INET, SOCK_STREAM, 0));
     socklen_t size = sizeof place_;
-    ::bind(sockets_[0].descriptor(), reinterpret_cast<sockaddr*>(&place_), size);
+    (void)::bind(sockets_[0].descriptor(), reinterpret_cast<sockaddr*>(&place_), size);
     ::listen(sockets_[0].descriptor(), 0);
     ::getsockname(sockets_[0].descriptor(), reinterpret_cast<sockaddr*>(&place_), &size);
     for (int i = 0; i < 4; ++i) {
       sockets_.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
-      ::connect(sockets_.back().descriptor(), reinterpret_cast<sockaddr*>(&place_), size);
+      (void)::connect(sockets_.back().descriptor(), reinterpret_cast<sockaddr*>(&place_), size);
     }
   }
   uint16_t port() const { return ntohs(place_.sin_port); }

@@ -113,9 +113,8 @@ cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendEntry>
 
   const std::vector<cv::Point> places = legendPlaces(legend, text, map.cols);
   int width = left + map.cols;
-  for (size_t i = 0; i < legend.size(); ++i)
-    width = std::max(width,
-                     left + static_cast<int>(legend[i].width * em) + em / 2 + text.widthOf(legend[i].label));
+  for (const auto& entry : legend)
+    width = std::max(width, left + static_cast<int>(entry.width * em) + em / 2 + text.widthOf(entry.label));
   cv::Mat picture(below + places.back().y + 2 * em, width + right, CV_8UC3, cv::Scalar(255, 255, 255));
 
   const int thin = thinLine(std::max(map.cols, map.rows));

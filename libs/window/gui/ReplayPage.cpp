@@ -130,8 +130,7 @@ void ReplayPage::refresh() {
       wxString::Format("scan %zu of %zu, %.1f s, %s", now->scans, now->total, now->time, nameOf(now->state)));
   if (now->messages == told_) return;
   told_ = now->messages;
-  const auto keep = now;  // the timer continues during a dialog
-  keep->isError ? showError(this, keep->message) : showNotice(this, keep->message);
+  now->isError ? showError(this, now->message) : showNotice(this, now->message);
 }
 
 void ReplayPage::playOrPause() {
