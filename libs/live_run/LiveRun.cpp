@@ -45,7 +45,6 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
                  configuration.input.maxOdometryGap),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
-  run_.keepComparedScans();
   run_.setBeforeSession([this] { recording_.flush(); });
   if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
 }
@@ -103,6 +102,7 @@ void LiveRun::filter() {
       }
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
+      if (isUpdate && !run_.view().place()) mapSoFar_.add(run_.view(), next->reading.scans);
       for (const std::string& note : run_.takeNotes()) log_.report("filter", note);
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
@@ -136,7 +136,7 @@ void LiveRun::tellVerdict() {
     if (next.level != verdict_.level) log_.report("map", next.line());
     verdict_ = std::move(next);
   }
-  nextVerdict_ = std::async(std::launch::async, run_.judge());
+  nextVerdict_ = std::async(std::launch::async, mapSoFar_.judge(run_.view()));
 }
 
 void LiveRun::stopFilter() {

@@ -20,6 +20,7 @@
 #include "readings/ReadingAssembler.h"
 #include "run/Configuration.h"
 #include "run/FilterRun.h"
+#include "run/VerdictCheck.h"
 
 namespace hybrid_slam::live {
 
@@ -91,7 +92,8 @@ class LiveRun {
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
   double stateInterval_ = 10;  ///< s
-  run::Verdict verdict_;       ///< on the map so far
+  run::RunningVerdict mapSoFar_;
+  run::Verdict verdict_;  ///< on the map so far
   std::future<run::Verdict> nextVerdict_;
   std::atomic<size_t> skipped_{0};
   std::atomic<bool> hasFailed_{false};

@@ -20,12 +20,6 @@ namespace {
 
 using Method = RunOptions::Method;
 
-mrpt::math::TPose2D bestOf(const std::vector<WeightedPose>& particles) {
-  return std::max_element(particles.begin(), particles.end(),
-                          [](const auto& a, const auto& b) { return a.logWeight < b.logWeight; })
-      ->pose;
-}
-
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
   if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
   try {
@@ -116,7 +110,7 @@ bool FilterRun::filter(const readings::Reading& reading) {
   recorder_.add(reading.timestamp, reading.motion, filter_->updates());
   uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
   const bool isUpdate = uses_.back() == Use::update;
-  if (isUpdate) record(reading, stepStart);
+  if (isUpdate) record(reading.timestamp, stepStart);
   return isUpdate;
 }
 
@@ -153,8 +147,7 @@ std::string FilterRun::placeNote() const {
          " scans, mapped in their own frame; --start X,Y,DEG gives the place";
 }
 
-void FilterRun::record(const readings::Reading& reading, Clock::time_point stepStart) {
-  const double timestamp = reading.timestamp;
+void FilterRun::record(double timestamp, Clock::time_point stepStart) {
   updateTimes_.push_back(timestamp);
   const FilterStep& step = filter_->lastStep();
   particlesMin_ = particlesMin_ == 0 ? step.particles : std::min(particlesMin_, step.particles);
@@ -168,8 +161,6 @@ void FilterRun::record(const readings::Reading& reading, Clock::time_point stepS
     wasLocated_ = localizer_->isLocalized();
     located_ += wasLocated_;
   }
-  if (comparedScans_ && !localizer_)
-    comparedScans_->add(bestOf(filter_->particlePoses()), filter_->updates() - 1, reading.scans);
   writeStep(steps_.stream(), timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
     writeParticles(particles_->stream(), timestamp, step);

@@ -18,7 +18,7 @@
 #include "run/PathCovariance.h"
 #include "run/SessionFile.h"
 #include "run/TrajectoryRecorder.h"
-#include "run/VerdictCheck.h"
+#include "run/Verdict.h"
 #include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
 #include "slam/localization/PlanSearch.h"
@@ -86,12 +86,6 @@ class FilterRun {
   /// One line if that is not the folder asked for; else empty.
   std::string folderNote() const { return staged_.note(); }
 
-  /// Keeps the scans that `judge` compares, from the next one on.
-  void keepComparedScans() { comparedScans_.emplace(); }
-  /// The verdict on the map as it is now, by the scans kept: a function to be called in any thread, which
-  /// takes 30 ms to 70 ms for a km of path. Of a run that maps.
-  std::function<Verdict()> judge() const;
-
   /// Writes the results.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
@@ -128,7 +122,7 @@ class FilterRun {
   void saveToDatedFolder();
   void saveIfDue();
   /// The row of steps.csv and the counters of an update.
-  void record(const readings::Reading& reading, Clock::time_point stepStart);
+  void record(double timestamp, Clock::time_point stepStart);
   void note(const LoopClosure& loop);
   /// Closes the loops that are left open, matches the scans of the log to the map and rebuilds it.
   void refineResult(Result& result, readings::RawlogSource& source);
@@ -164,7 +158,6 @@ class FilterRun {
   double firstSlip_ = 0;                ///< s
   double cell_;                         ///< m, of the filter
   double savedCell_ = 0;                ///< m, of the map files
-  std::optional<ComparedScans> comparedScans_;
   Verdict verdict_;
 };
 

@@ -12,6 +12,7 @@
 #include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/SimpleMapFile.h"
+#include "run/VerdictCheck.h"
 #include "slam/filter/Refinement.h"
 #include "slam/grid/GridConversion.h"
 #include "slam/loops/RevisitCheck.h"
@@ -142,16 +143,6 @@ void FilterRun::writeCovarianceFile(const Result& result, const std::vector<Pose
   folder_.write("covariance.csv", [&](std::ostream& out) {
     writeCovariances(out, result.trajectory, recorder_.updates(), result.path, covariances);
   });
-}
-
-std::function<Verdict()> FilterRun::judge() const {
-  const double spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
-  return [scans = *comparedScans_, path = filter_->bestPath(), spread, slips = slips_] {
-    Evidence evidence = scans.evidence(path);
-    evidence.spread = spread;
-    evidence.slips = slips;
-    return verdictOf(evidence);
-  };
 }
 
 Verdict FilterRun::verdictOfLocalization() const {

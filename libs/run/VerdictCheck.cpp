@@ -2,6 +2,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -61,6 +62,24 @@ Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
     recent.add(path[scan->update], beams, distance, scan->update);
   }
   return {returning.revisits(), recent.revisits()};
+}
+
+void RunningVerdict::add(const FilterView& view, const Scans& scans) {
+  const auto particles = view.particlePoses();
+  const auto best = std::max_element(particles.begin(), particles.end(),
+                                     [](const auto& a, const auto& b) { return a.logWeight < b.logWeight; });
+  scans_.add(best->pose, view.updates() - 1, scans);
+  slips_ += view.lastStep().slipped.value_or(false);
+}
+
+std::function<Verdict()> RunningVerdict::judge(const FilterView& view) const {
+  const double spread = std::hypot(view.lastStep().stdX, view.lastStep().stdY);
+  return [scans = scans_, path = view.bestPath(), spread, slips = slips_] {
+    Evidence evidence = scans.evidence(path);
+    evidence.spread = spread;
+    evidence.slips = slips;
+    return verdictOf(evidence);
+  };
 }
 
 }  // namespace hybrid_slam::run

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/LaserScan.h"
 #include "run/Verdict.h"
+#include "slam/filter/FilterView.h"
 
 namespace hybrid_slam::run {
 
@@ -61,6 +63,20 @@ class ComparedScans {
   };
   std::vector<std::shared_ptr<const Scan>> scans_;
   ComparisonSteps steps_;
+};
+
+/// The verdict on the map of a run that goes on.
+class RunningVerdict {
+ public:
+  /// Call it after each update of a filter that maps. @param scans  of the update
+  void add(const FilterView& view, const Scans& scans);
+  /// On the map as it is now: a function to be called in any thread, which takes 30 ms to 70 ms for a km of
+  /// path.
+  std::function<Verdict()> judge(const FilterView& view) const;
+
+ private:
+  ComparedScans scans_;
+  size_t slips_ = 0;  ///< updates whose odometry was rejected
 };
 
 }  // namespace hybrid_slam::run

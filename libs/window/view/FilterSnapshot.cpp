@@ -41,9 +41,7 @@ FilterWatch::FilterWatch(const run::Configuration& configuration, bool judges)
 
 void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, bool isUpdate) {
   if (!start_) start_ = reading.timestamp;
-  if (isUpdate && judges_ && !view.place())
-    compared_.add(view.bestPath().back(), view.updates() - 1, reading.scans);
-  slips_ += isUpdate && view.lastStep().slipped.value_or(false);
+  if (isUpdate && judges_ && !view.place()) mapSoFar_.add(view, reading.scans);
   const auto place = view.place();
   if (!place) knownFrom_ = 0;
   if (place && !place->isKnown) {
@@ -58,13 +56,6 @@ void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, 
   if (!useLines_) return;
   scans_ = reading.scans;
   linesBefore_ = std::exchange(linesAfter_, view.bestLines());
-}
-
-run::Verdict FilterWatch::verdict(const FilterSnapshot& now) const {
-  run::Evidence evidence = compared_.evidence(now.path);
-  evidence.spread = std::hypot(now.step.stdX, now.step.stdY);
-  evidence.slips = slips_;
-  return verdictOf(evidence);
 }
 
 std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bool withVerdict) const {
@@ -82,7 +73,7 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
-  if (withVerdict && judges_ && !out->place) out->verdict = verdict(*out);
+  if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = mapSoFar_.judge(view)();
   if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
   for (const LineSegment& line : prepare_(scans_).lines) {

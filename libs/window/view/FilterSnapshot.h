@@ -72,8 +72,6 @@ class FilterWatch {
   std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
 
  private:
-  run::Verdict verdict(const FilterSnapshot& now) const;
-
   std::string method_;
   bool useLines_, judges_;
   LineWeightOptions lineWeight_;
@@ -81,8 +79,7 @@ class FilterWatch {
   std::optional<double> start_;  ///< s
   size_t knownFrom_ = 0;         ///< update since which the place has been known
   std::vector<PlotRow> plot_;
-  run::ComparedScans compared_;                         ///< for the verdict
-  size_t slips_ = 0;                                    ///< updates whose odometry was rejected
+  run::RunningVerdict mapSoFar_;
   Scans scans_;                                         ///< of the last update
   std::vector<DatabaseLine> linesBefore_, linesAfter_;  ///< the last update
 };
