@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files/TemporaryFolder.h"
 #include "run/Replay.h"
-#include "testing/DriveLog.h"
+#include "testing/ReplaySessionTest.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 
@@ -15,30 +14,9 @@ namespace {
 
 using Method = run::RunOptions::Method;
 using State = ReplaySnapshot::State;
+using ReplaySessionTest = test::ReplaySessionTest;
 using test::happens;
 using testing::HasSubstr;
-
-class ReplaySessionTest : public testing::Test {
- protected:
-  static constexpr size_t kScans = 60;
-  run::Configuration configuration(const std::string& log) {
-    const std::string ini =
-        folder.write("run.ini",
-                     "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
-                     "resolution = 0.1\n");
-    return run::Configuration(ini, {"run.rawlog=" + log});
-  }
-  run::Configuration laps() {
-    return configuration(test::writeGzipped(folder.path("laps.rawlog"), test::laps(kScans)));
-  }
-  static bool reaches(const ReplaySession& session, State state, size_t scans) {
-    return test::happens([&] {
-      const auto now = session.snapshot();
-      return now->state == state && now->scans == scans;
-    });
-  }
-  files::TemporaryFolder folder;
-};
 
 TEST_F(ReplaySessionTest, WaitsBeforeTheFirstScanAndStepsOneByOne) {
   ReplaySession session(laps(), {Method::hybrid, Method::general});
@@ -364,95 +342,11 @@ TEST_F(ReplaySessionTest, SavesTheMapAndGoesOn) {
   EXPECT_EQ(session.snapshot()->run, 1u) << "the same run";
 }
 
-/// The map of an earlier run, and a log of the same room.
-class ReplayInAMap : public ReplaySessionTest {
- protected:
-  ReplayInAMap() {
-    earlier.run.output = folder.path("earlier");
-    const std::atomic<bool> stop{false};
-    run::replay(earlier, true, stop);
-  }
-  const std::string session = folder.path("earlier/session.hslam");
-  run::Configuration earlier = configuration(drive(1)), now = configuration(drive(2));
-
- private:
-  std::string drive(uint64_t seed) {
-    return test::writeGzipped(folder.path("drive" + std::to_string(seed) + ".rawlog"),
-                              test::logOf(test::drive(8, seed)));
-  }
-};
-
-TEST_F(ReplayInAMap, ShowsTheSearchForTheStartAndThenTheRobot) {
-  now.run.localizeIn = session;
-  ReplaySession replay(now, {Method::hybrid});
-  replay.seek(1);
-  ASSERT_TRUE(reaches(replay, State::paused, 1));
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->filters.at(0) != nullptr; }));
-  const auto searching = replay.snapshot()->filters[0];
-  ASSERT_TRUE(searching->place);
-  EXPECT_FALSE(searching->place->isKnown);
-  EXPECT_THAT(describe(*searching->place), testing::MatchesRegex("searching the start: [0-9]+ hypotheses"));
-  EXPECT_GT(searching->particles.size(), 20u) << "places all over the map";
-  EXPECT_FALSE(searching->lines.empty());
-  EXPECT_TRUE(searching->path.empty());
-  EXPECT_TRUE(searching->plot.empty());
-  EXPECT_GT(searching->map.width, 100) << "the map is known";
-
-  replay.setSpeed(0);
-  replay.play();
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
-  const auto found = replay.snapshot()->filters[0];
-  ASSERT_TRUE(found->place);
-  EXPECT_EQ(describe(*found->place), "localised");
-  EXPECT_EQ(found->map.grey, searching->map.grey) << "it stays as it is";
-  ASSERT_FALSE(found->path.empty());
-  EXPECT_LT(found->path.size(), found->updates) << "since the place has been known";
-  EXPECT_EQ(found->plot.size(), found->path.size());
-  for (size_t i = 1; i < found->path.size(); ++i)
-    EXPECT_LT((found->path[i] - found->path[i - 1]).norm(), 0.5) << "no jumps";
-}
-
-TEST_F(ReplayInAMap, MapsOnWhereThePlaceIsFound) {
-  now.run.continueFrom = session;
-  ReplaySession replay(now, {Method::hybrid});
-  replay.seek(1);
-  ASSERT_TRUE(reaches(replay, State::paused, 1));
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->filters.at(0) != nullptr; }));
-  EXPECT_TRUE(replay.snapshot()->filters[0]->place);
-  replay.saveMap(folder.path("saved"));
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->messages == 1; }));
-  EXPECT_THAT(replay.snapshot()->message, HasSubstr("place not found"));
-  replay.setSpeed(0);
-  replay.play();
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
-  EXPECT_FALSE(replay.snapshot()->filters[0]->place) << "it maps";
-  EXPECT_THAT(replay.snapshot()->note, HasSubstr("hybrid: place found after"));
-}
-
-TEST_F(ReplayInAMap, AFileThatIsNoMapFailsWithItsName) {
-  now.run.localizeIn = folder.write("none.hslam", "none");
-  ReplaySession replay(now, {Method::hybrid});
-  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::failed; }));
-  EXPECT_THAT(replay.snapshot()->message, HasSubstr("none.hslam"));
-}
-
 TEST_F(ReplaySessionTest, AnInvalidLogFailsWithItsName) {
   ReplaySession session(configuration(folder.path("missing.rawlog")), {Method::hybrid});
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::failed; }));
   EXPECT_THAT(session.snapshot()->message, HasSubstr("missing.rawlog"));
   session.play();  // tries again, and can be closed
-}
-
-TEST(UncertaintyEllipse, FollowsTheParticles) {
-  std::vector<WeightedPose> poses;
-  for (const double t : {-1., 1.}) poses.push_back({{3 + t, 4 + t, 0}, 0});
-  poses.push_back({{100, 0, 0}, -1000});  // has no weight
-  const UncertaintyEllipse e = uncertaintyOf(poses);
-  EXPECT_NEAR(e.centre.x, 3, 1e-9);
-  EXPECT_NEAR(e.centre.y, 4, 1e-9);
-  EXPECT_NEAR(e.major, std::sqrt(2), 1e-9);
-  EXPECT_NEAR(e.minor, 0, 1e-6);
-  EXPECT_NEAR(e.direction, M_PI / 4, 1e-9);
 }
 
 }  // namespace
