@@ -14,7 +14,8 @@ import statistics
 import sys
 
 SETUPS = {"paper": "the paper's set-up", "default": "the default settings"}
-WORLDS = {"csie": "CSIE", "intel": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079"}
+WORLDS = {"csie": "CSIE", "intel": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079",
+          "killian": "Killian Court"}
 METHODS = ["split", "incremental", "regression", "ransac", "hough", "em"]
 FIRST = METHODS[0]
 

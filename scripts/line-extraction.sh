@@ -3,7 +3,7 @@
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/line-extraction.sh [OUT]     OUT defaults to out/line-extraction
 #   scripts/line-extraction.sh lines [OUT]     only the lines, in a minute; without HYBRID_SLAM_DATASETS the simulation
 # Runs of the filter: SEEDS=5 with the default settings, PAPER_SEEDS=10 with the paper's set-up and 20 particles, from
-# FIRST_SEED=1 on, JOBS=1 at a time. Takes about 15 minutes of one core. Resumes after an interruption.
+# FIRST_SEED=1 on, JOBS=1 at a time. Takes about 25 minutes of one core. Resumes after an interruption.
 source "$(dirname "$0")/lib.sh"
 only=
 [[ ${1:-} != lines ]] || { only=lines && shift; }
@@ -30,7 +30,7 @@ fi
 
 : "${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}"
 simulated_worlds=(csie)
-public_worlds=(intel csail fr079)
+public_worlds=(intel csail fr079 killian)
 make_worlds "$out/worlds"
 options=(--methods hybrid --first-seed "$first" -j "${JOBS:-1}" -q)
 for method in incremental regression ransac hough em; do
@@ -42,5 +42,5 @@ filter() {
 }
 for world in csie intel; do filter paper "${PAPER_SEEDS:-10}" $world -n 20; done
 ini=config-ini/lms-logs.ini
-for world in csie intel csail fr079; do filter default "${SEEDS:-5}" $world; done
+for world in csie intel csail fr079 killian; do filter default "${SEEDS:-5}" $world; done
 exec scripts/line-extraction-table.py "$out"
