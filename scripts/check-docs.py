@@ -4,7 +4,8 @@ that the commands for users work.
 
   scripts/check-docs.py                 checks only the marks, instantly
   scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN (build/release/bin)
-  scripts/check-docs.py --commands [BIN]    instead runs the commands of the pages for users (`User` in mkdocs.yml)
+  scripts/check-docs.py --commands [BIN]    instead runs the commands of README.md and of the pages for users (`User`
+                                        in mkdocs.yml)
   --root FOLDER                         check the pages of another repository
 
 A mark is an HTML comment directly before the table or picture; there may be several:
@@ -235,7 +236,7 @@ def main():
     folder = options.commands or options.run
     checker = Checker(root, folder and root / folder)
     if options.commands:
-        pages = user_pages(root)
+        pages = [page for page in (root / "README.md", *user_pages(root)) if page.is_file()]
         for page in pages:
             checker.check_commands(page)
     else:

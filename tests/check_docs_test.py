@@ -129,6 +129,10 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual((code, lines[0]), (1, "doc/page.md:4: ended with 1: ''"))
         self.assertEqual(self.commands("<!-- first: echo hello >file -->\n```sh\ngrep hello file\n```\n"), (0, []))
 
+    def test_commands_of_the_readme_run(self):
+        self.write("README.md", "```sh\nfalse\n```\n")
+        self.assertEqual(self.commands("Text.\n"), (1, ["README.md:2: ended with 1: ''"]))
+
     def test_commands_that_are_not_run_say_why(self):
         self.assertEqual(self.commands("<!-- not run: needs a robot -->\n```sh\nfalse\n```\n"),
                          (0, ["doc/page.md:1: not run: needs a robot"]))
