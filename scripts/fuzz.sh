@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs each fuzz target of tests/fuzz (default: all) for some minutes under ASan and UBSan, from its corpus there.
 #   scripts/fuzz.sh MINUTES [TARGET...]
-# Prints executions, edges covered and crashes. New inputs are kept in build/fuzz/corpus/TARGET for the next run, those
-# that crash in build/fuzz/crashes. Exit status 1 if there is a crash.
+# Prints CPU time, executions, edges covered and crashes as a Markdown table. New inputs are kept in
+# build/fuzz/corpus/TARGET for the next run, those that crash in build/fuzz/crashes. Exit status 1 if there is a crash.
 source "$(dirname "$0")/lib.sh"
 [[ ${1:-} =~ ^[1-9][0-9]*$ ]] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 seconds=$((60 * $1))
@@ -20,18 +20,19 @@ export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 # libstdc++'s and MRPT's own allocations of claimed sizes fail as in a program with little memory.
 export ASAN_OPTIONS=allocator_may_return_null=1:quarantine_size_mb=32
 
-failed=0
-printf '%-12s %12s %8s %8s\n' target executions edges crashes
+failed=0 TIMEFORMAT=%U
+echo "| target | CPU (s) | executions | edges | crashes |"
+echo "|---|---|---|---|---|"
 for target in "${targets[@]}"; do
   corpus=build/fuzz/corpus/$target log=build/fuzz/logs/$target
   mkdir -p "$corpus"
   crashes=0
-  nice -n 10 build/fuzz/bin/"fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 -max_len=16384 \
-    -print_final_stats=1 -artifact_prefix="build/fuzz/crashes/$target-" "$corpus" "tests/fuzz/corpus/$target" \
-    >"$log" 2>&1 || crashes=1
+  { time nice -n 10 build/fuzz/bin/"fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 \
+    -max_len=16384 -print_final_stats=1 -artifact_prefix="build/fuzz/crashes/$target-" "$corpus" \
+    "tests/fuzz/corpus/$target" >"$log" 2>&1; } 2>"$log.time" || crashes=1
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   edges=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 | cut -d ' ' -f 2)
-  printf '%-12s %12s %8s %8s\n' "$target" "${executions:-?}" "${edges:-?}" "$crashes"
+  printf '| %s | %.0f | %s | %s | %s |\n' "$target" "$(<"$log.time")" "${executions:-?}" "${edges:-?}" "$crashes"
   [[ $crashes -eq 0 ]] || { failed=1; grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log" || tail -n 3 "$log"; }
 done
 exit $failed
