@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace hybrid_slam {
 
@@ -24,13 +23,7 @@ Eigen::Vector3d standardNormal(RandomStream& random) {
 }  // namespace
 
 ImprovedProposal::ImprovedProposal(const FilterConfiguration& c)
-    : options_(c.improved),
-      motion_(c.motion),
-      useLines_(c.useLines),
-      lines_(c),
-      lineWeight_(c.lineWeight),
-      features_(c.features),
-      matcher_(c.matcher) {}
+    : options_(c.improved), motion_(c.motion), terms_(c), matcher_(c.matcher) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
                                    const PreparedScan& scan, RandomStream& random) const {
@@ -38,23 +31,15 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const TPose2D start = particle.path.back() + stepMotion.start;
   const TPose2D predicted = stepMotion.hasSlipped ? start : motion.mean;
-  std::optional<LineLikelihood> lines;
-  if (useLines_) lines.emplace(scan.lines, predicted, *particle.lines, lines_);
-  std::optional<FeatureLikelihood> features;
-  if (features_.enabled)
-    features.emplace(scan.features, predicted, motion.covariance, *particle.features, features_);
+  const WeightTerms::Density terms(terms_, particle, scan, predicted, motion.covariance);
   const Prior prior = [&](const TPose2D& pose) {
     LogDensity density = gaussianLogDensity(pose, motion.mean, motionInformation);
-    if (lines) density += (*lines)(pose);
-    if (features) density += (*features)(pose);
+    density += terms(pose);
     return density;
   };
   ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
   const ScanMatch match = matcher_.match(likelihood, start, prior);
 
-  const auto lineWeightAt = [&](const TPose2D& pose) {
-    return lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
-  };
   Proposed proposed;
   proposed.fit = match.fit;
   proposed.isMatched = match.fit >= options_.minFit;
@@ -63,12 +48,8 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
                               ? sampleMotion(stepMotion.start, motion_, random)
                               : sampleMotion(stepMotion.odometry, particle.motion.model(motion_), random);
     proposed.pose = particle.path.back() + drawn;
-    proposed.logWeight = likelihood.value(proposed.pose);
-    if (lines) {
-      proposed.lineWeight = lineWeightAt(proposed.pose);
-      proposed.logWeight += (*lines)(proposed.pose).value;
-    }
-    if (features) proposed.logWeight += (*features)(proposed.pose).value;
+    proposed.logWeight = likelihood.value(proposed.pose) + terms(proposed.pose).value;
+    proposed.lineWeight = terms_.lineWeight(particle, proposed.pose, scan);
     return proposed;
   }
 
@@ -109,7 +90,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
       spread.transpositionsP().transpose() *
       Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
   proposed.pose = displaced(match.pose, mean + drawn);
-  if (lines) proposed.lineWeight = lineWeightAt(proposed.pose);
+  proposed.lineWeight = terms_.lineWeight(particle, proposed.pose, scan);
   return proposed;
 }
 

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "base/RandomStream.h"
-#include "slam/filter/FeatureLikelihood.h"
-#include "slam/filter/LineLikelihood.h"
 #include "slam/filter/SlipRecovery.h"
+#include "slam/filter/WeightTerms.h"
 
 namespace hybrid_slam {
 
@@ -37,10 +36,7 @@ class ImprovedProposal {
  private:
   ImprovedProposalOptions options_;
   MotionModelOptions motion_;
-  bool useLines_;
-  LineLikelihoodOptions lines_;
-  LineWeightOptions lineWeight_;
-  FeatureOptions features_;
+  WeightTerms terms_;
   ScanMatcher matcher_;
 };
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/RandomStream.h"
-#include "slam/filter/FeatureLikelihood.h"
 #include "slam/filter/Threads.h"
 #include "slam/motion/SpreadNormals.h"
 
@@ -41,11 +40,11 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       improvedExponent_(c.improved.exponent),
       association_(c.association),
       database_(c.databaseOptions()),
-      lineWeight_(c.lineWeight),
       features_(c.features),
       profiler_(profiler),
       gridWeight_(c.gridWeight, c.grid.resolution),
       lineMapWeight_(c.lineMap, c.grid.maxRange),
+      terms_(c),
       improvedProposal_(c),
       matcher_(c.matcher),
       newSlipRecovery_(c),
@@ -182,33 +181,23 @@ void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan
   step_.resampled = hasResampled();
 }
 
-// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9). Features are its future
-// work.
+// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9).
 ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose,
                                        const PreparedScan& scan) const {
   Weight weight;
   if (!useGrid_) {
     weight.logGrid = lineMapWeight_.meanLogLikelihood(scan.weighedBeams, pose, *particle.lines);
-    weight.line.seen = static_cast<int>(scan.lines.size());
+    weight.terms.line.seen = static_cast<int>(scan.lines.size());
     return weight;
   }
   weight.logGrid = gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, particle.grid);
-  if (useLines_) weight.line = lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_);
-  if (features_.enabled)
-    weight.logFeatures =
-        FeatureLikelihood(scan.features, pose, Eigen::Matrix3d::Zero(), *particle.features, features_)(pose)
-            .value;
+  weight.terms = terms_.at(particle, pose, scan);
   return weight;
-}
-
-/// w_grid^exponent x w_line x w_features: beams are far from independent, so only w_grid is tempered.
-double ParticleSet::Weight::log(double exponent) const {
-  return exponent * logGrid + std::log(line.value) + logFeatures;
 }
 
 void ParticleSet::setWeight(Particle& particle, const Weight& weight) const {
   particle.gridWeight = std::exp(weight.logGrid);
-  particle.lineWeight = weight.line;
+  particle.lineWeight = weight.terms.line;
 }
 
 double ParticleSet::logSumOfWeights() const {

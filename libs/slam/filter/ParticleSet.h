@@ -83,9 +83,10 @@ class ParticleSet : public MrptParticles {
  private:
   struct Weight {
     double logGrid;  ///< ln w_grid before tempering; without grids, that of the beams against the lines
-    LineWeight line;
-    double logFeatures = 0;
-    double log(double exponent) const;
+    WeightTerms::Value terms;
+    /// ln of w_grid^exponent x w_line x w_features: beams are far from independent, so only w_grid is
+    /// tempered.
+    double log(double exponent) const { return exponent * logGrid + terms.log(); }
   };
   void sampleFromMotionModel(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   void sampleAroundMatches(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
@@ -108,11 +109,11 @@ class ParticleSet : public MrptParticles {
   double exponent_, improvedExponent_;
   AssociationOptions association_;
   LineDatabaseOptions database_;
-  LineWeightOptions lineWeight_;
   FeatureOptions features_;
   mrpt::system::CTimeLogger* profiler_;
   GridWeight gridWeight_;
   LineMapWeight lineMapWeight_;
+  WeightTerms terms_;
   ImprovedProposal improvedProposal_;
   ScanMatcher matcher_;
   const SlipRecovery newSlipRecovery_;
