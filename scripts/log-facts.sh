@@ -33,7 +33,7 @@ broken.*/| \`$log\` | \1 | $beams | \2 | \3 | \4 |/"
       <"$work/malaga/metrics.json"
     ;;
   csie)
-    echo "| log | scans | odometry readings | way (m) | time (s) |"
+    echo "| log | scans | odometry readings | distance (m) | time (s) |"
     echo "|---|---|---|---|---|"
     for log in csie-loop csie-doorways csie-corridor csie; do
       simul-floorplan "config-ini/simul-$log.ini" -o "$work/$log.rawlog" | sed -E "s/.* ([0-9]+) scans, ([0-9]+) \
