@@ -37,7 +37,7 @@ struct GridWeightOptions : Options {
 ///     sum_w [prod_{v<w} (1 - P)] [1 - prod_w (1 - P)] sum_w P_i exp(...) / sum_w P_i.
 /// Noise and rounding make walls two or three cells thick. DP-SLAM's sum expects readings at the near side,
 /// although they end in the middle, which biases the pose away from the wall ahead: by 0.4 % of a corridor's
-/// length (doc/accuracy.md).
+/// length (doc/paper-notes.md).
 ///
 /// DP-SLAM weights each cell by the beam's length in it; steps do so on average, in a third of the time.
 class PenetrationModel {
