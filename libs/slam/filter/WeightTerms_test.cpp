@@ -57,7 +57,7 @@ TEST(WeightTerms, FeaturesThatMatchNothingCostTheSameInBothProposals) {
   PointFeature feature;
   feature.position = {1, 1};
   feature.covariance = 0.01 * Eigen::Matrix2d::Identity();
-  scene.particle.features.write().update({feature}, c.features);
+  for (int i = 0; i < c.features.minCount; ++i) scene.particle.features.write().update({feature}, c.features);
   feature.position = {5, 5};
   scene.scan.features = {feature};
   const double log = WeightTerms(c).at(scene.particle, TPose2D(), scene.scan).log();
