@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "testing/RingDrive.h"
+#include "testing/FilteredDrive.h"
 #include "testing/TestRoom.h"
 
 namespace hybrid_slam {
@@ -10,28 +10,9 @@ namespace {
 
 using namespace test;
 
-struct Mapped {
-  std::vector<TPose2D> path, truth, odometry;
-};
-
-Mapped map(OrthoFilter& filter, const std::vector<DrivenPose>& drive) {
-  Mapped mapped;
-  TPose2D odometry = drive[0].truth;
-  for (const DrivenPose& driven : drive) {
-    const size_t before = filter.updates();
-    filter.process(driven.motion, observed(driven.scans[0]));
-    odometry = odometry + driven.motion;
-    if (filter.updates() == before) continue;
-    mapped.truth.push_back(driven.truth);
-    mapped.odometry.push_back(odometry);
-  }
-  mapped.path = filter.bestPath();
-  return mapped;
-}
-
 TEST(OrthoFilter, CorrectsTheOdometryAroundARing) {
   OrthoFilter filter{FilterConfiguration(), OrthoOptions()};
-  const Mapped mapped = map(filter, ringDrive(0.3 * kDegree));
+  const FilteredDrive mapped = filtered(filter, ringDrive(0.3 * kDegree));
   EXPECT_GT(rms(mapped.odometry, mapped.truth), 3);
   EXPECT_LT(rms(mapped.path, mapped.truth), 0.2);
   EXPECT_NEAR(mapped.path.back().phi, mapped.truth.back().phi, 0.5 * kDegree);
@@ -52,7 +33,7 @@ TEST(OrthoFilter, SpreadIsThatOfTheState) {
   OrthoFilter filter{FilterConfiguration(), OrthoOptions()};
   std::vector<DrivenPose> drive = ringDrive(0);
   drive.resize(40);
-  map(filter, drive);
+  filtered(filter, drive);
   const auto points = filter.particlePoses();
   ASSERT_EQ(points.size(), 6u);
   double x = 0, xx = 0;
@@ -75,7 +56,7 @@ TEST(OrthoFilter, ScansWithoutLinesLeaveTheOdometry) {
         beam.range = 1 + static_cast<double>(k * 7 % 11);  // scattered
     }
   OrthoFilter filter{FilterConfiguration(), OrthoOptions()};
-  const Mapped mapped = map(filter, drive);
+  const FilteredDrive mapped = filtered(filter, drive);
   EXPECT_LT(rms(mapped.path, mapped.odometry), 1e-6);
   EXPECT_TRUE(filter.bestLines().empty());
   EXPECT_TRUE(filter.lastStep().frames.empty());
