@@ -84,6 +84,8 @@ struct FilterConfiguration {
   /// Without grids there is nothing to match scans to, nor to close loops with.
   bool usesMatches() const { return useGrid && filter.proposal == ParticleFilterOptions::Proposal::improved; }
   bool closesLoops() const { return useGrid && loopClosing.enabled; }
+  /// To close loops with; without grids, to show and save a map of them.
+  bool keepsScans() const { return closesLoops() || !useGrid; }
   /// Of the line databases.
   LineDatabaseOptions databaseOptions() const {
     LineDatabaseOptions options = database;

@@ -15,7 +15,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       updateAngle_(configuration.updateAngle()),
       prepare_(configuration),
       particles_(configuration, &profiler()),
-      remembersScans_(configuration.closesLoops() || !configuration.useGrid),
+      remembersScans_(configuration.keepsScans()),
       loopCloser_(configuration.loopClosing, configuration.grid),
       pathGrid_(configuration.grid) {
   checkMemory(configuration);
@@ -84,7 +84,7 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   for (PosedScans& known : known_) known.pose = origin + known.pose;
   loopCloser_.turn(origin.phi);
   continueFrom(path);
-  remembersScans_ = configuration_.closesLoops();
+  remembersScans_ = configuration_.keepsScans();
   if (!remembersScans_) updateScans_.clear();
 }
 

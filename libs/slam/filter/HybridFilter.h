@@ -33,14 +33,14 @@ class HybridFilter : public Filter {
   /// Of the best particle; without grids, the scans of the updates along its path.
   ScanMap bestMap() const { return {bestOccupancy(), *particles_.best().lines, *particles_.best().features}; }
 
-  /// Keeps the scans until `joinMap`, also without loop closing.
+  /// Keeps the scans at least until `joinMap`.
   void expectMap() { remembersScans_ = true; }
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures leave that map as it
   /// is.
   /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
 
-  /// Of each update, with loop closing or without grids; else empty.
+  /// Of each update if the configuration keepsScans(); else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
   /// Whether the map holds nothing else than these.
   bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }

@@ -53,5 +53,21 @@ TEST(LineMap, WithoutLinesTheMotionModelAlone) {
   EXPECT_DOUBLE_EQ(filter.lastStep().ess, 1);
 }
 
+TEST(LineMap, GoesOnInAnEarlierMap) {
+  const std::vector<DrivenPose> drive = ringDrive(0);
+  const auto part = [&](size_t from, size_t to) {
+    return std::vector<DrivenPose>(drive.begin() + from, drive.begin() + to);
+  };
+  HybridFilter first(lineMap()), second(lineMap());
+  filtered(first, part(0, 40));
+  filtered(second, part(40, 50));
+  second.joinMap(first.bestMap(), drive[49].truth);
+  filtered(second, part(50, 60));
+  const TPose2D end = second.bestPath().back(), truth = drive[59].truth;
+  EXPECT_LT(std::hypot(end.x - truth.x, end.y - truth.y), 0.3);
+  EXPECT_EQ(second.updateScans().size(), second.updates());
+  EXPECT_GT(second.bestGrid().getPos(static_cast<float>(end.x), static_cast<float>(end.y)), 0.6);
+}
+
 }  // namespace
 }  // namespace hybrid_slam
