@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Tables of doc/accuracy.md from the runs of scripts/accuracy.sh: accuracy-table.py OUT
 
-A run is lost if its mean translation error (m) is above 0.3, on Killian Court above 0.5, on DP-SLAM's loop if its revisit
-error is above 0.07, or if it failed.
+A run is lost if its error is above the bound of error_bounds.py, or if it failed.
 """
 import json
 import pathlib
 import statistics
 import sys
+
+from error_bounds import bounds
 
 LOGS = {
     "intel-lab": "Intel",
@@ -31,7 +32,6 @@ VARIANTS = {
     "no-learning": "odometry not learned",
     "no-refining": "no refinement",
 }
-LOST = {"mit-killian": 0.5, "dpslam-loop5": 0.07}
 # Mean translation errors (m): scan matching, GMapping and graph mapping from Kuemmerle et al. 2009, Cartographer from
 # Hess et al. 2016.
 PUBLISHED = {
@@ -64,7 +64,7 @@ def cell(log, folder, name="errors", digits=4):
     if not all_runs:
         return ""
     errors = [error_of(run[0]) if run else float("inf") for run in all_runs]
-    lost = sum(error > LOST.get(log, 0.3) for error in errors)
+    lost = sum(error > bounds(log)[1] for error in errors)
     text = f"{statistics.median(errors):.{digits}f} ({max(errors):.{digits}f})"
     return text + (f", {lost} of {len(errors)} lost" if lost else "")
 

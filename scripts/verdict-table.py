@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Counts the verdicts of scripts/verdict-campaign.sh by what the references say: verdict-table.py OUT
 
-Good: mean translation error of the relations (simulated: of the trajectory) below 0.1 m, lost: above 0.3 m (Killian
-Court: 0.3 m and 0.5 m). DP-SLAM's loop has no reference: good below a revisit error of 0.07 m, else lost.
+Good and lost: by the bounds of error_bounds.py.
 """
 import collections
 import csv
@@ -10,7 +9,8 @@ import json
 import pathlib
 import sys
 
-BOUNDS = {"killian": (0.3, 0.5), "dpslam": (0.07, 0.07)}
+from error_bounds import bounds
+
 FIGURES = ("trans_mean_m", "ate_rmse_m", "revisit_median_m")
 LEVELS = ("consistent", "doubtful", "lost")
 
@@ -26,7 +26,7 @@ def runs(out):
                 error = next((float(row[f]) for f in FIGURES if row.get(f)), None)
                 if error is None or not metrics.exists():
                     continue
-                good, lost = BOUNDS.get(world, (0.1, 0.3))
+                good, lost = bounds(world)
                 truth = "good" if error < good else "lost" if error > lost else "between"
                 yield world, f"{group}, {row['method']}", truth, json.loads(metrics.read_text())["verdict"]
 
