@@ -72,15 +72,12 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     auto hybrid = std::make_unique<HybridFilter>(configuration.filter);
     hybrid_ = hybrid.get();
     filter_ = std::move(hybrid);
-    base_ = std::move(map);
-    if (base_) hybrid_->expectMap();
-    if (base_)
-      search_ = std::make_unique<Localizer>(configuration.filter, base_->grid, base_->lines,
+    earlierMap_ = std::move(map);
+    if (earlierMap_)
+      search_ = std::make_unique<Localizer>(configuration.filter, earlierMap_->grid, earlierMap_->lines,
                                             configuration.run.start);
-    if (!configuration.run.priorPlan.empty()) {
-      hybrid_->expectMap();
-      planSearch_ = planSearchOf(configuration);
-    }
+    if (!configuration.run.priorPlan.empty()) planSearch_ = planSearchOf(configuration);
+    if (search_ || planSearch_) hybrid_->expectMap();
   }
   if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
   writeStepsHeader(steps_.stream());
@@ -122,7 +119,8 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(pose.x, 2) + ", " +
                    fixedText(pose.y, 2) + ") m, " + fixedText(pose.phi * 180 / M_PI, 1) +
                    " deg in the map of " + configuration_.run.continueFrom);
-  hybrid_->joinMap(*base_, pose);
+  hybrid_->joinMap(*earlierMap_, pose);
+  earlierMap_.reset();
   search_.reset();
 }
 
@@ -133,8 +131,7 @@ void FilterRun::searchPlan(const readings::Reading& reading) {
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
                    ", " + fixedText(found->pose.y, 2) + ") m, " + fixedText(found->pose.phi * 180 / M_PI, 1) +
                    " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 2));
-  base_ = found->map;
-  hybrid_->joinMap(*base_, found->pose);
+  hybrid_->joinMap(found->map, found->pose);
   planSearch_.reset();
 }
 

@@ -134,8 +134,8 @@ class FilterRun {
   std::unique_ptr<Filter> filter_;
   HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
   Localizer* localizer_ = nullptr;            ///< filter_, if it localises
-  std::optional<ScanMap> base_;               ///< of an earlier run, to map on in
-  std::unique_ptr<Localizer> search_;         ///< for the place in base_
+  std::optional<ScanMap> earlierMap_;         ///< to map on in, until the place in it is found
+  std::unique_ptr<Localizer> search_;         ///< for this place
   std::unique_ptr<PlanSearch> planSearch_;    ///< for the place in a floor plan
   std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
   files::GrowingFile steps_;

@@ -57,7 +57,8 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     if (use != Use::skipped)
       scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
   }
-  if (configuration_.filter.closesLoops() && !base_) {
+  const std::optional<ScanMap>& base = hybrid_->base();
+  if (configuration_.filter.closesLoops() && !base) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
@@ -72,19 +73,18 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
       for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
     }
   }
-  refine(scans, configuration_.filter, configuration_.run.refine, base_);
+  refine(scans, configuration_.filter, configuration_.run.refine, base);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
-  result.map = mapOf(scans, configuration_.filter, base_);
+  result.map = mapOf(scans, configuration_.filter, base);
   result.grid = toMrpt(result.map.grid);
   result.lines = result.map.lines.lines();
 }
 
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
-  if (search_) base_.reset();  // the map is in its own frame
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};

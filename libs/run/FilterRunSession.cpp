@@ -37,8 +37,8 @@ void FilterRun::visit(State& state) {
     hybrid_->load(state);
   else
     hybrid_->save(state);
-  state(base_, fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_,
-        particlesMax_, firstSlip_, recorder_, uses_, particleCovariances_);
+  state(fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_, particlesMax_,
+        firstSlip_, recorder_, uses_, particleCovariances_);
   visitTable(state, steps_);
   bool hasParticles = particles_.has_value(), hasScanOdometry = scanOdometry_.has_value();
   state(hasParticles, hasScanOdometry);
@@ -54,8 +54,7 @@ void FilterRun::visit(State& state) {
   }
   state.check(processed == scans_ && recorder_.updates().size() == scans_ && updates == hybrid_->updates() &&
                   (scans_ == 0 || recorder_.updates().back() == updates) && updateTimes_.size() == updates &&
-                  particleCovariances_.size() == updates &&
-                  (!base_ || base_->grid.resolution() == configuration_.filter.grid.resolution),
+                  particleCovariances_.size() == updates,
               "its readings do not belong to its path");
 }
 
@@ -90,6 +89,7 @@ void FilterRun::restore(const std::string& state) {
   StateReader in(state);
   in(updateTimes_);
   visit(in);
+  earlierMap_.reset();
   search_.reset();
   planSearch_.reset();
 }

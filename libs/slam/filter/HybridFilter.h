@@ -39,6 +39,8 @@ class HybridFilter : public Filter {
   /// is.
   /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
+  /// The map of `joinMap`.
+  const std::optional<ScanMap>& base() const { return base_; }
 
   /// Of each update if the configuration keepsScans(); else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
