@@ -37,6 +37,8 @@ using LaserScans = std::vector<LaserScan>;
 constexpr size_t kMaxLasers = 8;
 /// Of a scan: more than lasers have, few enough for line extraction.
 constexpr size_t kMostScanBeams = 10000;
+/// m; a sensor pose farther from the robot's centre is taken for an error.
+constexpr double kMaxSensorDistance = 100;
 
 /// The same as MRPT's observations, as logs and robots provide them. The sensor pose is relative to the robot
 /// pose of the latest scan.

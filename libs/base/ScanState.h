@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/LaserScan.h"
 #include "base/State.h"
 
 namespace hybrid_slam {
@@ -27,7 +28,7 @@ void visit(State& state, mrpt::obs::CObservation2DRangeScan& scan) {
   state(time, scan.sensorLabel, at, rotation, scan.aperture, scan.rightToLeft, scan.maxRange, ranges, valid);
   if constexpr (State::kIsReading) {
     state.check(valid.size() == ranges.size() && rotation.allFinite() && std::isfinite(scan.aperture) &&
-                    at.norm() <= 100,
+                    at.norm() <= kMaxSensorDistance,
                 "a scan is impossible");
     scan.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(time));
     scan.sensorPose.setRotationMatrix(mrpt::math::CMatrixDouble33(rotation));

@@ -42,9 +42,6 @@ class ScanGrouper {
   double firstTime_ = 0;  ///< s, of the current reading
 };
 
-/// m; a sensor pose farther from the robot's centre is taken for an error.
-constexpr double kMaxSensorDistance = 100;
-
 /// Why a laser is not used, for the user.
 std::string reasonOf(ScanGrouper::Use use);
 

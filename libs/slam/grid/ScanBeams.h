@@ -61,7 +61,7 @@ struct ScanBeams {
     state.check(origins.size() <= kMaxLasers, "too many lasers");
     for (const Ray& ray : rays) state.check(ray.laser < origins.size(), "a beam of no laser");
     for (const mrpt::math::TPoint2D& at : origins)
-      state.check(at.norm() <= 100, "a laser is not on the robot");
+      state.check(at.norm() <= kMaxSensorDistance, "a laser is not on the robot");
   }
 
  private:
