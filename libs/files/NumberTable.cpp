@@ -18,6 +18,13 @@ std::vector<std::string> words(const std::string& line) {
   return result;
 }
 
+std::vector<std::string> cells(const std::string& line) {
+  std::istringstream stream(line.substr(0, line.find('\r')));
+  std::vector<std::string> result;
+  for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
+  return result;
+}
+
 /// zlib also reads plain files.
 std::string readWhole(const std::string& file, const std::string& expected) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> input(gzopen(file.c_str(), "rb"), gzclose);
@@ -36,15 +43,20 @@ std::string readWhole(const std::string& file, const std::string& expected) {
 }  // namespace
 
 std::vector<NumberRow> readNumberTable(const std::string& file, const std::string& columns) {
-  const size_t width = words(columns).size();
+  const bool isCsv = columns.find(',') != std::string::npos;
+  const auto split = isCsv ? cells : words;
+  const size_t width = split(columns).size();
   const std::string expected = "expected lines of " + std::to_string(width) + " numbers, `" + columns + "`";
   std::istringstream text(readWhole(file, expected));
 
   std::vector<NumberRow> rows;
   std::string line;
   for (size_t number = 1; std::getline(text, line); ++number) {
-    const std::vector<std::string> entries = words(line);
-    if (entries.empty() || entries.front().front() == '#') continue;
+    const std::vector<std::string> entries = split(line);
+    if (isCsv && number == 1 && entries == split(columns)) continue;
+    if (isCsv && number == 1)
+      throw InputError("wrong header", "file `" + file + "`", "expected `" + columns + "`");
+    if (entries.empty() || line.front() == '#') continue;
     NumberRow row{number, {}};
     for (const std::string& entry : entries) {
       const auto value = parseFinite(entry);

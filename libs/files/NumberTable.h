@@ -15,9 +15,10 @@ struct NumberRow {
 };
 
 /// Reads the rows of a table in file order; empty lines and lines that begin with `#` are skipped.
-/// @param columns  column names separated by blanks: "t x y theta"
-/// @throws InputError for an unreadable or truncated file, for a line without exactly one finite number per
-/// column (with its number), and for a file without rows.
+/// @param columns  column names separated by blanks, "t x y theta", or by commas as in the file, "t,x,y": the
+///                 first line of the file is then this header
+/// @throws InputError for an unreadable or truncated file, for another header, for a line without exactly one
+/// finite number per column (with its number), and for a file without rows.
 std::vector<NumberRow> readNumberTable(const std::string& file, const std::string& columns);
 
 }  // namespace hybrid_slam::files

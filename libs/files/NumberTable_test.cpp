@@ -67,6 +67,20 @@ TEST_F(NumberTable, BrokenLinesAreNamed) {
   }
 }
 
+TEST_F(NumberTable, CommaSeparatedUnderAHeader) {
+  write("a,b\r\n1,-2\r\n\n3,4");
+  const auto rows = readNumberTable(file, "a,b");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_THAT(rows[0].values, ElementsAre(1, -2));
+  EXPECT_THAT(rows[1].values, ElementsAre(3, 4));
+  EXPECT_EQ(rows[1].line, 4u);
+  for (const char* text : {"1,2\n3,4\n", "b,a\n3,4\n", "a,b\n1\n", "a,b\n1,,2\n", "a,b\n1,2,3\n",
+                           "a,b\n1,x\n", "a,b\n1 2\n", "a,b\n"}) {
+    write(text);
+    EXPECT_THROW(readNumberTable(file, "a,b"), InputError) << text;
+  }
+}
+
 TEST_F(NumberTable, EmptyMissingAndUnreadableFiles) {
   EXPECT_THAT(error(), HasSubstr("cannot open the file: file `" + file + "`"));
   write("# nothing\n\n");

@@ -2,12 +2,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <array>
-#include <fstream>
-#include <sstream>
-
 #include "base/Errors.h"
-#include "base/Numbers.h"
+#include "files/NumberTable.h"
 #include "study/evaluation/Association.h"
 #include "study/evaluation/StampIndex.h"
 
@@ -19,33 +15,15 @@ namespace {
 
 constexpr double kChiSquare95 = 7.815;  // three degrees of freedom
 
-Eigen::Matrix3d covarianceIn(const std::string& line, const std::string& place) {
-  std::istringstream cells(line);
-  std::array<double, 7> values{};
-  size_t count = 0;
-  for (std::string cell; std::getline(cells, cell, ','); ++count) {
-    const auto value = parseFinite(cell);
-    if (!value || count == values.size())
-      throw InputError("broken line", place, "expected timestamp,xx,xy,yy,xphi,yphi,phiphi");
-    values[count] = *value;
-  }
-  if (count != values.size())
-    throw InputError("broken line", place, "expected timestamp,xx,xy,yy,xphi,yphi,phiphi");
-  const auto& [t, xx, xy, yy, xphi, yphi, phiphi] = values;
-  Eigen::Matrix3d covariance;
-  covariance << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
-  return covariance;
-}
-
 }  // namespace
 
 std::vector<Eigen::Matrix3d> loadCovariances(const std::string& file) {
-  std::ifstream in(file);
-  std::string line;
-  if (!std::getline(in, line)) throw InputError("cannot read", file, "expected a covariance file");
   std::vector<Eigen::Matrix3d> all;
-  for (size_t number = 2; std::getline(in, line); ++number)
-    all.push_back(covarianceIn(line, "line " + std::to_string(number) + " of " + file));
+  for (const files::NumberRow& row : files::readNumberTable(file, "timestamp,xx,xy,yy,xphi,yphi,phiphi")) {
+    const double xx = row.values[1], xy = row.values[2], yy = row.values[3];
+    const double xphi = row.values[4], yphi = row.values[5], phiphi = row.values[6];
+    all.emplace_back() << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
+  }
   return all;
 }
 

@@ -17,7 +17,7 @@ struct NormalizedErrors {
 };
 
 /// Reads `timestamp,xx,xy,yy,xphi,yphi,phiphi` (m, rad) under a header line.
-/// @throws InputError for an unreadable file or a broken line
+/// @throws InputError as readNumberTable
 std::vector<Eigen::Matrix3d> loadCovariances(const std::string& file);
 
 /// Both trajectories are taken relative to their first common pose, where the map frame begins.

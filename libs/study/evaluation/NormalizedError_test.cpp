@@ -48,6 +48,7 @@ TEST(NormalizedError, ReadsAFile) {
   EXPECT_EQ(all[0](2, 2), 4);
   EXPECT_THROW(loadCovariances(folder.write("short.csv", head + "1,2,3\n")), InputError);
   EXPECT_THROW(loadCovariances(folder.write("word.csv", head + "1,2,0.5,3,x,0.125,4\n")), InputError);
+  EXPECT_THROW(loadCovariances(folder.write("headless.csv", "1,2,0.5,3,0.25,0.125,4\n")), InputError);
   EXPECT_THROW(loadCovariances(folder.path("none.csv")), InputError);
 }
 
