@@ -187,7 +187,7 @@ TEST_F(Log2Rawlog, WrongInput) {
   ASSERT_EQ(convert(whole), 0);
   const std::string bytes = test::contentOf(rawlog);
   fs::remove(rawlog);
-  expectError(convert(folder.write("rawlog", bytes)), "not a robot log");
+  expectError(convert(folder.write("rawlog", bytes)), "already a rawlog");
 }
 
 TEST_F(Log2Rawlog, CutGzip) {

@@ -83,7 +83,7 @@ int convert(int argc, char** argv) {
   TopicArguments topics;
   CLI::App app{"Converts a robot's log into a rawlog."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
-  app.add_option("input", input, kLogMeans)->required()->type_name("in.clf[.gz]|in.bag|...");
+  app.add_option("input", input, kRobotLogMeans)->required()->type_name("in.clf[.gz]|in.bag|...");
   app.add_option("output", output, "the rawlog to write")->type_name("out.rawlog");
   topics.add(app);
   app.add_option("--format", format, "log format (default: detected from the content)")

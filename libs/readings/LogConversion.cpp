@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "base/Errors.h"
+#include "files/LineReader.h"
+#include "files/RawlogReader.h"
 #include "files/RawlogWriter.h"
 #include "readings/BagLog.h"
 
@@ -23,6 +25,15 @@ LogSummary convertBag(const std::string& file, files::RawlogWriter& writer,
   return summary;
 }
 
+bool isRawlog(const std::string& file) {
+  if (files::isText(file)) return false;
+  try {
+    return files::RawlogReader(file).next() != nullptr;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
@@ -37,6 +48,9 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
     writer.finish();
     return summary;
   }
+  if (isRawlog(logPath))
+    throw InputError("already a rawlog", logPath,
+                     "expected a bag or a text log; the other programs read a rawlog as it is");
   TextLog log(logPath, options, report);
   files::RawlogWriter writer(rawlogPath);
   while (const auto object = log.next()) writer.write(*object);
