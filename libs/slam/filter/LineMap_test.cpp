@@ -69,5 +69,15 @@ TEST(LineMap, GoesOnInAnEarlierMap) {
   EXPECT_GT(second.bestGrid().getPos(static_cast<float>(end.x), static_cast<float>(end.y)), 0.6);
 }
 
+TEST(LineMap, ItsShortLinesStayWhenItJoinsAMap) {
+  std::vector<DrivenPose> drive = ringDrive(0);
+  drive.resize(40);
+  HybridFilter filter(lineMap());
+  filtered(filter, drive);
+  const size_t before = filter.bestLines().size();
+  filter.joinMap({OccupancyGrid(lineMap().grid.resolution), LineDatabase()}, filter.bestPath().back());
+  EXPECT_EQ(filter.bestLines().size(), before);
+}
+
 }  // namespace
 }  // namespace hybrid_slam

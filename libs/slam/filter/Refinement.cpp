@@ -29,6 +29,7 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
               const std::optional<ScanMap>& base) {
   const ScanPreparation prepare(configuration);
+  const LineDatabaseOptions database = configuration.databaseOptions();
   ScanMap map{gridOf(scans, configuration.grid, base), base ? base->lines : LineDatabase(),
               base ? base->features : FeatureDatabase()};
   for (const PosedScans& posed : scans) {
@@ -36,7 +37,7 @@ ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& c
     const LaserScans scan = toLaserScans(posed.scans, configuration.grid.maxRange);
     std::vector<LineSegment> lines = prepare.lines(scan);
     for (LineSegment& line : lines) line = transformed(line, posed.pose);
-    map.lines.update(lines, configuration.database, configuration.association);
+    map.lines.update(lines, database, configuration.association);
     if (!configuration.features.enabled) continue;
     std::vector<PointFeature> features = prepare.features(scan);
     for (PointFeature& feature : features) feature = transformed(feature, posed.pose);
