@@ -141,7 +141,9 @@ std::vector<PlanLine> loadWalls(const std::string& file) {
   const std::string end = std::filesystem::path(file).extension();
   if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") return run::loadPlan(file);
   std::vector<PlanLine> walls;
+  double length = 0;
   for (const simulation::Wall& wall : simulation::readWalls(file)) {
+    run::checkPlanLength(length += wall.length(), file);
     const int pieces = wall.isArc() ? static_cast<int>(std::ceil(wall.length() / 0.1)) : 1;
     for (int i = 0; i < pieces; ++i)
       walls.push_back({wall.pointAt(static_cast<double>(i) / pieces), wall.pointAt((i + 1.0) / pieces)});

@@ -27,7 +27,12 @@ void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
 /// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF with LINE, LWPOLYLINE or POLYLINE (the
 /// unit of $INSUNITS; without it m), or an SVG that savePlanSvg wrote; told apart by the end of the name.
 /// Openings are left out.
-/// @throws InputError for an unreadable file, one of another kind, or one without walls
+/// @throws InputError for an unreadable file, one of another kind, one without walls, or as checkPlanLength
 std::vector<PlanLine> loadPlan(const std::string& file);
+
+/// Plans are compared and searched piece by piece: bounds their number.
+/// @param length  m, of all walls
+/// @throws InputError for over 300 km
+void checkPlanLength(double length, const std::string& file);
 
 }  // namespace hybrid_slam::run

@@ -107,6 +107,9 @@ TEST_F(PlanFiles, WhatIsNoPlanIsAnInputError) {
   EXPECT_THAT(errorOf("a.geojson",
                       R"({"features":[{"geometry":{"type":"LineString","coordinates":[[0,0],[1e9,0]]}}]})"),
               HasSubstr("impossible coordinate"));
+  EXPECT_THAT(errorOf("a.geojson",
+                      R"({"features":[{"geometry":{"type":"LineString","coordinates":[[0,0],[4e5,0]]}}]})"),
+              HasSubstr("walls of over 300 km"));
   EXPECT_THAT(errorOf("a.svg", "<svg/>"), HasSubstr("not a floor plan"));
   EXPECT_THAT(errorOf("a.svg", "<g id=\"walls\">\n<line x1=\"a\"/>\n</g>"), HasSubstr("not a floor plan"));
   EXPECT_THAT(errorOf("a.dxf", std::string(5000, 'x')), HasSubstr("not a floor plan"));

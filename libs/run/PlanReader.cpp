@@ -29,12 +29,16 @@ class Lines {
     for (const double value : {a.x, a.y, b.x, b.y})
       if (!(std::abs(value) <= kFarthest))
         throw InputError("impossible coordinate in a floor plan", file_, "expected metres, at most 1e6");
-    if ((b - a).norm() > 1e-6) all.push_back({a, b});
+    const double length = (b - a).norm();
+    if (length <= 1e-6) return;
+    checkPlanLength(length_ += length, file_);
+    all.push_back({a, b});
   }
   std::vector<PlanLine> all;
 
  private:
   const std::string& file_;
+  double length_ = 0;
 };
 
 // GeoJSON
@@ -160,6 +164,11 @@ bool endsWith(const std::string& file, const std::string& end) {
 }
 
 }  // namespace
+
+void checkPlanLength(double length, const std::string& file) {
+  constexpr double kMost = 3e5;  // m
+  if (!(length <= kMost)) throw InputError("walls of over 300 km", file, "expected a floor plan in metres");
+}
 
 std::vector<PlanLine> loadPlan(const std::string& file) {
   const std::string expected = "expected a floor plan: .geojson, .dxf, or .svg of hybrid-slam";
