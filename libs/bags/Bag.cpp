@@ -37,8 +37,8 @@ Kind kindOf(const std::string& path) {
 }  // namespace
 
 size_t Bag::topicOf(std::string_view name, std::string_view type, Encoding encoding) {
-  if (topics_.size() >= kMostTopics) throw BrokenBytes("it has over 10,000 topics");
   const auto [found, isNew] = indices_.try_emplace({printable(name), printable(type)}, topics_.size());
+  if (isNew && topics_.size() >= kMostTopics) throw BrokenBytes("it has over 10,000 topics");
   if (isNew) topics_.push_back({found->first.first, found->first.second, encoding, messageTypeOf(type)});
   return found->second;
 }

@@ -208,6 +208,31 @@ TEST(Rosbag2Database, OtherDatabasesAreNone) {
               HasSubstr("expected a ROS 2 recording"));
 }
 
+TEST(Rosbag2Database, TenThousandTopicsAreReadAndMoreAreNot) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
+  const auto addTopics = [&](int from, int to) {
+    sqlite3* database = nullptr;
+    sqlite3_open(path.c_str(), &database);
+    const std::string numbers = "WITH RECURSIVE n(i) AS (VALUES(" + std::to_string(from) +
+                                ") UNION ALL SELECT i + 1 FROM n WHERE i < " + std::to_string(to) + ") ";
+    EXPECT_EQ(
+        sqlite3_exec(database,
+                     (numbers + "INSERT INTO topics SELECT i, '/t' || i, 'a/B', 'cdr', '' FROM n").c_str(),
+                     nullptr, nullptr, nullptr),
+        SQLITE_OK);
+    sqlite3_close(database);
+  };
+  addTopics(3, 10000);
+  EXPECT_EQ(read(path).messages.size(), 2u);
+  const std::string copy = folder.path("folder/a.db3");
+  std::filesystem::create_directory(folder.path("folder"));
+  std::filesystem::copy(path, copy);
+  EXPECT_EQ(read(folder.path("folder")).defect, "");
+  addTopics(10001, 10001);
+  EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+}
+
 TEST(Rosbag2Database, DamagedDatabasesDoNoHarm) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), messages(50, Encoding::cdr));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "bags/ByteCursor.h"
 #include "base/Errors.h"
 #include "files/CompressedFile.h"
 
@@ -105,10 +106,14 @@ void Rosbag2Database::readTopics(const std::string& path) {
   const auto rows = query("SELECT id, name, type, serialization_format FROM topics");
   if (!rows) throw InputError("not a recording", path, kExpected);
   int state = SQLITE_ROW;
-  while ((state = sqlite3_step(rows.get())) == SQLITE_ROW && ids_.size() < 10000) {
-    const std::string format = textAt(rows.get(), 3);
-    const std::string type = textAt(rows.get(), 2) + (format == "cdr" ? "" : " (" + format + ")");
-    ids_[sqlite3_column_int64(rows.get(), 0)] = topicOf(textAt(rows.get(), 1), type, Encoding::cdr);
+  try {
+    while ((state = sqlite3_step(rows.get())) == SQLITE_ROW) {
+      const std::string format = textAt(rows.get(), 3);
+      const std::string type = textAt(rows.get(), 2) + (format == "cdr" ? "" : " (" + format + ")");
+      ids_[sqlite3_column_int64(rows.get(), 0)] = topicOf(textAt(rows.get(), 1), type, Encoding::cdr);
+    }
+  } catch (const BrokenBytes& broken) {
+    throw InputError("not readable", path, broken.what());
   }
   if (state != SQLITE_DONE)
     throw InputError(std::string("damaged database (") + sqlite3_errmsg(database_.get()) + ")", path,
