@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <stdexcept>
 
 #include "base/LaserScan.h"
@@ -74,6 +75,7 @@ std::string CHybridLineMap::asString() const {
 
 void CHybridLineMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
   std::ofstream file(prefix + ".csv");
+  file.imbue(std::locale::classic());
   writeLineTable(database_.lines(), file);
   file.close();
   if (!file) throw std::runtime_error("cannot write " + prefix + ".csv");

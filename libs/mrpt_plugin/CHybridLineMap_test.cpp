@@ -13,10 +13,13 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/State.h"
+#include "files/TemporaryFolder.h"
+#include "testing/CommaLocale.h"
 #include "testing/TestRoom.h"
 
 namespace hybrid_slam::mrpt_maps {
@@ -201,6 +204,23 @@ TEST(CHybridLineMap, AddsToTheLikelihoodOfSeveralMapsAndTheirCopies) {
   EXPECT_LT(lines, -0.1);
   EXPECT_DOUBLE_EQ(maps.computeObservationLikelihood(scan, turned), lines + points);
   EXPECT_DOUBLE_EQ(copy.computeObservationLikelihood(scan, turned), lines + points);
+}
+
+TEST(CHybridLineMap, IsSavedAndSerialisedAlikeInAnyLocale) {
+  const files::TemporaryFolder folder;
+  const CHybridLineMap map = someMap();
+  const std::string bytes = bytesOf(map);
+  map.saveMetricMapRepresentationToFile(folder.path("plain"));
+  {
+    const test::CommaLocale comma;  // of the program that loads the plugin
+    map.saveMetricMapRepresentationToFile(folder.path("comma"));
+    EXPECT_TRUE(bytesOf(map) == bytes);
+  }
+  const auto contentOf = [&](const std::string& name) {
+    std::ifstream file(folder.path(name));
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(contentOf("comma.csv"), contentOf("plain.csv"));
 }
 
 TEST(CHybridLineMap, IsDrawnUnlessSwitchedOff) {
