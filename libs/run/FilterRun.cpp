@@ -126,17 +126,18 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
 
 void FilterRun::searchPlan(const readings::Reading& reading) {
   planSearch_->process(reading.motion, reading.scans);
-  const auto& found = planSearch_->found();
+  if (!planSearch_->isOver()) return;
+  const std::unique_ptr<PlanSearch> search = std::move(planSearch_);
+  const auto& found = search->found();
   if (!found) return;
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
                    ", " + fixedText(found->pose.y, 2) + ") m, " + fixedText(found->pose.phi * 180 / M_PI, 1) +
                    " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 2));
   hybrid_->joinMap(found->map, found->pose);
-  planSearch_.reset();
 }
 
 std::string FilterRun::placeNote() const {
-  if (planSearch_)
+  if (hybrid_ && !configuration_.run.priorPlan.empty() && !hybrid_->base())
     return "place not found in the floor plan " + configuration_.run.priorPlan + ": " +
            std::to_string(scans_) + " scans, mapped in their own frame; --start X,Y,DEG gives the place";
   if (!search_) return {};

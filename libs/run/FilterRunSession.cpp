@@ -113,7 +113,7 @@ void FilterRun::saveIfDue() {
 }
 
 void FilterRun::saveToDatedFolder() {
-  if (search_) throw std::runtime_error(placeNote());
+  if (search_ || planSearch_) throw std::runtime_error(placeNote());
   const std::string name = files::claimDatedName([this](const std::string& date) {
     return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
   });
@@ -123,7 +123,7 @@ void FilterRun::saveToDatedFolder() {
 }
 
 void FilterRun::saveMapTo(const std::string& path) {
-  if (search_) throw std::runtime_error(placeNote());
+  if (search_ || planSearch_) throw std::runtime_error(placeNote());
   const files::OutputFolder folder(path);
   const auto grid = filter_->bestGrid();
   const auto trajectory = recorder_.trajectory(filter_->bestPath());

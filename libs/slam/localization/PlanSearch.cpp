@@ -73,8 +73,11 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   }
 }
 
+bool PlanSearch::isOver() const { return found_ || scans_ >= kLongestSearch; }
+
 void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
-  if (++scans_ > kLongestSearch) return;
+  if (isOver()) return;
+  ++scans_;
   for (Candidate& candidate : candidates_) {
     candidate.localizer->process(odometry, scans);
     if (found_ || !candidate.localizer->isLocalized()) continue;

@@ -22,7 +22,7 @@ class PlanSearch {
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
              std::optional<mrpt::math::TPose2D> start);
 
-  /// Searches with the first 100 scans; later ones change nothing.
+  /// Searches with the first 100 scans.
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans);
 
   struct Found {
@@ -32,6 +32,8 @@ class PlanSearch {
   };
   /// Once the robot has been found; of several scales the one nearest to 1.
   const std::optional<Found>& found() const { return found_; }
+  /// Found, or not with as many scans: further ones change nothing.
+  bool isOver() const;
 
  private:
   struct Candidate {

@@ -1,0 +1,40 @@
+#include "run/FilterRun.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+using testing::HasSubstr;
+
+// A search without end would keep its maps, and the run would have no checkpoints.
+TEST(FilterRun, SavesItselfOnceTheSearchInAPlanIsOver) {
+  const files::TemporaryFolder folder;
+  Configuration configuration("", {"run.output=" + folder.path("out"), "particle_filter.particles=2"});
+  configuration.run.priorPlan = folder.write(
+      "plan.geojson",
+      R"({"features":[{"geometry":{"type":"LineString","coordinates":[[0,0],[3,0],[3,2],[0,0]]}}]})");
+  FilterRun run(configuration);
+  readings::Reading reading;
+  const auto process = [&] {
+    const auto scan = test::scan(1000 + reading.timestamp, {}, 61);
+    for (size_t i = 0; i < 61; ++i) scan->setScanRange(i, i % 2 == 0 ? 4.F : 5.F);
+    reading.scans = {scan};
+    reading.timestamp += 1;
+    run.process(reading);
+  };
+  process();
+  EXPECT_EQ(run.state(), "");
+  EXPECT_THROW(run.saveMapTo(folder.path("early")), std::runtime_error);
+  for (int i = 0; i < 100; ++i) process();
+  EXPECT_NE(run.state(), "");
+  run.saveMapTo(folder.path("late"));
+  EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run
