@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "base/Errors.h"
@@ -231,6 +233,22 @@ TEST(Rosbag2Database, TenThousandTopicsAreReadAndMoreAreNot) {
   EXPECT_EQ(read(folder.path("folder")).defect, "");
   addTopics(10001, 10001);
   EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+}
+
+TEST(Rosbag2Database, NoSpaceToUnpackItIsAnError) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(500, Encoding::cdr));
+  const std::string packed = folder.write("a.db3.gz", files::gzipped(test::contentOf(path)));
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{100'000, before.rlim_max};  // the second write of 64 kB is short
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = errorOf(packed);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(error, HasSubstr("cannot unpack the database"));
+  EXPECT_THAT(error, HasSubstr("No space left"));
 }
 
 TEST(Rosbag2Database, DamagedDatabasesDoNoHarm) {

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <system_error>
 
 #include "bags/ByteCursor.h"
 #include "base/Errors.h"
@@ -29,7 +30,7 @@ class Unpacked {
     }
     path_ = std::filesystem::temp_directory_path() / "hybrid-slam-XXXXXX";
     descriptor_ = ::mkstemp(path_.data());
-    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), path_);
+    if (descriptor_ < 0) fail(errno);
     std::array<char, 1 << 16> block{};
     uint64_t total = 0;
     while (const size_t count = in.read(block.data(), block.size())) {
@@ -38,11 +39,8 @@ class Unpacked {
         remove();
         throw InputError("too large", path, "expected a database of at most 16 GiB");
       }
-      if (::write(descriptor_, block.data(), count) != static_cast<ssize_t>(count)) {
-        const int error = errno;
-        remove();
-        throw std::system_error(error, std::generic_category(), path_);
-      }
+      const ssize_t written = ::write(descriptor_, block.data(), count);
+      if (written != static_cast<ssize_t>(count)) fail(written < 0 ? errno : ENOSPC);
     }
     if (in.defect().empty()) return;
     remove();
@@ -54,6 +52,11 @@ class Unpacked {
   const std::string& path() const { return path_; }
 
  private:
+  [[noreturn]] void fail(int error) {
+    remove();
+    throw InputError("cannot unpack the database", path_,
+                     std::string("expected free space for temporary files: ") + std::strerror(error));
+  }
   void remove() {
     if (descriptor_ < 0) return;
     ::close(descriptor_);
