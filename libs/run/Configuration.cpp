@@ -34,6 +34,9 @@ void RunOptions::describe(OptionTable& t) {
   t.add("refine", refine, 0, 100,
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
         "not for linemap, ortho and stock");
+  t.add("retry_particles", retryParticles, 0, 100000,
+        "if a run with an adaptive number of particles is judged lost, the log is mapped once more with this "
+        "many; 0: never");
 }
 
 namespace {

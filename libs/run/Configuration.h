@@ -25,6 +25,7 @@ struct RunOptions : Options {
   std::string output = "out";
   int particlesEvery = 0;
   int refine = 1;
+  int retryParticles = 60;
 
   /// @name Of the command line alone
   /// @{
@@ -33,6 +34,7 @@ struct RunOptions : Options {
   std::string priorPlan;                         ///< floor plan (PlanFiles.h) to begin with; empty: none
   std::optional<mrpt::math::TPose2D> start;      ///< in that map or plan (m, rad); empty: to be found
   double checkpointEvery = 0;                    ///< s of work between checkpoints; 0: none
+  bool isRetry = false;  ///< a checkpoint in the output folder is of this program's run
   /// @}
   void describe(OptionTable& table) override;
 };

@@ -1,0 +1,85 @@
+/// A run that is judged lost is repeated with more particles.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "ChildProgram.h"
+#include "HybridSlamProgram.h"
+
+namespace hybrid_slam {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kLog = SOURCE_DIR "/datasets/csie/csie-loop.rawlog";
+
+class LostRun : public HybridSlam {
+ protected:
+  LostRun() { ini = SOURCE_DIR "/config-ini/csie-lms100.ini"; }
+  /// A single particle does not close the loop.
+  static std::string retrying(int particles, const std::string& number = "0") {
+    return "-n " + number +
+           " --set particle_filter.min_particles=1 --set particle_filter.max_particles=1 --set "
+           "run.retry_particles=" +
+           std::to_string(particles);
+  }
+  nlohmann::json metrics() const { return nlohmann::json::parse(result("metrics.json")); }
+};
+
+TEST_F(LostRun, IsRepeatedWithMoreParticles) {
+  ASSERT_EQ(replay(kLog, retrying(20)), 0) << err;
+  EXPECT_THAT(err, HasSubstr("verdict: lost: "));
+  EXPECT_THAT(err, HasSubstr("second run, with 20 particles\n"));
+  EXPECT_THAT(out, HasSubstr("verdict: consistent"));
+  EXPECT_EQ(metrics()["second_run"], true);
+  EXPECT_EQ(metrics()["particles_min"], 20);
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(test::kResults));
+  const std::string trajectory = result("trajectory.tum"), covariance = result("covariance.csv");
+  ASSERT_EQ(replay(kLog, "-n 20"), 0) << err;
+  EXPECT_EQ(result("trajectory.tum"), trajectory);
+  EXPECT_EQ(result("covariance.csv"), covariance);
+  EXPECT_EQ(metrics()["second_run"], false);
+}
+
+TEST_F(LostRun, IsKeptWithoutASecondRunOrWithAFixedNumber) {
+  for (const std::string& options : {retrying(0), retrying(20, "1")}) {
+    ASSERT_EQ(replay(kLog, options), 0) << err;
+    EXPECT_THAT(err, Not(HasSubstr("second run")));
+    EXPECT_EQ(metrics()["verdict"], "lost");
+    EXPECT_EQ(metrics()["second_run"], false);
+  }
+}
+
+TEST_F(LostRun, AStoppedSecondRunLeavesTheResultsOfTheFirst) {
+  ASSERT_EQ(replay(kLog, retrying(0)), 0) << err;
+  const std::string trajectory = result("trajectory.tum");
+  std::vector<std::string> arguments{HYBRID_SLAM, "-n", "0", "--overwrite", "-o", output, ini, kLog};
+  for (const char* setting :
+       {"particle_filter.min_particles=1", "particle_filter.max_particles=1", "run.retry_particles=3000"}) {
+    arguments.emplace_back("--set");
+    arguments.emplace_back(setting);
+  }
+  test::ChildProgram program(folder, "run", arguments);
+  EXPECT_TRUE(test::happens(
+      [&] { return program.hasEnded() || program.err().find("second run") != std::string::npos; }));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.err(), HasSubstr("warning: no results of a second run: interrupted: entry "));
+  EXPECT_EQ(result("trajectory.tum"), trajectory);
+  EXPECT_EQ(metrics()["complete"], true);
+  EXPECT_EQ(metrics()["verdict"], "lost");
+}
+
+TEST_F(LostRun, TheSecondRunReplacesTheCheckpointsOfTheFirst) {
+  ASSERT_EQ(replay(kLog, retrying(20) + " --checkpoint-every 0.05"), 0) << err;
+  EXPECT_THAT(results(), testing::UnorderedElementsAreArray(test::kResults)) << "and no dated subfolder";
+  EXPECT_EQ(metrics()["second_run"], true);
+  ASSERT_EQ(run("--resume '" + output + "/session.hslam'"), 0) << err;
+  EXPECT_EQ(metrics()["particles_min"], 20);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
