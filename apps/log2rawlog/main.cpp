@@ -71,6 +71,12 @@ void warnOfJumps(const std::string& input, const readings::LogSummary& s, const 
   warnOf(s.timeJumps, "time jumps of over a day", s.firstTimeJump);
 }
 
+void warnOfWrongSweeps(const std::string& input, const readings::LogSummary& s) {
+  if (s.wrongSweeps > 0)
+    warn({std::to_string(s.wrongSweeps) + " scans with a time from beam to beam that cannot be true: " +
+          input + "; they will not be corrected for the robot's motion"});
+}
+
 int convert(int argc, char** argv) {
   std::string input, output;
   readings::LogConversionOptions options;
@@ -146,6 +152,7 @@ int convert(int argc, char** argv) {
   warnOfNoReturns(input, summary.longestRange);
   if (options.maxRange) warnOfShortRange(input, summary, *options.maxRange);
   warnOfJumps(input, summary, unit);
+  warnOfWrongSweeps(input, summary);
   printSummary(output, summary, isBag);
   return 0;
 }

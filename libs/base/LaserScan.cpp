@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/BeamFan.h"
 #include "base/Errors.h"
 
 namespace hybrid_slam {
@@ -16,31 +17,23 @@ bool isHorizontal(const mrpt::obs::CObservation2DRangeScan& observation) {
 }
 
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange) {
-  const auto rotation = observation.sensorPose.getRotationMatrix();
   if (!isHorizontal(observation))
     throw InputError("the laser's scan plane is tilted", "sensor `" + observation.sensorLabel + "`",
                      "expected a horizontal plane within 5 deg, upright or upside down");
-  const bool upsideDown = rotation(2, 2) < 0;
-
+  const BeamFan fan(observation);
   LaserScan scan;
   scan.timestamp = observation.timestamp;
-  // Heading of the sensor's x axis, which stays in the plane even if the sensor is upside down.
-  scan.sensorPose = {observation.sensorPose.x(), observation.sensorPose.y(),
-                     std::atan2(rotation(1, 0), rotation(0, 0))};
+  scan.sensorPose = fan.sensorPose();
   scan.maxRange = observation.maxRange > 0 ? std::min<double>(maxRange, observation.maxRange) : maxRange;
 
-  const size_t n = observation.getScanSize();
-  const double aperture = observation.aperture;
-  const double step = n > 1 ? aperture / static_cast<double>(n - 1) : 0;
-  const bool reversed = observation.rightToLeft == upsideDown;  // angles decrease with the beam index
+  const size_t n = fan.beams();
   const size_t every = std::max<size_t>(1, (n + kMostScanBeams - 1) / kMostScanBeams),
                count = (n + every - 1) / every;
   scan.beams.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    Beam& beam = scan.beams[reversed ? count - 1 - i : i];
+    Beam& beam = scan.beams[fan.isReversed() ? count - 1 - i : i];
     const size_t logged = i * every;
-    const double rise = -0.5 * aperture + static_cast<double>(logged) * step;
-    beam.angle = n == 1 ? 0 : (reversed ? -rise : rise);
+    beam.angle = fan.angle(logged);
     beam.range = observation.getScanRange(logged);
     beam.valid = observation.getScanRangeValidity(logged) && std::isfinite(beam.range) && beam.range > 0 &&
                  beam.range < scan.maxRange;

@@ -21,7 +21,8 @@ struct Beam {
   bool valid = false;  ///< finite, positive, below the maximum range, and marked valid by the sensor
 };
 
-/// The beams of one planar scan by ascending angle, and the sensor pose on the robot.
+/// The beams of one planar scan by ascending angle, and the sensor pose on the robot. The beams of a deskewed
+/// scan keep the order of the sweep: where they moved, neighbours may have changed places by a little.
 ///
 /// Scans of a laser mounted upside down, or with clockwise beams (`rightToLeft == false`), are already
 /// mirrored.

@@ -39,6 +39,19 @@ void OptionTable::add(const std::string& key, double& value, double low, double 
                       }});
 }
 
+void OptionTable::add(const std::string& key, std::optional<double>& value, const std::string& unset,
+                      double low, double high, const std::string& unit, const std::string& why) {
+  const std::string expected = "expected " + unset + " or a number in " + rangeText(low, high) + " " + unit;
+  options_.push_back({key, unit, unset + " or " + rangeText(low, high), why,
+                      [&value, unset] { return value ? numberText(*value) : unset; },
+                      [&value, unset, low, high, expected](const std::string& text) -> std::string {
+                        const auto number = parseFinite(text);
+                        if (text != unset && (!number || *number < low || *number > high)) return expected;
+                        value = text == unset ? std::nullopt : number;
+                        return {};
+                      }});
+}
+
 void OptionTable::addAngle(const std::string& key, double& radians, double lowDeg, double highDeg,
                            const std::string& why) {
   const std::string expected = "expected a number in " + rangeText(lowDeg, highDeg) + " deg";

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,9 @@ class OptionTable {
   /// A real number in [low, high].
   void add(const std::string& key, double& value, double low, double high, const std::string& unit,
            const std::string& why);
+  /// Likewise, or a word for a value that is not set.
+  void add(const std::string& key, std::optional<double>& value, const std::string& unset, double low,
+           double high, const std::string& unit, const std::string& why);
   /// An angle: degrees in the file, radians in the member; the range is in degrees.
   void addAngle(const std::string& key, double& radians, double lowDeg, double highDeg,
                 const std::string& why);

@@ -4,41 +4,63 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "base/DeskewedScan.h"
 #include "base/LaserScan.h"
 #include "base/State.h"
 
 namespace hybrid_slam {
 
+/// Any scan is read as one that can have angles for each beam.
+template <>
+inline std::shared_ptr<mrpt::obs::CObservation2DRangeScan> newShared() {
+  return std::make_shared<DeskewedScan>();
+}
+
 /// What toLaserScan uses, to the bit: ranges that are not numbers too, and the sensor's rotation as a matrix.
+/// The first beam tells whether the scan has angles for each beam; other scans are written as before there
+/// were such.
 template <class State>
 void visit(State& state, mrpt::obs::CObservation2DRangeScan& scan) {
   auto time = static_cast<int64_t>(scan.timestamp.time_since_epoch().count());
   mrpt::math::TPoint2D at(scan.sensorPose.x(), scan.sensorPose.y());
   Eigen::Matrix3d rotation = scan.sensorPose.getRotationMatrix().asEigen();
   std::vector<uint32_t> ranges(scan.getScanSize());
-  std::vector<uint8_t> valid(ranges.size());
+  constexpr uint8_t kIsValid = 1, kHasAngles = 2;
+  std::vector<uint8_t> flags(ranges.size());
   for (size_t i = 0; i < ranges.size(); ++i) {
     const float range = scan.getScanRange(i);
     std::memcpy(&ranges[i], &range, sizeof range);
-    valid[i] = scan.getScanRangeValidity(i);
+    flags[i] = scan.getScanRangeValidity(i) ? kIsValid : 0;
   }
-  state(time, scan.sensorLabel, at, rotation, scan.aperture, scan.rightToLeft, scan.maxRange, ranges, valid);
+  auto* const deskewed = dynamic_cast<DeskewedScan*>(&scan);
+  std::vector<double> angles = deskewed ? deskewed->angles : std::vector<double>();
+  if (!angles.empty()) flags[0] |= kHasAngles;
+  state(time, scan.sensorLabel, at, rotation, scan.aperture, scan.rightToLeft, scan.maxRange, ranges, flags);
+  if (!flags.empty() && (flags[0] & kHasAngles)) state(angles);
   if constexpr (State::kIsReading) {
-    state.check(valid.size() == ranges.size() && rotation.allFinite() && std::isfinite(scan.aperture) &&
-                    at.norm() <= kMaxSensorDistance,
+    const bool areAnglesWhole = angles.empty() || (deskewed && angles.size() == ranges.size() &&
+                                                   std::all_of(angles.begin(), angles.end(),
+                                                               [](double a) { return std::abs(a) < 100; }));
+    state.check(flags.size() == ranges.size() && areAnglesWhole && rotation.allFinite() &&
+                    std::isfinite(scan.aperture) && at.norm() <= kMaxSensorDistance,
                 "a scan is impossible");
     scan.timestamp = mrpt::Clock::time_point(mrpt::Clock::duration(time));
     scan.sensorPose.setRotationMatrix(mrpt::math::CMatrixDouble33(rotation));
     scan.sensorPose.x(at.x), scan.sensorPose.y(at.y);
+    if (deskewed) deskewed->angles = std::move(angles);
     scan.resizeScan(ranges.size());
     for (size_t i = 0; i < ranges.size(); ++i) {
       float range;
       std::memcpy(&range, &ranges[i], sizeof range);
       scan.setScanRange(i, range);
-      scan.setScanRangeValidity(i, valid[i]);
+      scan.setScanRangeValidity(i, flags[i] & kIsValid);
     }
   }
 }

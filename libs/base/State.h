@@ -183,6 +183,12 @@ class StateWriter : public State<StateWriter> {
   std::map<std::type_index, std::map<const void*, uint32_t>> numbers_;
 };
 
+/// A shared value to read into; specialised where that is an object of a derived class.
+template <class T>
+std::shared_ptr<T> newShared() {
+  return std::make_shared<T>();
+}
+
 class StateReader : public State<StateReader> {
  public:
   static constexpr bool kIsReading = true;
@@ -225,7 +231,7 @@ class StateReader : public State<StateReader> {
     const auto number = read<uint32_t>();
     if (number == 0) return;
     if (number != values_[typeid(T)].size() + 1) return (void)(value = at<T>(number));
-    value = std::make_shared<T>();
+    value = newShared<T>();
     add(value);
     (*this)(*value);
   }

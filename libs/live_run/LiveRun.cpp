@@ -42,7 +42,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
       run_(configuration),
       recording_(run_.folder(), recordingName(options), log),
       assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
-                 configuration.input.maxOdometryGap),
+                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true)),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
   run_.setBeforeSession([this] { recording_.flush(); });
@@ -66,7 +66,7 @@ void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, C
     }
     hasOdometry_ = true;
     for (const Arrived& arrived : std::exchange(early_, {})) pass(arrived);
-  } else if (requiresOdometry && !hasOdometry_) {
+  } else if (requiresOdometry && !hasOdometry_ && !readings::sweepTimeIn(*observation)) {
     early_.emplace_back(observation, arrival);
     if (early_.size() <= kEarly) return;
     early_.pop_front();

@@ -84,6 +84,7 @@ void BagLog::hold(const bags::ScanMessage& scan, double recorded, const BagPlan:
   record.label = laser.topic;
   record.ranges = scan.ranges;
   record.angles = {scan.angleMin, scan.angleStep};
+  record.sweep = scan.timeStep * static_cast<double>(scan.ranges.size() - 1);
   record.mounting = laser.pose;
   if (!laser.isMountingKnown) record.mounting->x = options_.laserX.value_or(0);
   record.minRange = std::isfinite(scan.rangeMin) ? scan.rangeMin : 0;

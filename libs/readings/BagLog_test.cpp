@@ -8,6 +8,7 @@
 #include "readings/LogReader.h"
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
+#include "readings/SweepTimes.h"
 #include "testing/TestBags.h"
 
 namespace hybrid_slam::readings {
@@ -71,6 +72,39 @@ class BagLogTest : public testing::Test {
 
   files::TemporaryFolder folder;
 };
+
+/// time_increment is 1 ms in these messages.
+TEST_F(BagLogTest, TheTimeFromTheFirstBeamToTheLastIsStatedBeforeTheScans) {
+  using mrpt::obs::CObservationComment;
+  const auto one = [](const std::string& topic, double time, size_t beams) {
+    return scanOn(topic, time, "laser", std::vector<float>(beams, 1), -1, 0.01F);
+  };
+  const auto comments =
+      read<CObservationComment>({one("/scan", 1, 101), one("/scan", 2, 101), one("/scan", 3, 51)});
+  ASSERT_EQ(comments.size(), 2) << "the first, and another one";
+  const auto first = sweepTimeIn(*comments[0]), second = sweepTimeIn(*comments[1]);
+  EXPECT_EQ(first->label, "/scan");
+  EXPECT_NEAR(first->seconds, 0.1, 1e-6);
+  EXPECT_NEAR(second->seconds, 0.05, 1e-6);
+  EXPECT_NEAR(seconds(comments[1]->timestamp), 3, 1e-6);
+}
+
+TEST_F(BagLogTest, AnImpossibleTimeFromBeamToBeamIsReportedAndNotUsed) {
+  const std::string file =
+      write({odometryAt(0.9, {}), scanOn("/scan", 1, "laser", std::vector<float>(2000, 1), -1, 0.001F),
+             odometryAt(1.1, {1, 0, 0}), odometryAt(4, {2, 0, 0})});
+  const RawlogSummary log = summarise(file, {});
+  EXPECT_EQ(log.wrongSweeps.count, 1);
+  EXPECT_TRUE(log.sweeps.empty());
+  EXPECT_THAT(warningsOf(log, file),
+              testing::Contains(HasSubstr("1 scan times (first beam to last) below 0 or over 1 s")));
+}
+
+TEST_F(BagLogTest, WithoutOdometryAWarningSaysThatBeamsAreNotCorrected) {
+  const std::string file = write({scanOn("/scan", 1, "laser"), scanOn("/scan", 2, "laser")});
+  EXPECT_THAT(warningsOf(summarise(file, {}), file),
+              testing::Contains(HasSubstr("without odometry the beams are not corrected")));
+}
 
 /// Beams from 0 to 1 rad: MRPT's fan is symmetric, about 0.5 rad.
 TEST_F(BagLogTest, ScanOfAnyApertureHasItsBeamsWhereTheyWere) {

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "readings/ReadingAssembler.h"
+#include "readings/SweepTimes.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -80,15 +82,21 @@ void LogObjects::operator()(const LaserRecord& record) {
   for (const auto range : record.ranges)
     if (range > 0 && std::isfinite(range)) ++summary.ranges, summary.rangesBeyond += range >= maxRange_;
   const auto observation = observationOf(record, maxRange_);
+  summary.wrongSweeps += !isSweepTime(record.sweep);
+  const double sweepBefore = std::exchange(sweeps_[record.label], record.sweep);
+  const auto comment =
+      sweepBefore == record.sweep ? nullptr : commentOf({record.label, record.sweep}, observation->timestamp);
   for (size_t i = 0; i < observation->getScanSize(); ++i)
     if (observation->getScanRangeValidity(i))
       summary.longestRange = std::max(summary.longestRange, observation->getScanRange(i));
   if (actionObservation_) {
     writeActionUpTo(record.time);
     auto frame = mrpt::obs::CSensoryFrame::Create();
+    if (comment) frame->insert(comment);
     frame->insert(observation);
     ready_.push_back(frame);
   } else {
+    if (comment) ready_.push_back(comment);
     ready_.push_back(observation);
   }
 }

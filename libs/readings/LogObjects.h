@@ -25,6 +25,7 @@ struct LogSummary {
   double earliest = 0, latest = 0;             ///< s
   double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
   float longestRange = 0;                      ///< m, among the valid readings
+  size_t wrongSweeps = 0;                      ///< scans that state an impossible scan time
   size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
   /// Odometry readings over kMaxStep apart, rows over a day apart: how many, and the line of the first (text
   /// logs).
@@ -32,7 +33,8 @@ struct LogSummary {
 };
 
 /// Turns records into rawlog objects, in either form, and gathers the summary. Odometry is labelled
-/// `ODOMETRY`, a scan by its record's label.
+/// `ODOMETRY`, a scan by its record's label. A comment precedes the first scan of a laser whose scan time is
+/// known, and each scan from which on it is another (SweepTimes.h).
 ///
 /// MRPT's scans are symmetric about the sensor's x axis; the offset of an asymmetric fan goes into the yaw of
 /// the sensor pose (-0.5 deg for 180 beams from -90 to +89 deg).
@@ -60,6 +62,7 @@ class LogObjects {
   std::deque<mrpt::serialization::CSerializable::Ptr> ready_;
   double maxRange_;
   bool actionObservation_;
+  std::map<std::string, double> sweeps_;  ///< s, of each laser, as written
   std::optional<OdometryRecord> last_;
   double lastTime_ = 0;                             ///< s, of the record before
   std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry

@@ -36,6 +36,7 @@ struct LaserRecord {
   BeamAngles angles;
   mrpt::math::TPose2D laserPose;                ///< in the robot frame
   std::optional<mrpt::math::TPose3D> mounting;  ///< instead of laserPose, where its height and tilt are known
+  double sweep = 0;                             ///< s, from the first beam to the last; 0: not known
   double minRange = 0;                          ///< m; nearer readings are no returns
   std::optional<double> maxRange;               ///< m, if in the row
   std::optional<mrpt::math::TPose2D> odometry;  ///< the robot at the scan's time, if in the row

@@ -1,5 +1,6 @@
 #include "readings/LogWarnings.h"
 
+#include "base/Numbers.h"
 #include "readings/BagPlan.h"
 
 namespace hybrid_slam::readings {
@@ -22,6 +23,12 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
   add(log.noOdometry, "actions without odometry", "taken as no motion");
   add(log.jumps, "odometry jumps of over 100 m", "taken as no motion");
+  add(log.wrongSweeps, "scan times (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",
+      "these scans are not corrected for the robot's motion");
+  for (const auto& [label, seconds] : log.sweeps)
+    if (!log.isDeskewed)
+      all.push_back("laser `" + label + "` takes " + fixedText(1000 * seconds, 1) + " ms for a scan: " +
+                    file + "; without odometry the beams are not corrected for the robot's motion");
   if (log.bag) all.insert(all.end(), log.bag->notes.begin(), log.bag->notes.end());
   all.insert(all.end(), log.ignored.begin(), log.ignored.end());
   return all;

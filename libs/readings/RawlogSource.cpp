@@ -60,6 +60,13 @@ void InputOptions::describe(OptionTable& t) {
         "matching");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
         "largest gap between odometry readings for interpolation at a scan's time");
+  t.add("scan_time", scanTime, "auto", 0, kLongestSweep, "s",
+        "time from the first beam of a scan to the last, for the correction by the robot's motion; auto: as "
+        "the log tells; 0: no correction");
+}
+
+SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
+  return hasOdometry && options.requireOdometry ? SweepTimes(options.scanTime) : SweepTimes(0);
 }
 
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
@@ -71,6 +78,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
         std::make_shared<const BagPlan>(planOf(contentsOf(file), {wanted, options.odometryTopic}, file));
   LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
+  SweepTimes sweeps(options.scanTime);
   ScanGrouper grouper(wanted, options.maxOdometryGap);
   Uses uses;
   std::map<std::string, double> last;  // stamp of each laser's scan before
@@ -98,6 +106,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (use == ScanGrouper::Use::tilted) return note(summary.tilted, reader.entry());
     if (use != ScanGrouper::Use::taken) return;
     grouper.add(scan);
+    if (const double sweep = sweeps.of(scan); sweep > 0) summary.sweeps[scan.sensorLabel] = sweep;
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
     const bool isFirst = last.empty();
@@ -118,6 +127,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
       note(summary.noOdometry, reader.entry());
     }
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
+      if (const auto sweep = sweepTimeIn(*observation)) {
+        sweeps.take(*sweep);
+        if (!isSweepTime(sweep->seconds)) note(summary.wrongSweeps, reader.entry());
+      }
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
         if (grouper.useOf(*scan) == ScanGrouper::Use::taken) grouper.expect(scan->sensorLabel);
     });
@@ -139,6 +152,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.scans = grouper.readings();
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
   noteIgnored(summary, uses);
+  summary.isDeskewed =
+      options.requireOdometry && summary.hasMotion && (summary.hasActions || summary.hasOdometryReadings);
 
   if (uses.empty())
     throw InputError("no laser scans", file, "expected objects of class CObservation2DRangeScan");
@@ -160,7 +175,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : file_(file),
       reader_(file, summary.bag),
-      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap) {}
+      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap,
+                 sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings)) {}
 
 std::string RawlogSource::place() const { return placeOf(reader_, file_); }
 

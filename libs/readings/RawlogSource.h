@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,8 +22,12 @@ struct InputOptions : Options {
   std::string odometryTopic;  ///< of a bag
   bool requireOdometry = true;
   double maxOdometryGap = 1;
+  std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log tells
   void describe(OptionTable& table) override;
 };
+
+/// The times of the lasers' sweeps; none without odometry, by which beams are corrected.
+SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry);
 
 /// Number of occurrences of an anomaly in a log, and the first entry (from 1).
 struct Oddity {
@@ -37,10 +42,13 @@ struct RawlogSummary {
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
   Oddity wrongOdometry;                                                   ///< NaN or infinite
   Oddity noOdometry;                                                      ///< actions
+  Oddity wrongSweeps;                                                     ///< impossible scan times
   Oddity jumps;                                                           ///< of the odometry, over kMaxStep
-  Oddity brokenLines;             ///< of a text log; messages of a bag
-  Oddity passedOver;              ///< observations of classes that are not read
-  std::string passedOverClasses;  ///< a list
+  Oddity brokenLines;                    ///< of a text log; messages of a bag
+  Oddity passedOver;                     ///< observations of classes that are not read
+  std::string passedOverClasses;         ///< a list
+  std::map<std::string, double> sweeps;  ///< s, by laser, where known: the last that holds
+  bool isDeskewed = false;               ///< whether the beams are corrected by these, where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;              ///< the odometry changes
   double duration = 0;                 ///< s, from the earliest scan to the latest

@@ -1,10 +1,12 @@
 #include "readings/ReadingAssembler.h"
 
-#include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CActionCollection.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/DeskewedScan.h"
 #include "base/Errors.h"
 #include "readings/Timestamps.h"
 #include "slam/motion/OdometryIncrement.h"
@@ -28,11 +30,6 @@ void markInvalidBeams(CObservation2DRangeScan& scan) {
     if (!std::isfinite(range) || range <= 0 || (scan.maxRange > 0 && range >= scan.maxRange))
       scan.setScanRangeValidity(i, false);
   }
-}
-
-TPose2D interpolate(const TPose2D& a, const TPose2D& b, double share) {
-  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
-          mrpt::math::wrapToPi(a.phi + share * mrpt::math::wrapToPi(b.phi - a.phi))};
 }
 
 }  // namespace
@@ -59,8 +56,10 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
 }
 
 ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings,
-                                   double maxOdometryGap)
+                                   double maxOdometryGap, SweepTimes sweeps)
     : grouper_(lasers, maxOdometryGap),
+      sweeps_(std::move(sweeps)),
+      track_(maxOdometryGap),
       hasOdometryReadings_(hasOdometryReadings),
       maxOdometryGap_(maxOdometryGap) {}
 
@@ -79,7 +78,9 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
     else
       travelled_ = travelled_ + *increment;
   }
+  isInTrack_ = false;
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
+    if (const auto sweep = sweepTimeIn(*observation)) sweeps_.take(*sweep);
     if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) grouper_.expect(scan->sensorLabel);
   });
@@ -93,33 +94,43 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
 }
 
 void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
+  if (!hasOdometryReadings_ && !isInTrack_ && isStamped(*scan)) {
+    track_.add(seconds(scan->timestamp), travelled_);
+    isInTrack_ = true;
+    completeReady();
+  }
   const size_t reading = grouper_.add(*scan);
-  waiting_.push_back({scan, reading, grouper_.isComplete()});
+  waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
   if (hasOdometryReadings_ && !lastOdometry_) return;
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
   // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
   // count bounds it where time stands still.
-  const bool isLong = age > maxOdometryGap_ || waiting_.size() >= kMostWaiting;
-  if (isLong || (!mayLieBetween && waiting_.size() == 1)) finishWaiting(travelled_);
+  const bool isLong = (hasOdometryReadings_ && age > maxOdometryGap_) || waiting_.size() >= kMostWaiting;
+  if (isLong) return finishWaiting();
+  if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
+    waiting_.back().odometry = travelled_;
+  completeReady();
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   const TPose2D pose = withoutJumps(odometry.odometry.asTPose());
   const bool isStampedOdometry = isStamped(odometry);
   const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
-  for (const Waiting& scan : waiting_) {
+  for (Waiting& scan : waiting_) {
+    if (scan.odometry) continue;
     const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;
     if (!lastOdometry_)
-      complete(scan, pose);
+      scan.odometry = pose;
     else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= maxOdometryGap_)
-      complete(scan, interpolate(*lastOdometry_, pose, (t - lastOdometryTime_) / (time - lastOdometryTime_)));
+      scan.odometry = interpolate(*lastOdometry_, pose, (t - lastOdometryTime_) / (time - lastOdometryTime_));
     else
-      complete(scan, *lastOdometry_);
+      scan.odometry = *lastOdometry_;
   }
-  waiting_.clear();
   lastOdometry_ = travelled_ = pose;
   lastOdometryTime_ = time;
+  track_.add(time, pose);
+  completeReady();
 }
 
 TPose2D ReadingAssembler::withoutJumps(const TPose2D& reading) {
@@ -131,16 +142,44 @@ TPose2D ReadingAssembler::withoutJumps(const TPose2D& reading) {
   return isAJump ? *lastOdometry_ : *lastOdometry_ + (reading - before);
 }
 
-void ReadingAssembler::finishWaiting(const TPose2D& odometry) {
-  for (const Waiting& scan : waiting_) complete(scan, odometry);
+bool ReadingAssembler::isReady(const Waiting& scan) const {
+  if (!scan.odometry || scan.sweep == 0) return scan.odometry.has_value();
+  const double time = seconds(scan.scan->timestamp);
+  return !track_.mayReach(time) || track_.end() >= time + scan.sweep;
+}
+
+void ReadingAssembler::completeReady() {
+  for (; !waiting_.empty() && isReady(waiting_.front()); waiting_.pop_front()) complete(waiting_.front());
+}
+
+void ReadingAssembler::finishWaiting() {
+  for (Waiting& scan : waiting_) {
+    if (!scan.odometry) scan.odometry = travelled_;
+    complete(scan);
+  }
   waiting_.clear();
 }
 
-void ReadingAssembler::complete(const Waiting& scan, const TPose2D& odometry) {
+CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) const {
+  const double time = scan.sweep > 0 ? seconds(scan.scan->timestamp) : 0;
+  if (scan.sweep == 0 || !track_.contains(time)) return scan.scan;
+  const TPose2D start = track_.at(time);
+  const size_t beams = scan.scan->getScanSize();
+  std::vector<TPose2D> motion;
+  motion.reserve(beams);
+  for (size_t i = 0; i < beams; ++i)
+    motion.push_back(track_.at(time + scan.sweep * static_cast<double>(i) / static_cast<double>(beams - 1)) -
+                     start);
+  const bool stands =
+      std::all_of(motion.begin(), motion.end(), [](const TPose2D& m) { return m == TPose2D(); });
+  return stands ? scan.scan : deskew(*scan.scan, motion);
+}
+
+void ReadingAssembler::complete(const Waiting& scan) {
   if (scan.reading != current_) endReading();
   current_ = scan.reading;
   markInvalidBeams(*scan.scan);
-  collected_.emplace_back(scan.scan, odometry);
+  collected_.emplace_back(corrected(scan), *scan.odometry);
   if (scan.endsReading) endReading();
 }
 
@@ -152,7 +191,7 @@ void ReadingAssembler::endReading() {
     const TPose2D moved = before - odometry;  // where the robot was, seen from where it is
     reading.scans.push_back(scan);
     if (moved == TPose2D()) continue;
-    reading.scans.back() = CObservation2DRangeScan::Create(*scan);
+    reading.scans.back() = copyOf(*scan);
     reading.scans.back()->sensorPose = mrpt::poses::CPose3D(moved) + scan->sensorPose;
   }
   if (isStamped(*latest)) lastTimestamp_ = seconds(latest->timestamp);
@@ -165,7 +204,7 @@ void ReadingAssembler::endReading() {
 }
 
 void ReadingAssembler::finish() {
-  finishWaiting(travelled_);
+  finishWaiting();
   endReading();
 }
 

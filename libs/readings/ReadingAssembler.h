@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "base/LaserScan.h"
+#include "readings/OdometryTrack.h"
 #include "readings/ScanGrouper.h"
+#include "readings/SweepTimes.h"
 
 namespace hybrid_slam::readings {
 
@@ -36,6 +38,11 @@ struct Reading {
 /// beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans are used and which of
 /// them form one reading.
 ///
+/// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
+/// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
+/// last beam; if none comes in time, the last velocity holds. In action-observation pairs the velocity is
+/// that up to the next pair. Scans that the odometry does not reach are not corrected.
+///
 /// The same objects in the same order give bit-identical readings, from a file or a robot: the replay of a
 /// recording equals the live run.
 class ReadingAssembler {
@@ -43,7 +50,9 @@ class ReadingAssembler {
   /// @param lasers               labels of the lasers to use; none: all
   /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
-  ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap);
+  /// @param sweeps               how long the scans take; default: what the log tells
+  ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
+                   SweepTimes sweeps = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   /// Whether a scan is used, and why not.
@@ -61,20 +70,30 @@ class ReadingAssembler {
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// A reading in the frame of the readings before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::math::TPose2D& reading);
-  void finishWaiting(const mrpt::math::TPose2D& odometry);
+  void finishWaiting();
   struct Waiting {
     mrpt::obs::CObservation2DRangeScan::Ptr scan;
     size_t reading;  ///< number of the reading it belongs to
     bool endsReading;
+    double sweep;                                      ///< s; 0: not corrected
+    std::optional<mrpt::math::TPose2D> odometry = {};  ///< at the scan's time, as soon as it is known
   };
-  void complete(const Waiting& scan, const mrpt::math::TPose2D& odometry);
+  /// Whether the odometry is known up to the scan's last beam, or never will be.
+  bool isReady(const Waiting& scan) const;
+  void completeReady();
+  /// The scan corrected for the motion during its sweep, where that is known.
+  mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
+  void complete(const Waiting& scan);
   void endReading();
 
   ScanGrouper grouper_;
+  SweepTimes sweeps_;
+  OdometryTrack track_;
+  bool isInTrack_ = false;  ///< the odometry of this pair
   bool hasOdometryReadings_;
   double maxOdometryGap_;
   std::deque<Reading> ready_;
-  std::deque<Waiting> waiting_;  ///< for the odometry reading after them
+  std::deque<Waiting> waiting_;  ///< for the odometry after them
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
   std::vector<std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>>
       collected_;                                    ///< with odometry

@@ -128,7 +128,13 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   }
   LogSettings found;
   found.hasOdometry = log.hasActions || log.hasOdometryReadings;
-  for (const auto& [label, text] : lasers) found.lasers.push_back(text);
+  for (const auto& [label, text] : lasers) {
+    const auto sweep = log.sweeps.find(label);
+    const bool isDeskewed = log.isDeskewed && sweep != log.sweeps.end();
+    found.lasers.push_back(text + (isDeskewed ? ", corrected for motion during its scans of " +
+                                                    fixedText(1000 * sweep->second, 1) + " ms"
+                                              : ""));
+  }
   found.settings = updates(steps);
   if (!log.hasMotion)
     found.settings.push_back(

@@ -33,6 +33,8 @@ void LaserOptions::describe(OptionTable& t) {
   t.add("resolution_deg", resolutionDeg, 0.25, 1, "deg",
         "angle between beams; LMS-100: 0.5 or 0.25, LMS-200: 1 or 0.5");
   t.add("rate", rate, 0.1, 75, "Hz", "scans stored per second, at most the sensor's rate");
+  t.add("scan_time", scanTime, 0, 1, "s",
+        "time from the first beam of a scan to the last, at most 1 / rate; 0: all at the same time");
   t.add("noise", noise, "false: exact ranges, rounded as by the sensor");
   t.add("mixed_pixels", mixedPixels, "beams that straddle an edge read a range between its two sides");
   t.add("x", x, -1, 1, "m", "sensor position ahead of the robot's centre");
@@ -51,6 +53,9 @@ Laser::Laser(const LaserOptions& options) : options_(options), spec_(laserSpec(o
           "expected at most " + numberText(mode.rate) + " Hz at " + numberText(mode.resolutionDeg) + " deg");
     beamCount_ = static_cast<size_t>(std::lround(spec_.apertureDeg / mode.resolutionDeg)) + 1;
   }
+  if (options.scanTime * options.rate > 1 + 1e-9)
+    throw InputError("a scan takes longer than the time to the next", "section [laser], key `scan_time`",
+                     "expected at most 1 / rate = " + numberText(1 / options.rate) + " s");
   if (beamCount_ == 0)
     throw InputError("the " + std::string(spec_.name) + " does not have this resolution",
                      "section [laser], key `resolution_deg`", "expected " + known + " deg");
@@ -74,6 +79,12 @@ double Laser::reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin,
 
 mrpt::obs::CObservation2DRangeScan Laser::scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
                                                RandomStream& random) const {
+  return scan(
+      plan, [&](double) { return robotPose; }, random);
+}
+
+mrpt::obs::CObservation2DRangeScan Laser::scan(const FloorPlan& plan, const Motion& motion,
+                                               RandomStream& random) const {
   mrpt::obs::CObservation2DRangeScan observation;
   observation.sensorLabel = "LASER";
   observation.aperture = static_cast<float>(spec_.apertureDeg * kDegree);
@@ -84,9 +95,11 @@ mrpt::obs::CObservation2DRangeScan Laser::scan(const FloorPlan& plan, const mrpt
   observation.sensorPose = mrpt::poses::CPose3D(options_.x, options_.y, 0, options_.yaw, 0, 0);
   observation.resizeScan(beamCount_);
 
-  const auto sensor = robotPose + mrpt::math::TPose2D(options_.x, options_.y, options_.yaw);
+  const mrpt::math::TPose2D mounting(options_.x, options_.y, options_.yaw);
+  const double step = options_.scanTime / static_cast<double>(beamCount_ - 1);  // s
   for (size_t i = 0; i < beamCount_; ++i) {
     const double angle = (static_cast<double>(i) * options_.resolutionDeg - spec_.apertureDeg / 2) * kDegree;
+    const auto sensor = motion(static_cast<double>(i) * step) + mounting;
     const double exact = reading(plan, {sensor.x, sensor.y}, sensor.phi + angle, random);
     const double rounded = std::round(exact / spec_.readingStep) * spec_.readingStep;
     const bool valid = rounded < spec_.maxRange;

@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <functional>
 #include <vector>
 
 #include "base/Options.h"
@@ -44,21 +45,27 @@ struct LaserOptions : Options {
   LaserType sensor = LaserType::lms100;
   double resolutionDeg = 0.5;
   double rate = 5;
+  double scanTime = 0;  ///< s
   bool noise = true;
   bool mixedPixels = false;
   double x = 0.15, y = 0, yaw = 0;
   void describe(OptionTable& table) override;
 };
 
-/// Takes scans as snapshots: all beams at the same time.
+/// Measures the beams one after another, or all at the same time if the scan time is 0.
 class Laser {
  public:
   /// @throws InputError for a resolution or rate the sensor does not support
   explicit Laser(const LaserOptions& options);
 
   size_t beamCount() const { return beamCount_; }
-  /// A scan from `robotPose` (frame of the plan), label LASER, right to left, without timestamp. Beams
+  /// The robot's pose (frame of the plan) after a time (s) since the first beam.
+  using Motion = std::function<mrpt::math::TPose2D(double)>;
+  /// A scan by a robot that moves, label LASER, right to left, without timestamp. Beams
   /// without a return have the maximum range and are marked invalid.
+  mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const Motion& motion,
+                                          RandomStream& random) const;
+  /// Likewise by a robot that stands.
   mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
                                           RandomStream& random) const;
 

@@ -86,6 +86,7 @@ SimulatedLog simulate(const FloorPlan& plan, const Route& route, const Simulatio
   route.checkClear(plan, options.robotRadius);
 
   SimulatedLog log;
+  log.scanTime = laserOptions.scanTime;
   WheelOdometry wheels(odometryOptions);
   const auto timestampOf = [&options](double time) {
     return mrpt::Clock::fromDouble(options.startTime + std::round(time * 1e6) / 1e6);
@@ -108,7 +109,8 @@ SimulatedLog simulate(const FloorPlan& plan, const Route& route, const Simulatio
     } else if (event.kind == Event::scan) {
       const auto pose = route.poseAt(event.time);
       RandomStream laserNoise = noiseStream(options.seed, options.session, NoiseSource::laser, event.index);
-      auto scan = mrpt::obs::CObservation2DRangeScan::Create(laser.scan(plan, pose, laserNoise));
+      auto scan = mrpt::obs::CObservation2DRangeScan::Create(laser.scan(
+          plan, [&](double seconds) { return route.poseAt(event.time + seconds); }, laserNoise));
       scan->timestamp = timestampOf(event.time);
       log.groundTruth.push_back({scan->timestamp, pose});
       log.scans.push_back(std::move(scan));

@@ -30,7 +30,8 @@ struct SimulatedLog {
   std::vector<mrpt::obs::CObservation2DRangeScan::Ptr> scans;
   std::vector<mrpt::math::TPose2D> odometryAtScans;  ///< odometry pose at each scan
   std::vector<mrpt::obs::CObservationOdometry::Ptr> odometry;
-  std::vector<TruePose> groundTruth;
+  std::vector<TruePose> groundTruth;  ///< at the first beam of each scan
+  double scanTime = 0;                ///< s, from the first beam to the last
 };
 
 enum class RawlogForm { observations, pairs };

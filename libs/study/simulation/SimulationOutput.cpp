@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "base/Numbers.h"
+#include "readings/SweepTimes.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/MovableThings.h"
 
@@ -77,6 +78,11 @@ class Drawing {
 
 mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
   mrpt::obs::CRawlog rawlog;
+  const auto comment =
+      log.scanTime > 0 && !log.scans.empty()
+          ? readings::commentOf({log.scans[0]->sensorLabel, log.scanTime}, log.scans[0]->timestamp)
+          : nullptr;
+  if (comment && form == RawlogForm::observations) rawlog.insert(comment);
   if (form == RawlogForm::observations) {
     auto odometry = log.odometry.begin();
     for (const auto& scan : log.scans) {
@@ -92,6 +98,7 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
                                  log.scans[i]->timestamp);
     rawlog.insert(actions);
     mrpt::obs::CSensoryFrame frame;
+    if (comment && i == 0) frame.insert(comment);
     frame.insert(log.scans[i]);
     rawlog.insert(frame);
   }

@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "readings/ReadingAssembler.h"
+#include "readings/SweepTimes.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
@@ -66,6 +68,58 @@ TEST(Simulation, ScansAndOdometryComeAtTheirOwnRatesFromTheStartTime) {
   for (size_t i = 0; i < log.odometry.size(); ++i)
     EXPECT_NEAR(mrpt::Clock::toDouble(log.odometry[i]->timestamp),
                 1287388800.03 + 0.1 * static_cast<double>(i), 1e-6);
+}
+
+/// The ends of the beams, seen from the robot's true pose at each one's time, lie on the walls.
+TEST(Simulation, BeamsAreMeasuredOneAfterAnother) {
+  TestDrive drive;
+  drive.makePerfect();
+  drive.laser.scanTime = 0.15;
+  const SimulatedLog log = drive.log();
+  EXPECT_EQ(log.scanTime, 0.15);
+  double farthest = 0;
+  for (size_t k = 0; k + 1 < log.scans.size(); ++k) {
+    const auto& scan = *log.scans[k];
+    expectSamePose(log.groundTruth[k].pose, drive.route.poseAt(0.2 * static_cast<double>(k)), 1e-9, 1e-9);
+    for (size_t i = 0; i < scan.getScanSize(); ++i) {
+      const double after = 0.15 * static_cast<double>(i) / static_cast<double>(scan.getScanSize() - 1);
+      const TPose2D sensor = drive.route.poseAt(0.2 * static_cast<double>(k) + after) + TPose2D(0.15, 0, 0);
+      const double range = scan.getScanRange(i);
+      const auto end = sensor.composePoint(
+          {range * std::cos(scan.getScanAngle(i)), range * std::sin(scan.getScanAngle(i))});
+      farthest = std::max(farthest, drive.plan.distanceToNearestWall(end));
+    }
+  }
+  EXPECT_LT(farthest, 0.001) << "whole millimetres";
+}
+
+TEST(Simulation, TheRawlogStatesTheScanTime) {
+  TestDrive drive;
+  drive.options.scans = 3;
+  for (const RawlogForm form : {RawlogForm::observations, RawlogForm::pairs})
+    for (const double scanTime : {0.0, 0.15}) {
+      drive.laser.scanTime = scanTime;
+      std::vector<readings::SweepTime> stated;
+      for (const auto& object : toRawlog(drive.log(), form))
+        readings::forEachObservation(object, [&](const auto& observation) {
+          if (const auto sweep = readings::sweepTimeIn(*observation)) stated.push_back(*sweep);
+        });
+      ASSERT_EQ(stated.size(), scanTime > 0 ? 1 : 0);
+      if (scanTime == 0) continue;
+      EXPECT_EQ(stated[0].label, "LASER");
+      EXPECT_EQ(stated[0].seconds, 0.15);
+    }
+}
+
+TEST(Simulation, AScanCannotTakeLongerThanTheTimeToTheNext) {
+  TestDrive drive;
+  drive.laser.scanTime = 0.25;
+  try {
+    drive.log();
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("key `scan_time`; expected at most 1 / rate = 0.200000 s"));
+  }
 }
 
 TEST(SimulationOutput, TheGroundTruthIsTheSameInEveryLocale) {

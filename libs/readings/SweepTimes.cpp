@@ -1,0 +1,39 @@
+#include "readings/SweepTimes.h"
+
+#include <limits>
+
+#include "base/Numbers.h"
+#include "readings/Timestamps.h"
+
+namespace hybrid_slam::readings {
+namespace {
+
+const std::string kBeginning = "scan_time = ", kMiddle = " s, laser ";
+
+}  // namespace
+
+mrpt::obs::CObservationComment::Ptr commentOf(const SweepTime& sweep, mrpt::Clock::time_point timestamp) {
+  auto comment = mrpt::obs::CObservationComment::Create();
+  comment->timestamp = timestamp;
+  comment->text = kBeginning + numberText(sweep.seconds) + kMiddle + sweep.label;
+  return comment;
+}
+
+std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation) {
+  const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
+  if (!comment || comment->text.rfind(kBeginning, 0) != 0) return std::nullopt;
+  const size_t middle = comment->text.find(kMiddle, kBeginning.size());
+  if (middle == std::string::npos) return std::nullopt;
+  const auto seconds = parseFinite(comment->text.substr(kBeginning.size(), middle - kBeginning.size()));
+  return SweepTime{comment->text.substr(middle + kMiddle.size()),
+                   seconds.value_or(std::numeric_limits<double>::quiet_NaN())};
+}
+
+double SweepTimes::of(const mrpt::obs::CObservation2DRangeScan& scan) const {
+  if (!isStamped(scan) || scan.getScanSize() < 2) return 0;
+  if (fixed_) return *fixed_;
+  const auto stated = stated_.find(scan.sensorLabel);
+  return stated == stated_.end() ? 0 : stated->second;
+}
+
+}  // namespace hybrid_slam::readings
