@@ -3,7 +3,6 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "base/BeamFan.h"
 
@@ -13,25 +12,10 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
 
-namespace {
-
-/// FNV-1a.
-uint64_t hashOfRanges(const CObservation2DRangeScan& scan) {
-  uint64_t hash = 0xcbf29ce484222325;
-  for (size_t i = 0; i < scan.getScanSize(); ++i) {
-    uint32_t bits;
-    std::memcpy(&bits, &scan.getScanRange(i), sizeof bits);
-    hash = (hash ^ bits) * 0x100000001b3;
-  }
-  return hash;
-}
-
-}  // namespace
-
 std::shared_ptr<DeskewedScan> deskew(const CObservation2DRangeScan& scan,
                                      const std::vector<TPose2D>& motion) {
   auto out = std::make_shared<DeskewedScan>(scan);
-  out->measured = hashOfRanges(scan);
+  for (size_t i = 0; i < scan.getScanSize(); ++i) out->measured.push_back(scan.getScanRange(i));
   const BeamFan fan(scan);
   if (fan.beams() < 2) return out;
   const TPose2D sensor = fan.sensorPose();

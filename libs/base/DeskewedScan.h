@@ -5,7 +5,6 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -24,9 +23,9 @@ class DeskewedScan : public mrpt::obs::CObservation2DRangeScan {
 
   /// rad, of each beam by its index, as Beam::angle; empty: equal steps.
   std::vector<double> angles;
-  /// Hash of the ranges as measured, by which a log is known again: the correction of its last scans depends
-  /// on odometry that may come later.
-  uint64_t measured = 0;
+  /// m; the ranges as measured, by which a log is known again: the correction of its last scans depends on
+  /// odometry that may come later. Not kept in sessions.
+  std::vector<float> measured;
 };
 
 /// @param motion  of the robot from the scan's timestamp to the time of each beam (m, rad)

@@ -14,7 +14,7 @@ uint32_t fingerprintAfter(uint32_t before, const readings::Reading& reading) {
   add(reading.timestamp);
   for (const auto& scan : reading.scans) {
     if (const auto* deskewed = dynamic_cast<const DeskewedScan*>(scan.get())) {
-      add(deskewed->measured);
+      for (const float range : deskewed->measured) add(range);
       continue;
     }
     for (size_t i = 0; i < scan->getScanSize(); ++i) add(scan->getScanRange(i));

@@ -78,11 +78,8 @@ class Drawing {
 
 mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
   mrpt::obs::CRawlog rawlog;
-  const auto comment =
-      log.scanTime > 0 && !log.scans.empty()
-          ? readings::commentOf({log.scans[0]->sensorLabel, log.scanTime}, log.scans[0]->timestamp)
-          : nullptr;
-  if (comment && form == RawlogForm::observations) rawlog.insert(comment);
+  if (log.scanTime > 0 && !log.scans.empty())
+    rawlog.setCommentText(readings::commentOf({log.scans[0]->sensorLabel, log.scanTime}, {})->text);
   if (form == RawlogForm::observations) {
     auto odometry = log.odometry.begin();
     for (const auto& scan : log.scans) {
@@ -98,7 +95,6 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
                                  log.scans[i]->timestamp);
     rawlog.insert(actions);
     mrpt::obs::CSensoryFrame frame;
-    if (comment && i == 0) frame.insert(comment);
     frame.insert(log.scans[i]);
     rawlog.insert(frame);
   }
@@ -127,6 +123,9 @@ bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
 void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
   mrpt::io::CMemoryStream plain;
   auto archive = mrpt::serialization::archiveFrom(plain);
+  mrpt::obs::CObservationComment comment;
+  rawlog.getCommentText(comment.text);
+  if (!comment.text.empty()) archive << comment;
   for (const auto& entry : rawlog) archive << *entry;
   const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
   // MRPT's compressor uses a temporary file that concurrent programs may share.

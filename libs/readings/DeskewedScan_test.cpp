@@ -100,8 +100,8 @@ TEST(DeskewedScan, SessionsKeepTheAngles) {
   const auto raw = test::sweptScan(laser, 0, driving);
   Scans scans{raw, deskew(*raw, motionOf(laser, driving))}, read;
   std::string bytes;
-  StateWriter(bytes)(scans);
-  StateReader(bytes)(read);
+  StateWriter{bytes}(scans);
+  StateReader{bytes}(read);
   ASSERT_EQ(read.size(), 2);
   EXPECT_EQ(test::farthestFromWalls(*read[0], driving(0)), test::farthestFromWalls(*raw, driving(0)));
   EXPECT_EQ(test::farthestFromWalls(*read[1], driving(0)), test::farthestFromWalls(*scans[1], driving(0)));
