@@ -86,8 +86,7 @@ TEST_F(Deskew, WithoutOdometryALineSaysThatNothingIsCorrected) {
 TEST_F(Deskew, WrongScanTimesAreErrors) {
   const std::string room = test::writeGzipped(folder.path("room.rawlog"), test::laps(5));
   for (const std::string value : {"-0.1", "1.5", "nan", "1e9", "fast"})
-    expectError(replay(room, "--set input.scan_time=" + value),
-                "expected auto or a number in 0.00000..1.00000 s");
+    expectError(replay(room, "--set input.scan_time=" + value), "expected auto or a number in 0..1 s");
 }
 
 }  // namespace

@@ -194,8 +194,10 @@ TEST_F(BagLogTest, ObjectsAreInTheOrderOfTheirTimes) {
   LogReader reader(write(messages));
   std::string order;
   while (const auto object = reader.next())
-    order += std::dynamic_pointer_cast<CObservationOdometry>(object) ? "o" : "s";
-  EXPECT_EQ(order, "osoos");
+    order += std::dynamic_pointer_cast<CObservationOdometry>(object)      ? "o"
+             : std::dynamic_pointer_cast<CObservation2DRangeScan>(object) ? "s"
+                                                                          : "t";  // the scan time
+  EXPECT_EQ(order, "otsoos");
 }
 
 TEST_F(BagLogTest, AZeroStampIsTheTimeOfRecording) {

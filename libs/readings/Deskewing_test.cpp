@@ -69,7 +69,7 @@ TEST(Deskewing, BeamsEndOnTheWallsForATurningAndADrivingRobot) {
       const auto raw = readingsOf(log, !asPairs), corrected = readingsOf(stating(0.1, log), !asPairs);
       ASSERT_EQ(raw.size(), 9);
       ASSERT_EQ(corrected.size(), 9);
-      EXPECT_GT(worst(raw, motion), 0.03);
+      EXPECT_GT(worst(raw, motion), 0.015);
       EXPECT_LT(worst(corrected, motion), 2e-6);
       for (size_t i = 0; i < 9; ++i) {
         EXPECT_EQ(corrected[i].timestamp, raw[i].timestamp);

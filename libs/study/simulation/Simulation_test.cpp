@@ -115,7 +115,7 @@ TEST(Simulation, AScanCannotTakeLongerThanTheTimeToTheNext) {
     drive.log();
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("key `scan_time`; expected at most 1 / rate = 0.200000 s"));
+    EXPECT_THAT(e.what(), HasSubstr("key `scan_time`; expected at most 1 / rate = 0.2 s"));
   }
 }
 
