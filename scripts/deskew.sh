@@ -12,19 +12,34 @@ build release simul-floorplan hybrid-slam slam-eval
 read -ra seeds <<<"${SEEDS:-1 2 3 4 5}"
 read -ra rates <<<"${RATES:-5 10 20 40}"
 
-# errors LOG RESULT SETTINGS...: one line, ATE (mm), its heading part (deg), error of a second's motion (mm, deg)
+# errors LOG REFERENCE RESULT SETTINGS...: one line, ATE (mm), error of a second's motion (mm, deg)
 errors() {
-  local log=$1 result=$2
-  shift 2
+  local log=$1 reference=$2 result=$3
+  shift 3
   [[ -f $result/metrics.json ]] ||
     "$bin"/hybrid-slam config-ini/csie-lms100.ini "$log.rawlog" -q -s "$seed" "$@" -o "$result" \
       >"$result.log" 2>&1 || [[ -f $result/metrics.json ]]
-  "$bin"/slam-eval ate --trajectory "$result/trajectory.tum" --reference "$log.tum" >"$result.ate"
-  "$bin"/slam-eval rpe --trajectory "$result/trajectory.tum" --reference "$log.tum" --delta 1s >"$result.rpe"
+  "$bin"/slam-eval ate --trajectory "$result/trajectory.tum" --reference "$reference" >"$result.ate"
+  "$bin"/slam-eval rpe --trajectory "$result/trajectory.tum" --reference "$reference" --delta 1s >"$result.rpe"
   python3 - "$result" <<'PYTHON'
 import json, sys
 ate, rpe = (json.load(open(f"{sys.argv[1]}.{name}")) for name in ("ate", "rpe"))
-print(1000 * ate["trans_rmse_m"], ate["rot_rmse_deg"], 1000 * rpe["trans_rmse_m"], rpe["rot_rmse_deg"])
+print(1000 * ate["trans_rmse_m"], 1000 * rpe["trans_rmse_m"], rpe["rot_rmse_deg"])
+PYTHON
+}
+
+# middle LOG: the truth in the middle of each scan, with the scan's timestamp.
+middle() {
+  python3 - "$1.tum" "$scan_time" <<'PYTHON'
+import math, sys
+rows = [list(map(float, line.split())) for line in open(sys.argv[1])]
+half = float(sys.argv[2]) / 2
+for a, b in zip(rows, rows[1:] + rows[-1:]):
+    share = half / (b[0] - a[0]) if b[0] > a[0] else 0
+    x, y = (p + share * (q - p) for p, q in zip(a[1:3], b[1:3]))
+    phi, next_phi = (2 * math.atan2(row[6], row[7]) for row in (a, b))
+    phi += share * math.remainder(next_phi - phi, 2 * math.pi)
+    print(f"{a[0]:.6f} {x:.6f} {y:.6f} 0 0 0 {math.sin(phi / 2):.9f} {math.cos(phi / 2):.9f}")
 PYTHON
 }
 
@@ -39,21 +54,25 @@ for rate in "${rates[@]}"; do
         --set simulation.route=../datasets/csie/csie-turns.route --set laser.rate="$rate" \
         --set laser.scan_time="$([[ $kind == swept ]] && echo "$scan_time" || echo 0)" -o "$log.rawlog"
     done
-    errors "$out/$rate-$seed-swept" "$out/$rate-$seed-without" --set input.scan_time=0 >>"$out/$rate-without.part"
-    errors "$out/$rate-$seed-swept" "$out/$rate-$seed-with" >>"$out/$rate-with.part"
-    errors "$out/$rate-$seed-instant" "$out/$rate-$seed-none" >>"$out/$rate-instant.part"
+    swept=$out/$rate-$seed-swept without=$out/$rate-$seed-without instant=$out/$rate-$seed-instant
+    middle "$swept" >"$swept.middle.tum"
+    errors "$swept" "$swept.tum" "$without" --set input.scan_time=0 >>"$out/$rate-without.part"
+    errors "$swept" "$swept.middle.tum" "$without" >>"$out/$rate-middle.part"
+    errors "$swept" "$swept.tum" "$out/$rate-$seed-with" >>"$out/$rate-with.part"
+    errors "$instant" "$instant.tum" "$out/$rate-$seed-none" >>"$out/$rate-instant.part"
   done
-  for kind in without with instant; do mv "$out/$rate-$kind.part" "$out/$rate-$kind.txt"; done
+  for kind in without middle with instant; do mv "$out/$rate-$kind.part" "$out/$rate-$kind.txt"; done
 done
 
 python3 - "$out" "${rates[@]}" <<'PYTHON'
 import statistics, sys
 out, rates = sys.argv[1], sys.argv[2:]
-print("| rate | scan time | beams | ATE (mm) | heading (deg) | in 1 s (mm) | in 1 s (deg) |\n|---|---|---|---|---|---|---|")
-names = {"without": "not corrected", "with": "corrected", "instant": "all at once"}
+print("| rate | scan time | beams | ATE (mm) | worst (mm) | in 1 s (mm) | in 1 s (deg) |\n|---|---|---|---|---|---|---|")
+names = {"without": "not corrected", "middle": "likewise, against the middle", "with": "corrected", "instant": "all at once"}
 for rate in rates:
     for kind, name in names.items():
         runs = [list(map(float, line.split())) for line in open(f"{out}/{rate}-{kind}.txt")]
-        a, b, c, d = (statistics.median(values) for values in zip(*runs))
-        print(f"| {rate} Hz | {750 / float(rate):.1f} ms | {name} | {a:.0f} | {b:.2f} | {c:.1f} | {d:.2f} |")
+        ate, shift, turn = (statistics.median(values) for values in zip(*runs))
+        print(f"| {rate} Hz | {750 / float(rate):.1f} ms | {name} | {ate:.0f} | {max(run[0] for run in runs):.0f} | "
+              f"{shift:.0f} | {turn:.2f} |")
 PYTHON

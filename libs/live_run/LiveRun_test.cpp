@@ -14,6 +14,7 @@
 #include "files/RawlogReader.h"
 #include "files/TemporaryFolder.h"
 #include "live/CycleGrouper.h"
+#include "readings/SweepTimes.h"
 #include "run/Replay.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
@@ -84,6 +85,23 @@ TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
   EXPECT_GT(metrics["latency_ms"]["median"], 0);
   EXPECT_GE(metrics["latency_ms"]["p99"], metrics["latency_ms"]["median"]);
   EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
+}
+
+/// Told by the log before its first odometry, or by the setting.
+TEST_F(LiveRunTest, ScansAreCorrectedForTheMotionDuringTheirSweepAndReplayedSo) {
+  options.maxWaiting = 1000;
+  test::Log log{readings::commentOf({"LASER", 0.1}, test::stamp(998))};
+  for (int i = 0; i < 10; ++i) log.push_back(test::scan(998 + 0.1 * i));
+  const test::Log laps = test::laps(60);
+  log.insert(log.end(), laps.begin(), laps.end());
+  runLive(log);
+  replayRecording();
+  expectSameResults();
+  const std::string told = result("offline/trajectory.tum");
+  replayRecording("[input]\nscan_time = 0.1\n");
+  EXPECT_EQ(result("offline/trajectory.tum"), told);
+  replayRecording("[input]\nscan_time = 0\n");
+  EXPECT_NE(result("offline/trajectory.tum"), told);
 }
 
 /// MRPT's filter also depends only on the seed, in any thread.
