@@ -68,14 +68,18 @@ class MessageBytes {
 };
 
 inline MessageBytes scanHead(MessageBytes out, double time, const std::string& frame, float angleMin,
-                             float step) {
+                             float step, float timeStep = 0) {
   out.header(time, frame).add(angleMin).add(angleMin + 100 * step).add(step);
-  return out.add(0.001f).add(0.1f).add(0.2f).add(20.f);  // time_increment, scan_time, range_min, range_max
+  return out.add(timeStep).add(0.1f).add(0.2f).add(20.f);  // time_increment, scan_time, range_min, range_max
 }
 
 inline std::string scanBytes(MessageBytes out, double time, const std::string& frame,
-                             const std::vector<float>& ranges, float angleMin = -1, float step = 0.5f) {
-  return scanHead(std::move(out), time, frame, angleMin, step).floats(ranges).floats({1, 2, 3}).bytes();
+                             const std::vector<float>& ranges, float angleMin = -1, float step = 0.5f,
+                             float timeStep = 0) {
+  return scanHead(std::move(out), time, frame, angleMin, step, timeStep)
+      .floats(ranges)
+      .floats({1, 2, 3})
+      .bytes();
 }
 
 inline std::string odometryBytes(MessageBytes out, double time, const TPose2D& pose,
@@ -107,7 +111,8 @@ struct TestMessage {
 };
 
 /// The objects of a rawlog as messages: laser on /scan, base and laser of the same pose.
-inline std::vector<TestMessage> messagesOf(const Log& log, Encoding encoding) {
+/// @param timeStep  s, from beam to beam
+inline std::vector<TestMessage> messagesOf(const Log& log, Encoding encoding, float timeStep = 0) {
   const MessageBytes empty(encoding);
   std::vector<TestMessage> all;
   for (const auto& object : log) {
@@ -123,7 +128,7 @@ inline std::vector<TestMessage> messagesOf(const Log& log, Encoding encoding) {
             scan->getScanRangeValidity(i) ? scan->getScanRange(i) : std::numeric_limits<float>::infinity();
       const float step = scan->aperture / static_cast<float>(ranges.size() - 1);
       all.push_back({"/scan", "sensor_msgs/LaserScan", time,
-                     scanBytes(empty, time, "base_link", ranges, -scan->aperture / 2, step)});
+                     scanBytes(empty, time, "base_link", ranges, -scan->aperture / 2, step, timeStep)});
     }
   }
   return all;

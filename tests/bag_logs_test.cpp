@@ -52,6 +52,40 @@ TEST_F(Bags, GiveTheTrajectoryOfTheRawlog) {
   }
 }
 
+/// The beams are corrected for the motion during the scan, also from the rawlog of log2rawlog.
+TEST_F(Bags, TellTheTimeFromBeamToBeam) {
+  const std::string bag = test::writeRosBag(folder.path("drive.bag"),
+                                            test::messagesOf(drive, Encoding::ros1, 5e-4F)),
+                    rawlog = folder.path("drive.rawlog"),
+                    instant = test::writeRosBag(folder.path("instant.bag"),
+                                                test::messagesOf(drive, Encoding::ros1));
+  ASSERT_EQ(run(LOG2RAWLOG, "'" + bag + "' '" + rawlog + "'").status, 0);
+  mapped(bag), mapped(rawlog), mapped(instant);
+  const auto trajectory = [&](const std::string& log) {
+    return test::contentOf(folder.path("out-" + log) + "/trajectory.tum");
+  };
+  EXPECT_EQ(trajectory("drive.rawlog"), trajectory("drive.bag"));
+  EXPECT_NE(trajectory("instant.bag"), trajectory("drive.bag"));
+  const test::Outcome outcome = run(HYBRID_SLAM, "'" + bag + "' -o '" + folder.path("out") + "'");
+  EXPECT_THAT(outcome.out, HasSubstr("corrected for motion during its scans of 64.0 ms"));
+}
+
+/// Broken drivers, or a step back in time.
+TEST_F(Bags, AnImpossibleTimeFromBeamToBeamIsNotUsedWithAWarning) {
+  for (const float timeStep : {-5e-4F, 1e7F}) {
+    const std::string bag =
+        test::writeRosBag(folder.path("odd.bag"), test::messagesOf(drive, Encoding::ros1, timeStep));
+    const test::Outcome converted = run(LOG2RAWLOG, "'" + bag + "' '" + folder.path("odd.rawlog") + "'");
+    EXPECT_EQ(converted.status, 0);
+    EXPECT_THAT(converted.err, HasSubstr("60 scans with a time from beam to beam that cannot be true"));
+    const test::Outcome outcome =
+        run(HYBRID_SLAM, "'" + bag + "' --overwrite -o '" + folder.path("odd") + "'");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("below 0 or over 1 s"));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("corrected for motion")));
+  }
+}
+
 /// With 181 beams, whose angles round: what a bag gives is what the rawlog holds.
 TEST_F(Bags, GiveTheObjectsOfTheRawlog) {
   const test::Log log = test::laps(20);
