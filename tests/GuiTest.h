@@ -51,6 +51,7 @@ class Dialogs : public wxModalDialogHook {
 class GuiTest : public testing::Test {
  protected:
   void SetUp() override {
+    setenv("XDG_CONFIG_HOME", folder.path("config").c_str(), 1);  // not that of the tester
     dialogs.Register();
     frame = new window::MainFrame;
     frame->Move(0, 0);
@@ -119,8 +120,9 @@ class GuiTest : public testing::Test {
   /// The grey of the screen at a place of the map.
   int greyAt(const wxImage& screen, const window::MapCanvas& canvas, double x, double y) const {
     const auto at = canvas.view().toPicture(x, y, canvas.size());
-    const wxPoint p =
-        onScreen({canvas.ClientToScreen(wxPoint(wxRound(at.x), wxRound(at.y))), wxSize(1, 1)}).GetTopLeft();
+    const wxPoint corner = canvas.ClientToScreen(wxPoint(0, 0));
+    const double scale = frame->GetContentScaleFactor();
+    const wxPoint p(static_cast<int>(scale * (corner.x + at.x)), static_cast<int>(scale * (corner.y + at.y)));
     return screen.GetRed(p.x, p.y);
   }
 

@@ -91,10 +91,12 @@ void MainFrame::exportPictureTo(const std::string& file) const {
   const auto filter = shownFilter();
   files::PartialFile partial(file);
   const bool isScene = std::filesystem::path(file).extension() == ".3Dscene";
-  const bool isWritten =
-      isScene ? filterScene(*filter, mapPlane(filter->map), wholeMap(filter->map, kSize), {}, kSize)
-                    ->saveToFile(partial.path())
-              : pictureOf(*filter, kSize, {}).saveToFile(partial.path());
+  Layers layers;
+  layers.legend = false;  // its place is that in a picture
+  const bool isWritten = isScene ? filterScene(*filter, mapPlane(filter->map),
+                                               wholeMap(filter->map, layers, kSize), layers, kSize)
+                                       ->saveToFile(partial.path())
+                                 : pictureOf(*filter, kSize, {}).saveToFile(partial.path());
   if (!isWritten) partial.fail(0);
   partial.commit();
 }

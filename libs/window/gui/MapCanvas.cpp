@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace hybrid_slam::window {
 
@@ -15,6 +16,7 @@ MapCanvas::MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr
   Bind(wxEVT_MOUSEWHEEL, &MapCanvas::onWheel, this);
   Bind(wxEVT_MOTION, &MapCanvas::onMotion, this);
   Bind(wxEVT_ENTER_WINDOW, [](wxMouseEvent&) {});  // the base class would take the focus
+  Bind(wxEVT_LEAVE_WINDOW, [this](wxMouseEvent&) { cursor_.reset(); });
   // The base class would swallow every key, also those of the menus.
   for (const auto& key : {wxEVT_CHAR, wxEVT_CHAR_HOOK})
     Unbind(key, &CWxGLCanvasBase::OnChar, static_cast<CWxGLCanvasBase*>(this));
@@ -45,7 +47,7 @@ PictureSize MapCanvas::size() const { return {GetClientSize().x, GetClientSize()
 
 MapView MapCanvas::view() const {
   if (shared_->fixed) return *shared_->fixed;
-  return filter_ ? wholeMap(filter_->map, size()) : MapView();
+  return filter_ ? wholeMap(filter_->map, shared_->layers, size()) : MapView();
 }
 
 void MapCanvas::zoom(double factor) { zoomAt({size().width / 2, size().height / 2}, factor); }
@@ -66,7 +68,15 @@ void MapCanvas::onWheel(wxMouseEvent& event) {
   zoomAt(event.GetPosition(), std::pow(1.2, event.GetWheelRotation() / double(event.GetWheelDelta())));
 }
 
+std::string MapCanvas::cursorText() const {
+  if (!cursor_ || !filter_) return "";
+  // The middle of the pixel.
+  const auto at = view().toMap(cursor_->x + 0.5, cursor_->y + 0.5, size());
+  return describeCell(filter_->map, at.x, at.y);
+}
+
 void MapCanvas::onMotion(wxMouseEvent& event) {
+  cursor_ = event.GetPosition();
   if (!event.Dragging() || !event.LeftIsDown()) return;
   MapView next = view();
   next.centreX -= (event.GetX() - lastMouse_.x) / next.scale;
@@ -82,7 +92,11 @@ mrpt::opengl::COpenGLScene::Ptr MapCanvas::titleScene() const {
   mrpt::opengl::TFontParams font;
   font.vfont_name = "sans";
   font.vfont_scale = static_cast<float>(11 * GetContentScaleFactor());
-  scene->getViewport()->addTextMessage(0.1, 0.5, title_, 0, font);
+  std::istringstream lines(title_);
+  std::string line;
+  for (size_t i = 0; std::getline(lines, line); ++i)
+    scene->getViewport()->addTextMessage(font.vfont_scale, 0.5 - 0.08 * static_cast<double>(i), line, i,
+                                         font);
   return scene;
 }
 

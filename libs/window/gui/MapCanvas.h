@@ -12,6 +12,12 @@
 
 namespace hybrid_slam::window {
 
+/// Text for "What is this?".
+inline const char* const kPaneHelp =
+    "The best particle's map, from above. The legend names the colours; the status bar shows the place under "
+    "the mouse pointer and the probability that its cell is occupied. Wheel: zoom. Drag: move. Double click: "
+    "the whole map.";
+
 /// View shared by adjacent panes, so that they show the same part of the map.
 struct SharedView {
   std::optional<MapView> fixed;  ///< view set by the user; empty: each pane shows its whole map
@@ -20,7 +26,7 @@ struct SharedView {
 
 class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
-  /// @param title      shown while there is no map
+  /// @param title      shown while there is no map, in lines of at most 40 letters
   /// @param onChange   called after a change of the shared view, to redraw the other panes
   MapCanvas(wxWindow* parent, const std::string& title, std::shared_ptr<SharedView> shared,
             std::function<void()> onChange);
@@ -30,6 +36,8 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   void setTitle(const std::string& title);
   const std::string& title() const { return title_; }
   void zoom(double factor);
+  /// The place under the mouse pointer and its cell; empty outside the pane, and without a map.
+  std::string cursorText() const;
   const std::shared_ptr<const FilterSnapshot>& shown() const { return filter_; }
   MapView view() const;
   /// In window units, which are larger than pixels on a high-DPI screen.
@@ -48,6 +56,7 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
   std::shared_ptr<const FilterSnapshot> filter_;
   mrpt::opengl::CTexturedPlane::Ptr map_;
   wxPoint lastMouse_;
+  std::optional<wxPoint> cursor_;  ///< while it is over the pane
 };
 
 }  // namespace hybrid_slam::window

@@ -2,25 +2,24 @@
 
 #include <mrpt/core/format.h>
 #include <mrpt/opengl/CFBORender.h>
-#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "window/view/SceneLegend.h"
+#include "window/view/SceneStrokes.h"
+
 namespace hybrid_slam::window {
 
-using mrpt::img::TColor;
+using namespace colours;
+
 using mrpt::math::TPoint2D;
 using mrpt::opengl::COpenGLScene;
 using mrpt::opengl::COpenGLViewport;
-using mrpt::opengl::CSetOfTriangles;
 using mrpt::opengl::CTexturedPlane;
 
 namespace {
-
-const TColor kRed(220, 0, 0), kGreen(0, 150, 0), kBlue(0, 70, 230), kOrange(245, 130, 0),
-    kViolet(150, 0, 180), kLightBlue(80, 180, 255);
 
 /// Seen from above, without perspective; a viewport of `size` shows `scale` pixels per m.
 void lookDown(COpenGLViewport& viewport, double x, double y, double scale, PictureSize size) {
@@ -34,54 +33,6 @@ void lookDown(COpenGLViewport& viewport, double x, double y, double scale, Pictu
   camera.setZoomDistance(static_cast<float>(distance));
   viewport.setViewportClipDistances(0.01f * static_cast<float>(distance), 2 * static_cast<float>(distance));
 }
-
-TPoint2D ahead(const TPoint2D& from, double heading, double distance) {
-  return {from.x + distance * std::cos(heading), from.y + distance * std::sin(heading)};
-}
-
-/// Shapes of one colour and pen, made of triangles: mrpt-opengl draws lines one pixel wide.
-class Strokes {
- public:
-  /// @param width  pen width, m
-  /// @param height  above the grid, m
-  Strokes(const char* name, const TColor& colour, double width, double height)
-      : colour_(colour), half_(width / 2), height_(static_cast<float>(height)) {
-    triangles_->setName(name);
-    triangles_->enableLight(false);
-  }
-  void triangle(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
-    const auto point = [&](const TPoint2D& p) {
-      return mrpt::math::TPoint3Df(static_cast<float>(p.x), static_cast<float>(p.y), height_);
-    };
-    mrpt::opengl::TTriangle corners(point(a), point(b), point(c));
-    corners.setColor(colour_);
-    triangles_->insertTriangle(corners);
-  }
-  /// Extended by the pen width at both ends, so that consecutive segments join.
-  void segment(const TPoint2D& a, const TPoint2D& b) {
-    const double heading = std::atan2(b.y - a.y, b.x - a.x);
-    const TPoint2D from = ahead(a, heading, -half_), to = ahead(b, heading, half_);
-    const double left = heading + M_PI / 2;
-    triangle(ahead(from, left, half_), ahead(from, left, -half_), ahead(to, left, -half_));
-    triangle(ahead(from, left, half_), ahead(to, left, -half_), ahead(to, left, half_));
-  }
-  /// @param a,b  semi-axes, m
-  void ellipse(const TPoint2D& centre, double a, double b, double direction) {
-    constexpr int kCorners = 48;
-    const auto corner = [&](int i) {
-      const double t = 2 * M_PI * i / kCorners;
-      return ahead(ahead(centre, direction, a * std::cos(t)), direction + M_PI / 2, b * std::sin(t));
-    };
-    for (int i = 0; i < kCorners; ++i) segment(corner(i), corner(i + 1));
-  }
-  const CSetOfTriangles::Ptr& object() const { return triangles_; }
-
- private:
-  TColor colour_;
-  double half_;
-  float height_;
-  CSetOfTriangles::Ptr triangles_ = CSetOfTriangles::Create();
-};
 
 class ScenePainter {
  public:
@@ -110,15 +61,10 @@ class ScenePainter {
     for (const ScanLine& line : filter_.scanLines)
       (line.isMatched ? matched : others).segment(line.segment.start, line.segment.end);
   }
-  /// Arrows.
   void particles() {
     Strokes all = strokes("particles", kRed, 1);
-    for (const auto& particle : filter_.particles) {
-      const TPoint2D at(particle.pose);
-      const double phi = particle.pose.phi;
-      all.triangle(ahead(at, phi, 7 * pixel_), ahead(at, phi + 2.4, 3 * pixel_),
-                   ahead(at, phi - 2.4, 3 * pixel_));
-    }
+    for (const auto& particle : filter_.particles)
+      all.arrow(TPoint2D(particle.pose), particle.pose.phi, 7 * pixel_);
   }
   void ellipse() {
     if (!isPlaceKnown()) return;
@@ -141,7 +87,7 @@ class ScenePainter {
     if (!filter_.dominatingDirection) return;
     const double radius = 24 * pixel_;
     const TPoint2D at = view_.toMap(size_.width - 34.0, 34, size_);
-    strokes("compass", TColor(255, 255, 255), 1).ellipse(at, radius + 3 * pixel_, radius + 3 * pixel_, 0);
+    strokes("compass", kWhite, 1).ellipse(at, radius + 3 * pixel_, radius + 3 * pixel_, 0);
     for (const double turn : {0.0, M_PI / 2})
       strokes("dominating direction", kGreen, turn == 0 ? 3 : 1)
           .segment(ahead(at, *filter_.dominatingDirection + turn, -radius),
@@ -160,12 +106,15 @@ class ScenePainter {
       ++line;
     }
   }
+  void legend(const Layers& layers) {
+    addLegend(*scene_, legendLayout(filter_, layers, size_), view_, size_, height_, density_);
+  }
   const COpenGLScene::Ptr& scene() const { return scene_; }
 
  private:
   bool isPlaceKnown() const { return !filter_.place || filter_.place->isKnown; }
   /// Adds a layer above the previous ones. @param width  pixels
-  Strokes strokes(const char* name, const TColor& colour, double width) {
+  Strokes strokes(const char* name, const mrpt::img::TColor& colour, double width) {
     height_ += pixel_;
     const Strokes added(name, colour, width * pixel_, height_);
     scene_->insert(added.object());
@@ -198,15 +147,16 @@ std::vector<std::string> captionOf(const FilterSnapshot& filter) {
   return lines;
 }
 
-MapView wholeMap(const MapImage& map, PictureSize size) {
+MapView wholeMap(const MapImage& map, const Layers& layers, PictureSize size) {
   MapView view;
   if (map.width == 0) return view;
-  constexpr double kCaption = 60, kMargin = 6;  // pixels above and below the map
-  const double free = std::max(size.height - kCaption - kMargin, 1.0);
+  constexpr double kAbove = 60, kMargin = 6;  // pixels: the caption; beside the legend
+  const double below = legendRoom(layers, size) + kMargin;
+  const double free = std::max(size.height - kAbove - below, 1.0);
   view.scale = std::min(size.width / (map.right() - map.left), free / (map.top() - map.bottom));
   view.scale = std::max(view.scale, 0.01);
   view.centreX = (map.left + map.right()) / 2;
-  view.centreY = (map.bottom + map.top()) / 2 + (kCaption - kMargin) / 2 / view.scale;
+  view.centreY = (map.bottom + map.top()) / 2 + (kAbove - below) / 2 / view.scale;
   return view;
 }
 
@@ -241,11 +191,13 @@ COpenGLScene::Ptr filterScene(const FilterSnapshot& filter, const CTexturedPlane
   if (layers.particles) painter.particles();
   if (layers.lines) painter.dominatingDirection();
   painter.caption();
+  painter.legend(layers);
   return painter.scene();
 }
 
 mrpt::img::CImage pictureOf(const FilterSnapshot& filter, PictureSize size, const Layers& layers) {
-  const auto scene = filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, size), layers, size);
+  const auto scene =
+      filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, layers, size), layers, size);
   mrpt::opengl::CFBORender renderer(static_cast<unsigned>(size.width), static_cast<unsigned>(size.height));
   renderer.setCamera(*scene, scene->getViewport()->getCamera());
   mrpt::img::CImage picture;

@@ -7,44 +7,24 @@
 #include <mrpt/opengl/CTexturedPlane.h>
 
 #include "window/view/FilterSnapshot.h"
+#include "window/view/MapView.h"
 
 namespace hybrid_slam::window {
-
-/// Pixels.
-struct PictureSize {
-  int width = 0, height = 0;
-};
-
-/// The part of the map frame that a picture shows, from above.
-struct MapView {
-  double centreX = 0, centreY = 0;  ///< m, map frame, at the middle of the picture
-  double scale = 20;                ///< pixels per m; y points up in the map, down on the screen
-
-  mrpt::math::TPoint2D toPicture(double x, double y, PictureSize size) const {
-    return {size.width / 2.0 + (x - centreX) * scale, size.height / 2.0 - (y - centreY) * scale};
-  }
-  mrpt::math::TPoint2D toMap(double x, double y, PictureSize size) const {
-    return {centreX + (x - size.width / 2.0) / scale, centreY - (y - size.height / 2.0) / scale};
-  }
-};
-
-/// Layers drawn over the grid.
-struct Layers {
-  bool particles = true, path = true, lines = true, scanLines = true, ellipse = true;
-};
 
 /// What is written over the map, a line each: updates, place, lines, verdict. The lines that match are those
 /// drawn as such.
 std::vector<std::string> captionOf(const FilterSnapshot& filter);
 
-/// The view of the whole map, below the caption.
-MapView wholeMap(const MapImage& map, PictureSize size);
+/// The view of the whole map, between the caption and room for the whole legend: side by side, maps of the
+/// same size are drawn alike.
+MapView wholeMap(const MapImage& map, const Layers& layers, PictureSize size);
 
 /// The grid as a plane, reusable in many scenes: its texture is uploaded once. Null for an empty map.
 mrpt::opengl::CTexturedPlane::Ptr mapPlane(const MapImage& map);
 
 /// Grid, path (red), particles (red), line database (green) with the dominating direction, lines of the scan
-/// (blue matched, orange not), uncertainty (violet, 3 sigma), robot (light blue circle), and a caption.
+/// (blue matched, orange not), uncertainty (violet, 3 sigma), robot (light blue circle), a caption,
+/// and a legend with a scale bar.
 /// Everything is in m in the map frame, with the camera above; marker sizes are in pixels at this scale.
 /// @param map      mapPlane(filter.map)
 /// @param density  screen pixels per pixel of `size`

@@ -46,7 +46,7 @@ TEST(MapView, RoundTripBetweenPointsAndPixels) {
 TEST(MapView, TheWholeMapIsInThePicture) {
   const FilterSnapshot filter = room();
   for (const PictureSize size : {PictureSize{800, 300}, PictureSize{300, 800}}) {
-    const MapView view = wholeMap(filter.map, size);
+    const MapView view = wholeMap(filter.map, {}, size);
     const auto corner = view.toPicture(filter.map.left, filter.map.top(), size);
     const auto opposite = view.toPicture(filter.map.right(), filter.map.bottom, size);
     EXPECT_GE(corner.x, -1e-9);
@@ -60,13 +60,13 @@ TEST(FilterScene, HasTheRequestedLayers) {
   const FilterSnapshot filter = room();
   const PictureSize size{600, 400};
   const auto scene = [&](const Layers& layers) {
-    return filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, size), layers, size);
+    return filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, {}, size), layers, size);
   };
   const auto all = scene({});
   for (const char* const name : {"grid", "lines", "path", "scan lines, matched", "scan lines, not matched",
                                  "particles", "uncertainty", "robot", "dominating direction"})
     EXPECT_TRUE(all->getByName(name)) << name;
-  const auto none = scene({false, false, false, false, false});
+  const auto none = scene({false, false, false, false, false, false});
   for (const char* const name : {"lines", "path", "scan lines, matched", "particles", "uncertainty"})
     EXPECT_FALSE(none->getByName(name)) << name;
   EXPECT_TRUE(none->getByName("grid"));
@@ -78,7 +78,7 @@ TEST(FilterScene, WhileThePlaceIsUnknownThereIsNoEllipse) {
   const PictureSize size{600, 400};
   for (const bool isKnown : {false, true}) {
     filter.place = Place{isKnown, false, 12};
-    const auto scene = filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, size), {}, size);
+    const auto scene = filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, {}, size), {}, size);
     EXPECT_EQ(scene->getByName("uncertainty") != nullptr, isKnown);
     EXPECT_TRUE(scene->getByName("particles")) << "the places that are possible";
   }
@@ -102,7 +102,7 @@ TEST(FilterScene, ThePictureShowsEverythingInItsPlace) {
   }
   ASSERT_EQ(picture.getWidth(), 600u);
   ASSERT_EQ(picture.getHeight(), 481u);
-  const MapView view = wholeMap(filter.map, size);
+  const MapView view = wholeMap(filter.map, {}, size);
   const auto colourAt = [&](double x, double y) {  // red, green, blue
     const auto at = view.toPicture(x, y, size);
     std::vector<int> colour;

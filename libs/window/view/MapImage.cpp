@@ -1,8 +1,23 @@
 #include "window/view/MapImage.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/Numbers.h"
 
 namespace hybrid_slam::window {
+
+std::string describeCell(const MapImage& map, double x, double y) {
+  constexpr int kUnknown = 127;  // that of a log-odds of 0
+  const std::string at = "x " + fixedText(x, 2) + " m, y " + fixedText(y, 2) + " m: ";
+  const double column = std::floor((x - map.left) / map.resolution);
+  const double row = std::floor((map.top() - y) / map.resolution);
+  if (!(column >= 0 && column < map.width && row >= 0 && row < map.height)) return at + "unknown";
+  const size_t pixel =
+      static_cast<size_t>(row) * static_cast<size_t>(map.width) + static_cast<size_t>(column);
+  const int grey = map.grey[pixel];
+  return at + (grey == kUnknown ? "unknown" : "occupied " + fixedText(1 - grey / 255.0, 2));
+}
 
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid) {
   constexpr int kMargin = 10, kMostPixels = 8192;

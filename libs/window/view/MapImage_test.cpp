@@ -43,5 +43,19 @@ TEST(MapImage, OfALargeMapAPixelIsTheMostOccupiedOfItsCells) {
 
 TEST(MapImage, OfAnUnknownMapIsEmpty) { EXPECT_EQ(mapImage({0, 1, 0, 1, 0.1f}).width, 0); }
 
+TEST(MapImage, DescribesTheCellAtAPlace) {
+  COccupancyGridMap2D grid(-2, 2, -2, 2, 0.1f);
+  grid.setCell(25, 30, 0.02f);  // x 0.5 to 0.6, y 1 to 1.1
+  grid.setCell(26, 30, 0.98f);
+  grid.setCell(27, 30, 0.49f);
+  const MapImage image = mapImage(grid);
+  EXPECT_EQ(describeCell(image, 0.55, 1.05), "x 0.55 m, y 1.05 m: occupied 0.98");
+  EXPECT_EQ(describeCell(image, 0.65, 1.05), "x 0.65 m, y 1.05 m: occupied 0.02");
+  EXPECT_NE(describeCell(image, 0.75, 1.05), "x 0.75 m, y 1.05 m: unknown") << "seen, but undecided";
+  EXPECT_EQ(describeCell(image, 0.55, 1.15), "x 0.55 m, y 1.15 m: unknown");
+  EXPECT_EQ(describeCell(image, -100, 5), "x -100.00 m, y 5.00 m: unknown");
+  EXPECT_EQ(describeCell({}, 1, 1), "x 1.00 m, y 1.00 m: unknown") << "an empty map";
+}
+
 }  // namespace
 }  // namespace hybrid_slam::window

@@ -1,0 +1,50 @@
+/// @file SceneLegend.h
+/// @brief The strip at the lower edge of a pane: a scale bar, and what the colours mean.
+#pragma once
+
+#include <mrpt/img/TColor.h>
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <string>
+#include <vector>
+
+#include "window/view/FilterSnapshot.h"
+#include "window/view/MapView.h"
+
+namespace hybrid_slam::window {
+
+struct LegendEntry {
+  enum class Symbol { area, stroke, arrow, circle, ellipse };
+  std::string label;
+  mrpt::img::TColor colour;
+  Symbol symbol;
+};
+
+/// An entry for each thing that is drawn: none for hidden layers, or for lines where the filter has none.
+std::vector<LegendEntry> legendOf(const FilterSnapshot& filter, const Layers& layers);
+
+/// A length for the scale bar: 1, 2 or 5 times a power of ten, at most 80 pixels long.
+/// @param scale  pixels per m
+double scaleBarLength(double scale);
+
+/// Where the entries are in the strip.
+struct LegendLayout {
+  std::vector<LegendEntry> entries;
+  std::vector<mrpt::math::TPoint2D> places;  ///< pixels, right and down from the strip's upper left corner
+  double height = 0;                         ///< pixels; 0 if the legend is hidden
+};
+
+/// Height of a strip with all entries, pixels: that of one filter's changes from scan to scan, and another
+/// filter's differs.
+double legendRoom(const Layers& layers, PictureSize size);
+
+/// In rows as long as the picture is wide, after room for the scale bar.
+LegendLayout legendLayout(const FilterSnapshot& filter, const Layers& layers, PictureSize size);
+
+/// Adds the strip to a scene with this view.
+/// @param above    of everything else, m
+/// @param density  screen pixels per pixel of `size`
+void addLegend(mrpt::opengl::COpenGLScene& scene, const LegendLayout& layout, const MapView& view,
+               PictureSize size, double above, double density);
+
+}  // namespace hybrid_slam::window
