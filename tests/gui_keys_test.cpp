@@ -1,38 +1,11 @@
 /// The window as a user drives it: with real keys and the mouse, under a window manager.
 #include <wx/display.h>
 #include <wx/dnd.h>
-#include <wx/uiaction.h>
 
-#include "GuiTest.h"
+#include "KeysTest.h"
 
 namespace hybrid_slam {
 namespace {
-
-class KeysTest : public GuiTest {
- protected:
-  void SetUp() override {
-    ASSERT_TRUE(test::happens([] { return test::hasWindowManager(); }));
-    GuiTest::SetUp();
-    ASSERT_TRUE(happens([this] { return frame->IsActive(); }));
-  }
-  void press(int key, int modifiers = wxMOD_NONE) {
-    wxUIActionSimulator().Char(key, modifiers);
-    wxYield();
-  }
-  void click(wxWindow* window) {
-    const wxSize size = window->GetClientSize();
-    wxUIActionSimulator mouse;
-    mouse.MouseMove(window->ClientToScreen(wxPoint(size.x / 2, size.y / 2)));
-    wxYield();
-    mouse.MouseClick();
-    wxYield();
-  }
-  void openLog() {
-    frame->open(ini, log);
-    ASSERT_TRUE(stands(State::paused, 0));
-    ASSERT_TRUE(happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); }));
-  }
-};
 
 TEST_F(KeysTest, WorkFromTheStart) {
   openLog();

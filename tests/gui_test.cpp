@@ -118,8 +118,7 @@ TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
   window::ParametersDialog dialog(frame, *frame->settings());
   dialog.Show();
   screenshot("parameters");
-  auto* const grid = dynamic_cast<wxPropertyGrid*>(dialog.GetChildren().front());
-  ASSERT_NE(grid, nullptr);
+  wxPropertyGrid* const grid = dialog.grid();
   EXPECT_TRUE(grid->ChangePropertyValue("particle_filter.particles", "12"));
   EXPECT_TRUE(grid->ChangePropertyValue("run.method", "general"));
   EXPECT_THAT(dialog.changes(), testing::ElementsAre("particle_filter.particles=12", "run.method=general"));

@@ -3,6 +3,7 @@
 #include <wx/sizer.h>
 
 #include "window/gui/Messages.h"
+#include "window/gui/WhatIsThis.h"
 
 namespace hybrid_slam::window {
 
@@ -22,10 +23,10 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   const auto add = [&](wxWindow* control, int share = 0) {
     row->Add(control, wxSizerFlags(share).CentreVertical().Border(wxALL, FromDIP(4)));
   };
-  add(new wxStaticText(this, wxID_ANY, "observation-server"));
-  server_ = new wxTextCtrl(this, wxID_ANY, "127.0.0.1:4550", wxDefaultPosition, FromDIP(wxSize(180, -1)));
+  add(new wxStaticText(this, wxID_ANY, "server"));
+  server_ = new wxTextCtrl(this, wxID_ANY, "127.0.0.1:4550", wxDefaultPosition, FromDIP(wxSize(140, -1)));
   add(server_);
-  add(new wxStaticText(this, wxID_ANY, "results and recording in"));
+  add(new wxStaticText(this, wxID_ANY, "results in"));
   output_ = new wxTextCtrl(this, wxID_ANY, "out/live");
   add(output_, 1);
   button_ = new wxButton(this, wxID_ANY, "Connect");
@@ -33,10 +34,17 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   text_ = new wxStaticText(this, wxID_ANY, "not connected", wxDefaultPosition, FromDIP(wxSize(170, -1)),
                            wxST_NO_AUTORESIZE);
   add(text_);
+  explainWithTip(server_, "HOST:PORT of an observation-server");
+  explainWithTip(output_, "Folder for the results and the recording");
+  explainWithTip(button_, "Connect: begins a run. Stop: ends it and writes its results");
+  explain(text_, "Scans received, and what the run does now");
 
   canvas_ = new MapCanvas(this, "no map yet: Connect", view_, [this] { canvas_->Refresh(false); });
   plots_ = new PlotPanel(this);
   events_ = new wxListBox(this, wxID_ANY, wxDefaultPosition, FromDIP(wxSize(-1, 90)));
+  explain(canvas_, kPaneHelp);
+  explain(plots_, kPlotsHelp);
+  explain(events_, "What happened to the connection and in the filter, the newest last");
   auto* const column = new wxBoxSizer(wxVERTICAL);
   column->Add(row, 0, wxEXPAND);
   column->Add(canvas_, 1, wxEXPAND);

@@ -1,5 +1,6 @@
 #include "window/gui/MainFrame.h"
 
+#include <wx/cshelp.h>
 #include <wx/display.h>
 #include <wx/numdlg.h>
 
@@ -8,6 +9,7 @@
 
 #include "base/Errors.h"
 #include "files/InstalledFiles.h"
+#include "window/gui/HelpPages.h"
 #include "window/gui/Messages.h"
 #include "window/gui/ParametersDialog.h"
 #include "window/gui/PlayerKeys.h"
@@ -38,11 +40,15 @@ MainFrame::MainFrame()
   live_ = new LivePage(pages_);
   pages_->AddPage(replay_, "Replay");
   pages_->AddPage(live_, "Live");
-  CreateStatusBar(2);
+  CreateStatusBar(3);
+  const int widths[] = {-3, -2, FromDIP(260)};
+  SetStatusWidths(3, widths);
   SetMenuBar(makeMenuBar());
+  recent_ = std::make_unique<RecentFiles>(GetMenuBar()->FindItem(kRecentFiles)->GetSubMenu());
   bindFileMenu();
   bindReplayMenu();
   bindViewMenu();
+  bindHelpMenu();
   bindKeys();
   SetDropTarget(new LogDrop(*this));
   live_->setSettings(settings_);
@@ -79,6 +85,22 @@ void MainFrame::bindFileMenu() {
   Bind(
       wxEVT_MENU, [this](wxCommandEvent&) { Close(); }, wxID_EXIT);
   Bind(
+      wxEVT_MENU, [this](wxCommandEvent& event) { orTell(this, [&] { openRecent(event.GetId()); }); },
+      wxID_FILE1, wxID_FILE9);
+}
+
+void MainFrame::bindHelpMenu() {
+  Bind(
+      wxEVT_MENU, [this](wxCommandEvent&) { const wxContextHelp untilClick(this); }, kWhatIsThis);
+  const auto& pages = helpPages();
+  Bind(
+      wxEVT_MENU,
+      [this, &pages](wxCommandEvent& event) {
+        const auto i = static_cast<size_t>(event.GetId() - kFirstPage);
+        orTell(this, [&] { openPage(pages.at(i).page); });
+      },
+      kFirstPage, kFirstPage + static_cast<int>(pages.size()) - 1);
+  Bind(
       wxEVT_MENU,
       [this](wxCommandEvent&) {
         showNotice(this, files::withInstalledPages(
@@ -109,6 +131,7 @@ void MainFrame::enableCommands() {
     enable(command, isPlayable);
   enable(kSaveMap, isReplayShown() ? isPlayable : live_->isRunning());
   enable(kExportPicture, canvas()->shown() != nullptr);
+  enable(kRecentFiles, !recent_->isEmpty());
 }
 
 void MainFrame::bindReplayMenu() {
@@ -137,7 +160,8 @@ void MainFrame::bindViewMenu() {
                                                              {kPath, &Layers::path},
                                                              {kLines, &Layers::lines},
                                                              {kScanLines, &Layers::scanLines},
-                                                             {kEllipse, &Layers::ellipse}})
+                                                             {kEllipse, &Layers::ellipse},
+                                                             {kLegend, &Layers::legend}})
     bind(id, [this, layer = layer] {
       replay_->toggle(layer);
       live_->toggle(layer);
@@ -148,13 +172,21 @@ void MainFrame::bindViewMenu() {
       wxEVT_MENU, [this](wxCommandEvent& event) { replay_->showGeneral(event.IsChecked()); }, kGeneral);
 }
 
-/// The newest event on the left, the place in the map of an earlier run on the right.
+/// The newest event, the place in the map of an earlier run, and what is under the mouse pointer.
 void MainFrame::showState() {
   const auto note = wxString::FromUTF8(isReplayShown() ? replay_->note() : live_->note());
   if (note != note_) SetStatusText(note_ = note);
   const auto& shown = canvas()->shown();
   const auto place = wxString::FromUTF8(shown && shown->place ? describe(*shown->place) : "");
   if (place != GetStatusBar()->GetStatusText(1)) SetStatusText(place, 1);
+  const auto cursor = wxString::FromUTF8(cursorText());
+  if (cursor != GetStatusBar()->GetStatusText(2)) SetStatusText(cursor, 2);
+}
+
+std::string MainFrame::cursorText() const {
+  if (!isReplayShown()) return live_->canvas()->cursorText();
+  const std::string left = replay_->canvas(0)->cursorText();
+  return left.empty() ? replay_->canvas(1)->cursorText() : left;
 }
 
 void MainFrame::askForScan() {
@@ -167,7 +199,7 @@ void MainFrame::askForScan() {
 
 void MainFrame::editParameters() {
   ParametersDialog dialog(this, *settings_);
-  if (dialog.ShowModal() == wxID_OK) applyChanges(dialog.changes());
+  if (dialog.ShowModal() == wxID_OK) applyChanges(dialog.changes(), dialog.resets());
 }
 
 }  // namespace hybrid_slam::window

@@ -12,6 +12,7 @@
 
 #include "window/gui/LivePage.h"
 #include "window/gui/MenuBar.h"
+#include "window/gui/RecentFiles.h"
 #include "window/gui/ReplayPage.h"
 #include "window/gui/Settings.h"
 
@@ -28,7 +29,8 @@ class MainFrame : public wxFrame {
             const std::vector<std::string>& changes = {});
   /// Later runs map on or localise in this map.
   void useMap(const MapChoice& map);
-  void applyChanges(const std::vector<std::string>& changes);
+  /// @param changes  SECTION.KEY=VALUE each @param resets  SECTION.KEY each, which get their defaults
+  void applyChanges(const std::vector<std::string>& changes, const std::vector<std::string>& resets = {});
 
   /// @name Menu actions with a chosen file
   /// @throws InputError if it cannot be written, or there is nothing to write
@@ -57,12 +59,15 @@ class MainFrame : public wxFrame {
   void bindFileMenu();
   void bindReplayMenu();
   void bindViewMenu();
+  void bindHelpMenu();
   void bindKeys();
   void enableCommands();
   bool isReplayShown() const { return pages_->GetSelection() == 0; }
   MapCanvas* canvas() const { return isReplayShown() ? replay_->canvas(0) : live_->canvas(); }
   void use(const std::shared_ptr<Settings>& settings);
   void openIni();
+  void openIni(const std::string& ini);
+  void openRecent(int command);
   void openLog();
   void openLog(const std::string& log);
   void saveIni();
@@ -71,6 +76,7 @@ class MainFrame : public wxFrame {
   void openMap();
   void saveMap();
   void showState();
+  std::string cursorText() const;
   std::shared_ptr<const FilterSnapshot> shownFilter() const;
   void askForScan();
   void editParameters();
@@ -81,6 +87,7 @@ class MainFrame : public wxFrame {
   LivePage* live_;
   wxTimer timer_;
   wxString note_;  ///< shown last
+  std::unique_ptr<RecentFiles> recent_;
 };
 
 }  // namespace hybrid_slam::window

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/Errors.h"
+#include "files/IniFile.h"
 #include "files/OutputFolder.h"
 #include "files/PartialFile.h"
 #include "window/gui/MainFrame.h"
@@ -19,13 +20,15 @@ void MainFrame::open(const std::string& ini, const std::string& rawlog, const Ma
     std::vector<std::string> all = changes;
     if (!rawlog.empty()) all.push_back("run.rawlog=" + rawlog);
     use(Settings::fromFile(ini, all)->inMap(map));
+    if (!ini.empty()) recent_->add(ini);
   });
 }
 
 void MainFrame::useMap(const MapChoice& map) { use(settings_->inMap(map)); }
 
-void MainFrame::applyChanges(const std::vector<std::string>& changes) {
-  if (!changes.empty()) orTell(this, [&] { use(settings_->copy(changes)); });
+void MainFrame::applyChanges(const std::vector<std::string>& changes,
+                             const std::vector<std::string>& resets) {
+  if (!changes.empty() || !resets.empty()) orTell(this, [&] { use(settings_->copy(changes, resets)); });
 }
 
 void MainFrame::use(const std::shared_ptr<Settings>& settings) {
@@ -36,12 +39,27 @@ void MainFrame::use(const std::shared_ptr<Settings>& settings) {
   if (rawlog.empty()) return;
   if (live_->isRunning()) throw InputError("a live run is in progress", rawlog, "stop it first: Live, Stop");
   replay_->open(settings->configuration);
+  recent_->add(rawlog);
 }
 
 void MainFrame::openIni() {
   wxFileDialog dialog(this, "Open INI file", "", "", "INI files (*.ini)|*.ini|All files|*",
                       wxFD_OPEN | wxFD_FILE_MUST_EXIST);
-  if (dialog.ShowModal() == wxID_OK) use(Settings::fromFile(dialog.GetPath().utf8_string()));
+  if (dialog.ShowModal() == wxID_OK) openIni(dialog.GetPath().utf8_string());
+}
+
+void MainFrame::openIni(const std::string& ini) {
+  use(Settings::fromFile(ini));
+  recent_->add(ini);
+}
+
+void MainFrame::openRecent(int command) {
+  const std::string file = recent_->file(command);
+  if (!std::filesystem::is_regular_file(file)) {
+    recent_->remove(file);
+    throw InputError("no such file", file, "it is no longer among the recent files");
+  }
+  files::isIni(file) ? openIni(file) : openLog(file);
 }
 
 bool MainFrame::LogDrop::OnDropFiles(wxCoord, wxCoord, const wxArrayString& names) {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "window/gui/HelpPages.h"
+
 namespace hybrid_slam::window {
 namespace {
 
@@ -9,7 +11,9 @@ wxMenu* fileMenu() {
   auto* const file = new wxMenu;
   file->Append(kOpenLog, "Open &log...\tCtrl+R", "Replays a log; settings are read off it");
   file->Append(kOpenIni, "Open &INI file...\tCtrl+O", "Settings, and the log they name");
-  file->Append(kOpenMap, "Open &map...\tCtrl+M", "Maps on, or localises, in the map of an earlier run");
+  file->Append(kOpenMap, "Open &map or session...\tCtrl+M",
+               "Maps on, or localises, in the map of an earlier run");
+  file->Append(kRecentFiles, "Recent &files", new wxMenu, "Logs and INI files opened last");
   file->Append(kSaveIni, "&Save settings as INI...\tCtrl+S", "Every key with its value");
   file->AppendSeparator();
   file->Append(kSaveMap, "Save map &now...\tCtrl+Shift+S", "Saves map and session; the run goes on");
@@ -47,7 +51,8 @@ wxMenu* viewMenu() {
                                                           {kPath, "P&ath\tCtrl+3"},
                                                           {kLines, "&Lines and direction\tCtrl+4"},
                                                           {kScanLines, "Lines of the &scan\tCtrl+5"},
-                                                          {kEllipse, "&Uncertainty\tCtrl+6"}})
+                                                          {kEllipse, "&Uncertainty\tCtrl+6"},
+                                                          {kLegend, "Le&gend and scale bar\tCtrl+7"}})
     view->AppendCheckItem(id, name)->Check();
   view->AppendSeparator();
   view->Append(kReplayPage, "&Replay\tAlt+1");
@@ -55,16 +60,25 @@ wxMenu* viewMenu() {
   return view;
 }
 
+wxMenu* helpMenu() {
+  auto* const help = new wxMenu;
+  help->Append(kWhatIsThis, "&What is this?\tShift+F1", "Then click on a part of the window");
+  help->AppendSeparator();
+  int command = kFirstPage;
+  for (const HelpPage& page : helpPages()) help->Append(command++, page.entry, page.page);
+  help->AppendSeparator();
+  help->Append(wxID_ABOUT);
+  return help;
+}
+
 }  // namespace
 
 wxMenuBar* makeMenuBar() {
-  auto* const help = new wxMenu;
-  help->Append(wxID_ABOUT);
   auto* const bar = new wxMenuBar;
   bar->Append(fileMenu(), "&File");
   bar->Append(replayMenu(), "&Replay");
   bar->Append(viewMenu(), "&View");
-  bar->Append(help, "&Help");
+  bar->Append(helpMenu(), "&Help");
   return bar;
 }
 

@@ -14,6 +14,7 @@ enum Command {
   kExportPicture,
   kExportResults,
   kOpenMap,
+  kRecentFiles,
   kSaveMap,
   kPlay,
   kStep,
@@ -32,8 +33,11 @@ enum Command {
   kLines,
   kScanLines,
   kEllipse,
+  kLegend,
   kReplayPage,
-  kLivePage
+  kLivePage,
+  kWhatIsThis,
+  kFirstPage  ///< of HelpPages.h; the others follow
 };
 
 wxMenuBar* makeMenuBar();

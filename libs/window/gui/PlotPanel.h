@@ -13,6 +13,12 @@ class wxGraphicsContext;
 
 namespace hybrid_slam::window {
 
+/// Text for "What is this?".
+inline const char* const kPlotsHelp =
+    "Over log time: the standard deviations of the particles' poses, and the effective sample size (ESS) as "
+    "a "
+    "share of the particles. Small deviations: the filter is sure of the pose.";
+
 /// Four plots in a row: std x (m), std y (m), std phi (deg), ESS (fraction).
 class PlotPanel : public wxPanel {
  public:

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "window/gui/Messages.h"
+#include "window/gui/WhatIsThis.h"
 
 namespace hybrid_slam::window {
 namespace {
@@ -48,7 +49,7 @@ void ReplayPage::addControls(wxSizer* to) {
   };
   const auto button = [&](const char* name, const char* help) {
     auto* const made = new wxButton(this, wxID_ANY, name, wxDefaultPosition, wxDefaultSize, wxBU_EXACTFIT);
-    made->SetToolTip(help);
+    explainWithTip(made, help);
     return made;
   };
   restart_ = button("Restart", "Back to before the first scan (F7)");
@@ -61,8 +62,8 @@ void ReplayPage::addControls(wxSizer* to) {
   place_ = new wxSlider(this, wxID_ANY, 0, 0, 1);
   text_ = new wxStaticText(this, wxID_ANY, "no log", wxDefaultPosition, FromDIP(wxSize(270, -1)),
                            wxST_NO_AUTORESIZE);
-  speed_->SetToolTip("Pace of the replay, as a multiple of the log's (Ctrl+Up, Ctrl+Down)");
-  place_->SetToolTip("Place in the log: drag to go to a scan (Ctrl+G)");
+  explainWithTip(speed_, "Pace of the replay, as a multiple of the log's (Ctrl+Up, Ctrl+Down)");
+  explainWithTip(place_, "Place in the log: drag to go to a scan (Ctrl+G)");
   for (wxWindow* control : std::initializer_list<wxWindow*>{restart_, back_, play_, step_, speed_})
     add(control);
   add(place_, 1);
@@ -74,6 +75,9 @@ void ReplayPage::addControls(wxSizer* to) {
   play_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { playOrPause(); });
   step_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { step(); });
   speed_->Bind(wxEVT_CHOICE, [this](wxCommandEvent&) { faster(0); });
+  for (MapCanvas* canvas : canvases_) explain(canvas, kPaneHelp);
+  explain(plots_, kPlotsHelp);
+  explain(text_, "The scan shown, its time since the first one, and what the replay does");
   place_->Bind(wxEVT_SCROLL_THUMBTRACK, [this](wxScrollEvent&) { isSliding_ = true; });
   place_->Bind(wxEVT_SCROLL_CHANGED, [this](wxScrollEvent&) {
     isSliding_ = false;
@@ -94,9 +98,9 @@ void ReplayPage::showTitles() {
   if (session_) hint = "reading the log";
   if (hasLog())
     hint = shown_->state == State::failed ? "the log could not be replayed" : "press Space to play";
-  canvases_[0]->setTitle("hybrid filter: " + hint);
-  canvases_[1]->setTitle(session_ ? "second filter: " + hint
-                                  : "general filter, the same without lines, or the method of -m");
+  canvases_[0]->setTitle("hybrid filter:\n" + hint);
+  canvases_[1]->setTitle(session_ ? "second filter:\n" + hint
+                                  : "general filter: the same without lines,\nor the method of -m");
 }
 
 void ReplayPage::open(const run::Configuration& configuration) {

@@ -1,9 +1,29 @@
 #include "window/gui/Settings.h"
 
+#include <algorithm>
+
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 
 namespace hybrid_slam::window {
+namespace {
+
+/// The settings without these keys. @param names  SECTION.KEY each
+std::string textWithout(const mrpt::config::CConfigFileBase& settings,
+                        const std::vector<std::string>& names) {
+  mrpt::config::CConfigFileMemory left;
+  std::vector<std::string> sections, keys;
+  settings.getAllSections(sections);
+  for (const std::string& section : sections) {
+    settings.getAllKeys(section, keys);
+    for (const std::string& key : keys)
+      if (std::find(names.begin(), names.end(), section + "." + key) == names.end())
+        left.write(section, key, settings.read_string(section, key, ""));
+  }
+  return left.getContent();
+}
+
+}  // namespace
 
 MapChoice MapChoice::of(const run::RunOptions& run) {
   if (!run.continueFrom.empty()) return {Use::mapOn, run.continueFrom, run.start};
@@ -48,9 +68,17 @@ std::shared_ptr<Settings> Settings::inMap(const MapChoice& map) const {
   return changed;
 }
 
-std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes) const {
+std::shared_ptr<Settings> Settings::defaults() const {
+  const std::string& log = configuration.run.rawlog;
+  return std::shared_ptr<Settings>(
+      new Settings("", log.empty() ? std::vector<std::string>{} : std::vector{"run.rawlog=" + log}, this));
+}
+
+std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes,
+                                         const std::vector<std::string>& resets) const {
   // Only what the user set: the rest follows from the log, which may change.
-  const std::string text = configuration.source.getContent();
+  const std::string text =
+      resets.empty() ? configuration.source.getContent() : textWithout(configuration.source, resets);
   const files::TemporaryFolder folder;
   const std::string file = text.empty() ? text : folder.write("settings.ini", text);
   return std::shared_ptr<Settings>(new Settings(file, changes, this));

@@ -34,7 +34,12 @@ struct Settings {
   static std::shared_ptr<Settings> fromFile(const std::string& file,
                                             const std::vector<std::string>& changes = {});
   /// A modified copy. @param changes  SECTION.KEY=VALUE each
-  std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {}) const;
+  /// @param resets  SECTION.KEY each, which are no longer set: they get their defaults, or follow from the
+  /// log
+  std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {},
+                                 const std::vector<std::string>& resets = {}) const;
+  /// What the settings are if only the log is set.
+  std::shared_ptr<Settings> defaults() const;
   /// A copy for runs in another map, or in a new one.
   std::shared_ptr<Settings> inMap(const MapChoice& map) const;
   MapChoice map() const { return MapChoice::of(configuration.run); }

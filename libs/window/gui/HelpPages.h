@@ -1,0 +1,26 @@
+/// @file HelpPages.h
+/// @brief The pages of the documentation in the Help menu.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "files/InstalledFiles.h"
+
+namespace hybrid_slam::window {
+
+struct HelpPage {
+  const char* entry;  ///< of the menu, with its key
+  const char* page;
+};
+
+/// In the order of the commands from kFirstPage on.
+const std::vector<HelpPage>& helpPages();
+
+/// Opens an installed page with the desktop's program for such files.
+/// @param bin  folder of the program
+/// @throws InputError if the page is not installed, or no program shows it
+void openPage(const std::string& page, const std::filesystem::path& bin = files::programFolder());
+
+}  // namespace hybrid_slam::window

@@ -1,0 +1,49 @@
+/// @file KeysTest.h
+/// @brief For the tests of the window with real keys and the mouse, under a window manager.
+#pragma once
+
+#include <wx/uiaction.h>
+
+#include "GuiTest.h"
+
+namespace hybrid_slam {
+
+class KeysTest : public GuiTest {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(test::happens([] { return test::hasWindowManager(); }));
+    GuiTest::SetUp();
+    ASSERT_TRUE(happens([this] { return frame->IsActive(); }));
+  }
+  void press(int key, int modifiers = wxMOD_NONE) {
+    wxUIActionSimulator().Char(key, modifiers);
+    wxYield();
+  }
+  void pointAt(wxWindow* window, const wxPoint& place) {
+    wxUIActionSimulator().MouseMove(window->ClientToScreen(place));
+    wxYield();
+  }
+  void click(wxWindow* window) {
+    const wxSize size = window->GetClientSize();
+    pointAt(window, {size.x / 2, size.y / 2});
+    wxUIActionSimulator().MouseClick();
+    wxYield();
+  }
+  void openAt(size_t scan) {
+    openLog();
+    frame->replay()->seek(scan);
+    ASSERT_TRUE(stands(State::paused, scan));
+    const auto shows = [this](size_t i) {
+      const auto& shown = frame->replay()->canvas(i)->shown();
+      return shown && shown == now().filters.at(i);
+    };
+    ASSERT_TRUE(happens([&] { return shows(0) && shows(1); }));
+  }
+  void openLog() {
+    frame->open(ini, log);
+    ASSERT_TRUE(stands(State::paused, 0));
+    ASSERT_TRUE(happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); }));
+  }
+};
+
+}  // namespace hybrid_slam

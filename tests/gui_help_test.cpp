@@ -1,0 +1,98 @@
+/// "What is this?" and the pages of the Help menu.
+#include <wx/cshelp.h>
+#include <wx/tipwin.h>
+
+#include "KeysTest.h"
+#include "window/gui/HelpPages.h"
+
+namespace hybrid_slam {
+namespace {
+
+/// Clicks in a while, in the loop that waits for the click.
+class LaterClick : public wxTimer {
+ public:
+  explicit LaterClick(wxWindow* at) : at_(at) { StartOnce(500); }
+  void Notify() override {
+    const wxSize size = at_->GetClientSize();
+    wxUIActionSimulator mouse;
+    mouse.MouseMove(at_->ClientToScreen(wxPoint(size.x / 2, size.y / 2)));
+    mouse.MouseClick();
+  }
+
+ private:
+  wxWindow* at_;
+};
+
+class HelpTest : public KeysTest {
+ protected:
+  static wxTipWindow* tipOf(const wxWindow* window) {
+    for (wxWindow* child : window->GetChildren())
+      if (auto* const tip = dynamic_cast<wxTipWindow*>(child)) return tip;
+    return nullptr;
+  }
+};
+
+TEST_F(HelpTest, ShiftF1AndAClickSayWhatAControlIs) {
+  openAt(40);
+  for (wxWindow* control :
+       {static_cast<wxWindow*>(frame->replay()->canvas(0)), frame->replay()->stepButton()}) {
+    const LaterClick click(control);
+    press(WXK_F1, wxMOD_SHIFT);
+    EXPECT_TRUE(happens([&] { return tipOf(control) && tipOf(control)->IsShown(); })) << control->GetLabel();
+    screenshot(control == frame->replay()->stepButton() ? "what-is-this-button" : "what-is-this");
+    press(WXK_ESCAPE);
+    if (wxTipWindow* const tip = tipOf(control)) tip->Close();
+    happens([&] { return !tipOf(control); });
+  }
+  EXPECT_EQ(now().scans, 40u) << "the click asks, and does not step";
+  EXPECT_THAT(frame->replay()->canvas(0)->GetHelpText().utf8_string(), HasSubstr("best particle's map"));
+  EXPECT_THAT(frame->replay()->stepButton()->GetHelpText().utf8_string(), HasSubstr("One scan forward"));
+}
+
+TEST_F(HelpTest, EveryControlHasAText) {
+  for (const wxWindow* page :
+       {static_cast<wxWindow*>(frame->replay()), static_cast<wxWindow*>(frame->live())})
+    for (const wxWindow* control : page->GetChildren()) {
+      const auto* const text = dynamic_cast<const wxStaticText*>(control);
+      if (text && control->GetLabel().EndsWith("server")) continue;  // beside the field
+      if (text && control->GetLabel().EndsWith("results in")) continue;
+      EXPECT_FALSE(control->GetHelpText().empty())
+          << control->GetClassInfo()->GetClassName() << " " << control->GetLabel();
+    }
+}
+
+TEST_F(HelpTest, F1OpensThePageOfTheWindow) {
+  press(WXK_F1);
+  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("page not installed: doc/gui.md"));
+
+  // An installation, and a desktop.
+  for (const char* made : {"bin", "share/doc/hybrid-slam/doc"})
+    std::filesystem::create_directories(folder.path(made));
+  const std::string page = folder.write("share/doc/hybrid-slam/doc/gui.md", "# Window\n");
+  const std::string opened = folder.path("opened");
+  const std::string desktop = folder.write("bin/xdg-open", "#!/bin/sh\nprintf %s \"$1\" > " + opened + "\n");
+  std::filesystem::permissions(desktop, std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
+  window::openPage("doc/gui.md", folder.path("bin"));
+  EXPECT_TRUE(happens([&] { return std::filesystem::exists(opened) && test::contentOf(opened) == page; }));
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_THROW(window::openPage("doc/none.md", folder.path("bin")), InputError);
+}
+
+TEST_F(HelpTest, ThePagesOfTheMenuAreThere) {
+  for (const window::HelpPage& help : window::helpPages())
+    EXPECT_TRUE(std::filesystem::exists(std::string(SOURCE_DIR "/") + help.page)) << help.page;
+}
+
+TEST_F(HelpTest, AboutNamesTheVersion) {
+  press('H', wxMOD_ALT);
+  settle(0.3);
+  press('A');
+  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("hybrid-slam-gui " HYBRID_SLAM_VERSION));
+}
+
+}  // namespace
+}  // namespace hybrid_slam

@@ -1,0 +1,108 @@
+/// What the panes show beside the map: legend, scale bar, the cell under the mouse pointer; the smallest
+/// window.
+#include "KeysTest.h"
+#include "window/view/SceneLegend.h"
+
+namespace hybrid_slam {
+namespace {
+
+class PanesTest : public KeysTest {
+ protected:
+  const window::MapCanvas& pane() { return *frame->replay()->canvas(0); }
+  size_t strip(const std::string& name) { return count(screenshot(name), pane(), 80, 80, 80); }
+  /// Pixels of the longest white run in the rows of the pane's legend.
+  int longestWhiteRun(const wxImage& screen) {
+    const window::LegendLayout layout = legendLayout(*pane().shown(), {}, pane().size());
+    const int below = pane().size().height, top = below - static_cast<int>(layout.height);
+    int longest = 0;
+    for (int y = top; y < below; ++y)
+      for (int x = 0, run = 0; x < pane().size().width; ++x) {
+        const wxPoint at = onScreen({pane().ClientToScreen(wxPoint(x, y)), wxSize(1, 1)}).GetTopLeft();
+        run = screen.GetRed(at.x, at.y) > 240 && screen.GetBlue(at.x, at.y) > 240 ? run + 1 : 0;
+        longest = std::max(longest, run);
+      }
+    return longest;
+  }
+  /// Points at a pixel whose cell is darker than 20 (occupied), or 127 (unknown). @return its place
+  mrpt::math::TPoint2D pointAtCell(bool isOccupied) {
+    const window::MapImage& map = pane().shown()->map;
+    for (int y = 0; y < pane().size().height; ++y)
+      for (int x = 0; x < pane().size().width; ++x) {
+        const auto place = pane().view().toMap(x + 0.5, y + 0.5, pane().size());
+        const double column = (place.x - map.left) / map.resolution;
+        const double row = (map.top() - place.y) / map.resolution;
+        if (column < 0 || row < 0 || column >= map.width || row >= map.height) continue;
+        const int grey =
+            map.grey[static_cast<size_t>(row) * static_cast<size_t>(map.width) + static_cast<size_t>(column)];
+        if (isOccupied ? grey >= 20 : grey != 127) continue;
+        pointAt(frame->replay()->canvas(0), {x, y});
+        return place;
+      }
+    ADD_FAILURE() << "no such cell";
+    return {};
+  }
+};
+
+TEST_F(PanesTest, TheLegendAndTheScaleBarCanBeHidden) {
+  openAt(40);
+  const wxImage shown = screenshot("legend");
+  EXPECT_GT(count(shown, pane(), 80, 80, 80), 4000u) << "the strip";
+  const double scale = pane().view().scale;
+  EXPECT_NEAR(longestWhiteRun(shown), window::scaleBarLength(scale) * scale, 4) << "as long as it says";
+  press('7', wxMOD_CONTROL);
+  EXPECT_GT(pane().view().scale, scale) << "the map takes its room";
+  EXPECT_LT(strip("no-legend"), 1000u);
+  press('7', wxMOD_CONTROL);
+  EXPECT_GT(strip("legend-again"), 4000u);
+}
+
+TEST_F(PanesTest, TheEllipseOfThePoseCanBeHidden) {
+  openAt(40);
+  press('7', wxMOD_CONTROL);  // else its entry would be counted
+  EXPECT_GT(count(screenshot("ellipse"), pane(), 150, 0, 180), 5u);
+  press('6', wxMOD_CONTROL);
+  EXPECT_EQ(count(screenshot("no-ellipse"), pane(), 150, 0, 180), 0u);
+}
+
+TEST_F(PanesTest, TheStatusBarSaysWhatIsUnderTheMousePointer) {
+  openAt(40);
+  const auto place = pointAtCell(true);
+  EXPECT_TRUE(happens([this] { return status(2).find("occupied 0.9") != std::string::npos; })) << status(2);
+  double x = 0, y = 0;
+  ASSERT_EQ(std::sscanf(status(2).c_str(), "x %lf m, y %lf m", &x, &y), 2) << status(2);
+  const double pixel = 1 / pane().view().scale;
+  EXPECT_NEAR(x, place.x, pixel);
+  EXPECT_NEAR(y, place.y, pixel);
+  screenshot("cursor");
+  pointAtCell(false);
+  EXPECT_TRUE(happens([this] { return status(2).find(": unknown") != std::string::npos; })) << status(2);
+  pointAt(frame->replay()->stepButton(), {5, 5});
+  EXPECT_TRUE(happens([this] { return status(2).empty(); })) << status(2);
+}
+
+/// The pages' own controls: inside the page, beside each other, and large enough for their texts.
+TEST_F(PanesTest, TheSmallestWindowHasRoomForItsControls) {
+  openAt(40);
+  frame->SetSize(frame->FromDIP(wxSize(800, 560)));
+  for (const int page : {window::kReplayPage, window::kLivePage}) {
+    menu(page);
+    screenshot(page == window::kReplayPage ? "small-replay" : "small-live");
+    const wxWindow* const panel =
+        page == window::kReplayPage ? static_cast<wxWindow*>(frame->replay()) : frame->live();
+    std::vector<wxRect> before;
+    for (const wxWindow* control : panel->GetChildren()) {
+      const wxRect area = control->GetRect();
+      EXPECT_TRUE(wxRect(panel->GetClientSize()).Contains(area)) << control->GetLabel();
+      for (const wxRect& other : before) EXPECT_FALSE(other.Intersects(area)) << control->GetLabel();
+      before.push_back(area);
+      const bool isText = dynamic_cast<const wxTextCtrl*>(control) != nullptr;
+      EXPECT_GE(area.width, isText ? frame->FromDIP(100) : 0) << "a text field";
+      const bool isLabel = dynamic_cast<const wxStaticText*>(control) != nullptr;
+      EXPECT_GE(area.width, isLabel ? control->GetTextExtent(control->GetLabel()).x : 0)
+          << control->GetLabel();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hybrid_slam
