@@ -69,12 +69,12 @@ std::vector<std::string> comments(const CommandLine& line, const run::Configurat
     (out << ... << parts);
     return out.str();
   };
-  const FilterConfiguration& filter = configuration.filter;
+  const UpdateInterval interval = configuration.filter.updateInterval();
   const std::string priorName = line.files.config.empty() ? "the defaults" : line.files.config;
   std::vector<std::string> all{
       text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.files.log, " with ", priorName,
            "."),
-      text("For updates every ", filter.updateDistance(), " m or ", mrpt::RAD2DEG(filter.updateAngle()),
+      text("For updates every ", interval.distance, " m or ", mrpt::RAD2DEG(interval.angle),
            " deg: the variances hold for steps of this size."),
       text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
            " (the prior's: ", prior.logLikelihood, ")."),

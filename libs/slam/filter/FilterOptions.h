@@ -4,6 +4,7 @@
 
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/TPose2D.h>
 
 #include <cmath>
 
@@ -60,6 +61,14 @@ struct ImprovedProposalOptions : Options {
   void describe(OptionTable& table) override;
 };
 
+/// Motion of the robot from one update to the next.
+struct UpdateInterval {
+  double distance, angle;  ///< m, rad
+  bool isOver(const mrpt::math::TPose2D& odometry) const {
+    return odometry.norm() >= distance || std::abs(odometry.phi) >= angle;
+  }
+};
+
 /// The filter and its parts, one section each.
 struct FilterConfiguration {
   bool useLines = true;  ///< false: the same filter without lines, `--method general`
@@ -78,9 +87,10 @@ struct FilterConfiguration {
   ScanMatcherOptions matcher;
   LoopClosingOptions loopClosing;
 
-  /// Distance (m) or rotation (rad) between updates.
-  double updateDistance() const { return usesMatches() ? improved.updateDistance : filter.updateDistance; }
-  double updateAngle() const { return usesMatches() ? improved.updateAngle : filter.updateAngle; }
+  UpdateInterval updateInterval() const {
+    return usesMatches() ? UpdateInterval{improved.updateDistance, improved.updateAngle}
+                         : UpdateInterval{filter.updateDistance, filter.updateAngle};
+  }
   /// Without grids there is nothing to match scans to, nor to close loops with.
   bool usesMatches() const { return useGrid && filter.proposal == ParticleFilterOptions::Proposal::improved; }
   bool closesLoops() const { return useGrid && loopClosing.enabled; }

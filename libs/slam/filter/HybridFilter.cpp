@@ -11,8 +11,7 @@ using mrpt::system::CTimeLoggerEntry;
 
 HybridFilter::HybridFilter(const FilterConfiguration& configuration)
     : configuration_(configuration),
-      updateDistance_(configuration.updateDistance()),
-      updateAngle_(configuration.updateAngle()),
+      interval_(configuration.updateInterval()),
       prepare_(configuration),
       particles_(configuration, &profiler()),
       remembersScans_(configuration.keepsScans()),
@@ -24,9 +23,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
 
 void HybridFilter::process(const TPose2D& odometry, const Scans& scans) {
   odometry_ = odometry_ + odometry;
-  const bool isDue =
-      !hasMap_ || odometry_.norm() >= updateDistance_ || std::abs(odometry_.phi) >= updateAngle_;
-  if (!scans.empty() && isDue) update(scans);
+  if (!scans.empty() && (!hasMap_ || interval_.isOver(odometry_))) update(scans);
 }
 
 // Fig. 1 from top to bottom.

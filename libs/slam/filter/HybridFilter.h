@@ -71,7 +71,7 @@ class HybridFilter : public Filter {
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path);
 
   FilterConfiguration configuration_;
-  double updateDistance_, updateAngle_;  ///< m, rad
+  UpdateInterval interval_;
   ScanPreparation prepare_;
   ParticleSet particles_;
   mrpt::math::TPose2D odometry_;

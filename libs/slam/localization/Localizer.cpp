@@ -23,7 +23,8 @@ constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams o
 constexpr size_t kWindow = 8;                            // remembered while the place is known
 constexpr long kDoubtful = 2;  // of these that are not explained: other places may fit
 
-FilterConfiguration checked(FilterConfiguration configuration, const OccupancyGrid& grid) {
+/// Completes the settings by the map's.
+const FilterConfiguration& checked(FilterConfiguration& configuration, const OccupancyGrid& grid) {
   configuration.grid.resolution = grid.resolution();
   if (configuration.filter.isAuxiliary())
     throw InputError("MRPT's auxiliary filters do not localise", "section [particle_filter], key `proposal`",
@@ -34,23 +35,23 @@ FilterConfiguration checked(FilterConfiguration configuration, const OccupancyGr
 
 }  // namespace
 
-Localizer::Localizer(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines,
+Localizer::Localizer(FilterConfiguration configuration, OccupancyGrid grid, LineDatabase lines,
                      std::optional<TPose2D> start)
-    : configuration_(checked(configuration, grid)),
+    : interval_(checked(configuration, grid).updateInterval()),
+      particleCount_(configuration.filter.fixedParticles()),
+      seed_(static_cast<uint64_t>(configuration.filter.seed)),
       grid_(std::move(grid)),
       lines_(std::move(lines)),
       start_(start),
-      prepare_(configuration_),
-      particles_(configuration_, &profiler()),
-      global_(configuration_, grid_, lines_),
-      recent_(configuration_),
-      arena_(arenaThreads(configuration_.filter.threads)) {}
+      prepare_(configuration),
+      particles_(configuration, &profiler()),
+      global_(configuration, grid_, lines_),
+      recent_(configuration),
+      arena_(arenaThreads(configuration.filter.threads)) {}
 
 void Localizer::process(const TPose2D& odometry, const Scans& scans) {
   odometry_ = odometry_ + odometry;
-  const bool isDue = path_.empty() || odometry_.norm() >= configuration_.updateDistance() ||
-                     std::abs(odometry_.phi) >= configuration_.updateAngle();
-  if (!scans.empty() && isDue) update(scans);
+  if (!scans.empty() && (path_.empty() || interval_.isOver(odometry_))) update(scans);
 }
 
 void Localizer::update(const Scans& scans) {
@@ -68,9 +69,8 @@ void Localizer::update(const Scans& scans) {
 
 void Localizer::startTracking(const TPose2D& pose) {
   std::vector<TPose2D> poses;
-  for (int i = 0; i < configuration_.filter.fixedParticles(); ++i) {
-    RandomStream random(static_cast<uint64_t>(configuration_.filter.seed), path_.size(),
-                        static_cast<uint64_t>(i));
+  for (int i = 0; i < particleCount_; ++i) {
+    RandomStream random(seed_, path_.size(), static_cast<uint64_t>(i));
     const double x = random.gaussian(), y = random.gaussian(), phi = random.gaussian();
     poses.push_back({pose.x + kStdXY * x, pose.y + kStdXY * y, pose.phi + kStdPhi * phi});
   }

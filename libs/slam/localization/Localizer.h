@@ -24,7 +24,7 @@ class Localizer : public Filter {
   /// map
   /// @throws InputError for incompatible settings
   /// The cells of the map, not `resolution` of [grid], set the resolution.
-  Localizer(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines,
+  Localizer(FilterConfiguration configuration, OccupancyGrid grid, LineDatabase lines,
             std::optional<mrpt::math::TPose2D> start);
 
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
@@ -50,7 +50,9 @@ class Localizer : public Filter {
   void startTracking(const mrpt::math::TPose2D& pose);
   void summarise(const mrpt::math::TPose2D& best);
 
-  FilterConfiguration configuration_;
+  UpdateInterval interval_;
+  int particleCount_;  ///< while tracking
+  uint64_t seed_;
   OccupancyGrid grid_;
   LineDatabase lines_;
   std::optional<mrpt::math::TPose2D> start_;

@@ -61,7 +61,9 @@ LineDatabase linesOf(const std::vector<PlanLine>& walls, double scale, double wi
 
 PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
                        std::optional<TPose2D> start)
-    : configuration_(configuration), walls_(std::move(walls)) {
+    : cell_(configuration.grid.resolution),
+      directionWindow_(configuration.database.directionWindow),
+      walls_(std::move(walls)) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
     throw InputError("floor plan without walls of 1 m", "option --prior-plan",
@@ -69,7 +71,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   for (const double scale : kScales) {
     if (start && scale != 1) continue;
     candidates_.push_back(
-        {scale, std::make_unique<Localizer>(configuration_, gridOf(walls_, scale), LineDatabase(), start)});
+        {scale, std::make_unique<Localizer>(configuration, gridOf(walls_, scale), LineDatabase(), start)});
   }
 }
 
@@ -83,8 +85,7 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
     if (found_ || !candidate.localizer->isLocalized()) continue;
     found_ = Found{candidate.scale,
                    candidate.localizer->bestPath().back(),
-                   {OccupancyGrid(configuration_.grid.resolution),
-                    linesOf(walls_, candidate.scale, configuration_.database.directionWindow)}};
+                   {OccupancyGrid(cell_), linesOf(walls_, candidate.scale, directionWindow_)}};
   }
 }
 

@@ -40,7 +40,7 @@ class PlanSearch {
     double scale;
     std::unique_ptr<Localizer> localizer;
   };
-  FilterConfiguration configuration_;
+  double cell_, directionWindow_;  ///< m, rad
   std::vector<PlanLine> walls_;
   std::vector<Candidate> candidates_;
   std::optional<Found> found_;

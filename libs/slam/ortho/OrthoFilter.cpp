@@ -12,21 +12,24 @@ using mrpt::math::TPose2D;
 using mrpt::system::CTimeLoggerEntry;
 
 OrthoFilter::OrthoFilter(const FilterConfiguration& c, const OrthoOptions& options)
-    : configuration_(c), prepare_(c), map_(options, c.database), pathGrid_(c.grid) {
+    : interval_(c.updateInterval()),
+      motion_(c.motion),
+      maxRange_(c.grid.maxRange),
+      prepare_(c),
+      map_(options, c.database),
+      pathGrid_(c.grid) {
   checkMemory(c);
 }
 
 void OrthoFilter::process(const TPose2D& odometry, const Scans& scans) {
   odometry_ = odometry_ + odometry;
-  const bool isDue = path_.empty() || odometry_.norm() >= configuration_.updateDistance() ||
-                     std::abs(odometry_.phi) >= configuration_.updateAngle();
-  if (scans.empty() || !isDue) return;
+  if (scans.empty() || !(path_.empty() || interval_.isOver(odometry_))) return;
 
   CTimeLoggerEntry preparing(profiler(), "2 prepare scan, extract lines");
-  const std::vector<LineSegment> seen = prepare_.lines(toLaserScans(scans, configuration_.grid.maxRange));
+  const std::vector<LineSegment> seen = prepare_.lines(toLaserScans(scans, maxRange_));
   preparing.stop();
   const CTimeLoggerEntry updating(profiler(), "3 update pose and lines");
-  map_.move(odometry_, configuration_.motion);
+  map_.move(odometry_, motion_);
   map_.update(seen);
   odometry_ = TPose2D();
   path_.push_back(map_.pose());

@@ -29,7 +29,9 @@ class OrthoFilter : public Filter {
   std::vector<WeightedPose> particlePoses() const override;
 
  private:
-  FilterConfiguration configuration_;
+  UpdateInterval interval_;
+  MotionModelOptions motion_;
+  double maxRange_;  ///< m
   ScanPreparation prepare_;
   OrthoMap map_;
   mrpt::math::TPose2D odometry_;  ///< since the last update
