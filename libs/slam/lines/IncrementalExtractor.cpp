@@ -26,7 +26,7 @@ void track(PointRange run, const SegmentationOptions& options, std::vector<Point
     }
     while (piece.last != run.last && distance(*piece.last, *line) <= options.splitDistance) {
       ++piece.last;
-      line = fitOrthogonal(piece);
+      if (const auto grown = fitOrthogonal(piece)) line = grown;  // none for points that are all the same
     }
     pieces.push_back(piece);
     run.first = piece.last;
