@@ -32,7 +32,7 @@ class LostRun : public HybridSlam {
 TEST_F(LostRun, IsRepeatedWithMoreParticles) {
   ASSERT_EQ(replay(kLog, retrying(20)), 0) << err;
   EXPECT_THAT(err, HasSubstr("verdict: lost: "));
-  EXPECT_THAT(err, HasSubstr("second run, with 20 particles\n"));
+  EXPECT_THAT(err, HasSubstr("\nsecond run, with 20 particles; the first one's results: " + output + "\n"));
   EXPECT_THAT(out, HasSubstr("verdict: consistent"));
   EXPECT_EQ(metrics()["second_run"], true);
   EXPECT_EQ(metrics()["particles_min"], 20);
@@ -53,27 +53,36 @@ TEST_F(LostRun, IsKeptWithoutASecondRunOrWithAFixedNumber) {
   }
 }
 
-TEST_F(LostRun, AStoppedSecondRunLeavesTheResultsOfTheFirst) {
+TEST_F(LostRun, AStoppedOrKilledSecondRunLeavesTheResultsOfTheFirst) {
   ASSERT_EQ(replay(kLog, retrying(0)), 0) << err;
   const std::string trajectory = result("trajectory.tum");
-  std::vector<std::string> arguments{HYBRID_SLAM, "-n", "0", "--overwrite", "-o", output, ini, kLog};
-  for (const char* setting :
-       {"particle_filter.min_particles=1", "particle_filter.max_particles=1", "run.retry_particles=3000"}) {
-    arguments.emplace_back("--set");
-    arguments.emplace_back(setting);
+  for (const int signal : {SIGINT, SIGKILL}) {
+    std::vector<std::string> arguments{HYBRID_SLAM, "-n", "0", "--overwrite", "-o", output, ini, kLog};
+    for (const char* setting :
+         {"particle_filter.min_particles=1", "particle_filter.max_particles=1", "run.retry_particles=3000"}) {
+      arguments.emplace_back("--set");
+      arguments.emplace_back(setting);
+    }
+    test::ChildProgram program(folder, "run", arguments);
+    EXPECT_TRUE(test::happens(
+        [&] { return program.hasEnded() || program.err().find("second run") != std::string::npos; }));
+    program.signal(signal);
+    EXPECT_EQ(program.wait(), signal == SIGINT ? 0 : -1);
+    if (signal == SIGINT) {
+      EXPECT_THAT(program.err(), HasSubstr("warning: no results of a second run: interrupted: entry "));
+      EXPECT_THAT(program.err(), Not(HasSubstr("results cover")));
+    }
+    EXPECT_EQ(result("trajectory.tum"), trajectory);
+    EXPECT_THAT(results(), testing::UnorderedElementsAreArray(test::kResults));
+    EXPECT_EQ(metrics()["complete"], true);
+    EXPECT_EQ(metrics()["verdict"], "lost");
   }
-  test::ChildProgram program(folder, "run", arguments);
-  EXPECT_TRUE(test::happens(
-      [&] { return program.hasEnded() || program.err().find("second run") != std::string::npos; }));
-  program.signal(SIGINT);
-  EXPECT_EQ(program.wait(), 0);
-  EXPECT_THAT(program.err(), HasSubstr("warning: no results of a second run: interrupted: entry "));
-  EXPECT_EQ(result("trajectory.tum"), trajectory);
-  EXPECT_EQ(metrics()["complete"], true);
-  EXPECT_EQ(metrics()["verdict"], "lost");
+  ASSERT_EQ(replay(kLog, retrying(0)), 0) << err;
+  for (const std::string& name : test::namesIn(folder.path("")))
+    EXPECT_THAT(name, Not(HasSubstr(".part-"))) << "of the killed run";
 }
 
-TEST_F(LostRun, TheSecondRunReplacesTheCheckpointsOfTheFirst) {
+TEST_F(LostRun, TheSecondRunReplacesTheSessionOfTheFirst) {
   ASSERT_EQ(replay(kLog, retrying(20) + " --checkpoint-every 0.05"), 0) << err;
   EXPECT_THAT(results(), testing::UnorderedElementsAreArray(test::kResults)) << "and no dated subfolder";
   EXPECT_EQ(metrics()["second_run"], true);

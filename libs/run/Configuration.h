@@ -34,7 +34,6 @@ struct RunOptions : Options {
   std::string priorPlan;                         ///< floor plan (PlanFiles.h) to begin with; empty: none
   std::optional<mrpt::math::TPose2D> start;      ///< in that map or plan (m, rad); empty: to be found
   double checkpointEvery = 0;                    ///< s of work between checkpoints; 0: none
-  bool isRetry = false;  ///< a checkpoint in the output folder is of this program's run
   /// @}
   void describe(OptionTable& table) override;
 };

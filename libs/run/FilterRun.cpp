@@ -50,7 +50,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     : configuration_(configuration),
       start_(start),
       staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
-              configuration.run.isRetry || !configuration.run.resume.empty() ? kSessionName : ""),
+              configuration.run.resume.empty() ? "" : kSessionName),
       folder_(staged_.files()),
       steps_(folder_.path("steps.csv")),
       cell_(configuration.filter.grid.resolution) {

@@ -86,25 +86,16 @@ class FilterRun {
   /// One line if that is not the folder asked for; else empty.
   std::string folderNote() const { return staged_.note(); }
 
-  /// Writes the results to the hidden folder, and judges them.
+  /// Writes the results.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
   ///                 these end there
   /// @param more     further keys of metrics.json
-  /// @throws InputError if a result cannot be written
-  void writeResults(const std::string& file, const readings::RawlogSummary& log,
-                    const nlohmann::ordered_json& more);
-  /// Moves the written results to their final folder.
   /// @return one line: scans, updates, time, real-time factor, place of the results
-  /// @throws InputError if they cannot be renamed
-  std::string publish();
-  /// Both.
+  /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
-                     const nlohmann::ordered_json& more) {
-    writeResults(file, log, more);
-    return publish();
-  }
-  /// Of the written results.
+                     const nlohmann::ordered_json& more);
+  /// Of the finished run.
   const Verdict& verdict() const { return verdict_; }
 
  private:
@@ -168,7 +159,6 @@ class FilterRun {
   double cell_;                         ///< m, of the filter
   double savedCell_ = 0;                ///< m, of the map files
   Verdict verdict_;
-  std::string summary_;  ///< of the written results
 };
 
 }  // namespace hybrid_slam::run

@@ -83,10 +83,9 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
   result.lines = result.map.lines.lines();
 }
 
-void FilterRun::writeResults(const std::string& file, const readings::RawlogSummary& log,
-                             const nlohmann::ordered_json& more) {
+std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
+                              const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
-  if (configuration_.run.checkpointEvery > 0) staged_.setOwn(kSessionName);  // also one of a second run
   uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
@@ -111,16 +110,12 @@ void FilterRun::writeResults(const std::string& file, const readings::RawlogSumm
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });
+  staged_.publish();
 
   const double wall = all.at("wall_s");
-  summary_ = std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
-             fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
-             fixedText(all.at("realtime_factor"), 0) + " x real time): ";
-}
-
-std::string FilterRun::publish() {
-  staged_.publish();
-  return summary_ + staged_.finalPath("map.png");
+  return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
+         fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
+         fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
 }
 
 void FilterRun::writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log) {

@@ -21,60 +21,75 @@ std::string spreadNote(const FilterStep& step) {
   return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
 }
 
-/// A run over the log, with written but unpublished results.
-struct Pass {
-  std::unique_ptr<FilterRun> run;
-  ReplayOutcome outcome;  ///< without the summary
+/// One run over the log, from the session if there is one. A second run that does not reach the end writes no
+/// results.
+class Pass {
+ public:
+  Pass(Configuration& configuration, const readings::RawlogSummary& log, bool isSecond, bool isQuiet)
+      : configuration_(configuration), log_(log), isSecond_(isSecond), progress_(log.scans, isQuiet) {}
+
+  ReplayOutcome operator()(FilterRun& run, SessionReader* session, const std::atomic<bool>& stop,
+                           bool wantsProfile) {
+    run.profiler().enable(wantsProfile);
+    const std::string place = run.folderNote();
+    if (!place.empty()) progress_.say(place);
+    ReplayOutcome outcome;
+    const std::string& file = configuration_.run.rawlog;
+    const std::string cut = process(run, session, stop);
+    if (isSecond_ && !cut.empty()) throw std::runtime_error(cut);
+    outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
+    outcome.warnings = readings::warningsOf(log_, file);
+    if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
+    outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
+    if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
+    outcome.verdict = run.verdict();
+    if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there
+    for (const std::string& note : run.takeNotes()) progress_.say(note);
+    if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
+    run.profiler().clear(true);  // else MRPT prints it as well
+    return outcome;
+  }
+
+ private:
+  /// @return why the run ended before the log; empty if it did not
+  std::string process(FilterRun& run, SessionReader* session, const std::atomic<bool>& stop) {
+    const std::string& file = configuration_.run.rawlog;
+    readings::RawlogSource source(file, configuration_.input, log_);
+    const auto nextReading = [&] {
+      const mrpt::system::CTimeLoggerEntry reading(run.profiler(), "1 read log");
+      return source.next();
+    };
+    if (session) {
+      run.resume(*session);
+      run.passOver(source, file);
+    }
+    try {
+      while (const auto reading = stop ? std::nullopt : nextReading())
+        if (run.process(*reading)) {
+          for (const std::string& note : run.takeNotes()) progress_.say(note);
+          progress_.update(run.scans(), spreadNote(run.view().lastStep()));
+        }
+    } catch (const std::exception& e) {
+      if (run.scans() == 0) throw;
+      return "run failed: " + messageOf(e) + ", " + source.place();
+    }
+    progress_.finish();
+    if (stop) return "interrupted: " + source.place();
+    return log_.defect.empty() ? "" : "log " + log_.defect + ": " + log_.defectPlace(file);
+  }
+
+  Configuration& configuration_;
+  const readings::RawlogSummary& log_;
+  bool isSecond_;
+  Progress progress_;
 };
 
-Pass map(Configuration& configuration, const readings::RawlogSummary& log, SessionReader* session,
-         std::unique_ptr<FilterRun> filterRun, Progress& progress, const std::atomic<bool>& stop) {
-  Pass pass{std::move(filterRun), {}};
-  FilterRun& run = *pass.run;
-  ReplayOutcome& outcome = pass.outcome;
-  const std::string& file = configuration.run.rawlog;
-  readings::RawlogSource source(file, configuration.input, log);
-  const auto nextReading = [&] {
-    const mrpt::system::CTimeLoggerEntry reading(run.profiler(), "1 read log");
-    return source.next();
-  };
-  if (session) {
-    run.resume(*session);
-    run.passOver(source, file);
-  }
-  const std::string upToHere = "; results cover the log up to this point";
-  try {
-    while (const auto reading = stop ? std::nullopt : nextReading())
-      if (run.process(*reading)) {
-        for (const std::string& note : run.takeNotes()) progress.say(note);
-        progress.update(run.scans(), spreadNote(run.view().lastStep()));
-      }
-  } catch (const std::exception& e) {
-    if (run.scans() == 0) throw;
-    outcome.incomplete = "run failed: " + messageOf(e) + ", " + source.place() + upToHere;
-  }
-  progress.finish();
-
-  outcome.warnings = readings::warningsOf(log, file);
-  if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
-  if (outcome.incomplete.empty() && stop)
-    outcome.incomplete = "interrupted: " + source.place() + upToHere;
-  else if (outcome.incomplete.empty() && !log.defect.empty())
-    outcome.incomplete = "log " + log.defect + ": " + log.defectPlace(file) + upToHere;
-  else if (outcome.incomplete.empty())
-    outcome.incomplete = run.placeNote();
-  run.writeResults(file, log, {{"second_run", configuration.run.isRetry}});
-  if (const std::string coarser = run.mapNote(); !coarser.empty()) outcome.warnings.push_back(coarser);
-  outcome.verdict = run.verdict();
-  for (const std::string& note : run.takeNotes()) progress.say(note);
-  return pass;
-}
-
-/// Whether more particles may find the map that this run has lost.
-bool isRetryDue(const Pass& pass, const Configuration& c) {
-  return pass.outcome.verdict.level == Verdict::Level::lost && pass.outcome.incomplete.empty() &&
+/// Whether more particles may map what this run has lost.
+bool isRetryDue(const ReplayOutcome& outcome, const Configuration& c) {
+  const auto method = c.run.method;
+  return outcome.verdict.level == Verdict::Level::lost && outcome.incomplete.empty() &&
          c.run.retryParticles > 0 && c.filter.filter.isAdaptive() && !c.filter.filter.isAuxiliary() &&
-         c.run.method != RunOptions::Method::stock && c.run.method != RunOptions::Method::ortho &&
+         method != RunOptions::Method::stock && method != RunOptions::Method::ortho &&
          c.run.localizeIn.empty();
 }
 
@@ -92,41 +107,29 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   auto run = std::make_unique<FilterRun>(configuration, start);
   for (const std::string& line : ofLog)
     if (!isQuiet) std::cout << line << "\n" << std::flush;
-  run->profiler().enable(wantsProfile);
-  Progress progress(log.scans, isQuiet);
-  const std::string place = run->folderNote();
-  if (!place.empty()) progress.say(place);
-  Pass pass = map(configuration, log, session ? &*session : nullptr, std::move(run), progress, stop);
-  session.reset();
+  ReplayOutcome outcome =
+      Pass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
+  if (!isRetryDue(outcome, configuration)) return outcome;
 
+  // The results of the first run stay until those of the second replace them.
+  const std::string particles = std::to_string(configuration.run.retryParticles);
+  std::cerr << outcome.verdict.line() + "\nsecond run, with " + particles +
+                   " particles; the first one's results: " + run->folder() + "\n";
   Configuration again = configuration;
-  if (isRetryDue(pass, configuration)) {
-    const int particles = configuration.run.retryParticles;
-    progress.say(pass.outcome.verdict.line());
-    progress.say("second run, with " + std::to_string(particles) + " particles");
-    again.run.output = pass.run->folder();
-    again.run.isRetry = true;
-    again.run.resume.clear();
-    again.filter.filter.particles = particles;
-    try {
-      run = std::make_unique<FilterRun>(again, start);
-      run->profiler().enable(wantsProfile);
-      Progress secondProgress(log.scans, isQuiet);
-      Pass second = map(again, log, nullptr, std::move(run), secondProgress, stop);
-      if (!second.outcome.incomplete.empty()) throw std::runtime_error(second.outcome.incomplete);
-      pass = std::move(second);
-    } catch (const std::exception& e) {  // as on a full disk
-      pass.outcome.warnings.push_back("no results of a second run: " + messageOf(e));
-    }
+  again.run.output = run->folder();
+  again.run.overwrite = true;
+  again.run.resume.clear();
+  again.run.checkpointEvery = 0;  // the session there belongs to the first run
+  again.filter.filter.particles = configuration.run.retryParticles;
+  session.reset();
+  run.reset();
+  try {
+    FilterRun second(again, start);
+    outcome = Pass(again, log, true, isQuiet)(second, nullptr, stop, wantsProfile);
+  } catch (const std::exception& e) {
+    outcome.warnings.push_back("no results of a second run: " + messageOf(e));
   }
-
-  ReplayOutcome& outcome = pass.outcome;
-  outcome.summary = pass.run->publish();
-  if (const std::string now = pass.run->folderNote(); !now.empty() && now != place)
-    progress.say(now);  // another run has finished there
-  if (wantsProfile) outcome.profile = pass.run->profiler().getStatsAsText();
-  pass.run->profiler().clear(true);  // else MRPT prints it as well
-  return std::move(outcome);
+  return outcome;
 }
 
 }  // namespace hybrid_slam::run
