@@ -24,11 +24,12 @@ void savePlanGeoJson(const files::OutputFolder& folder, const FloorPlan& plan);
 /// All three.
 void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
 
-/// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF with LINE, LWPOLYLINE or POLYLINE (the
-/// unit of $INSUNITS; without it m), or an SVG that savePlanSvg wrote; told apart by the end of the name.
-/// Openings are left out.
-/// @throws InputError for an unreadable file, one of another kind, one without walls, or as checkPlanLength
+/// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF (readPlanDxf), or an SVG that
+/// savePlanSvg wrote; told apart by the end of the name. Openings are left out.
+/// @throws InputError for an unreadable file, one of another kind, one without walls, or as PlanLines::add
 std::vector<PlanLine> loadPlan(const std::string& file);
+/// The same for the content of the file.
+std::vector<PlanLine> planOf(const std::string& text, const std::string& file);
 
 /// Plans are compared and searched piece by piece: bounds their number.
 /// @param length  m, of all walls

@@ -91,6 +91,50 @@ TEST_F(PlanFiles, DxfOfOthersHasPolylinesAndUnits) {
   EXPECT_NEAR(lines[3].end.x, 1, 1e-9);
 }
 
+TEST_F(PlanFiles, DxfInEveryUnitIsReadInMetres) {
+  const auto lengthIn = [this](const std::string& unit) {
+    const std::vector<PlanLine> lines =
+        load("unit.dxf", "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n" + unit +
+                             "\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+                             "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n50\n21\n0\n0\nENDSEC\n0\nEOF\n");
+    return lines.at(0).end.x;
+  };
+  EXPECT_NEAR(lengthIn("0"), 50, 1e-9);
+  EXPECT_NEAR(lengthIn("1"), 1.27, 1e-9);    // inches
+  EXPECT_NEAR(lengthIn("10"), 45.72, 1e-9);  // yards
+  EXPECT_NEAR(lengthIn("7"), 5e4, 1e-6);     // km
+  EXPECT_THAT(errorOf("light-years.dxf", "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n19\n0\nENDSEC\n0\nEOF\n"),
+              HasSubstr("unknown unit, $INSUNITS 19"));
+}
+
+/// A semicircle from (0, 0) to (2, 0) below the chord, by a bulge of 1, by an arc, and as half of a circle.
+TEST_F(PlanFiles, DxfOfOthersHasArcs) {
+  const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
+  const auto polyline = load(
+      "bulge.dxf", head + "0\nLWPOLYLINE\n8\n0\n90\n2\n70\n0\n10\n0\n20\n0\n42\n1\n10\n2\n20\n0\n" + tail);
+  const auto arc = load("arc.dxf", head + "0\nARC\n8\n0\n10\n1\n20\n0\n40\n1\n50\n180\n51\n360\n" + tail);
+  ASSERT_EQ(polyline.size(), 18u);
+  ASSERT_EQ(arc.size(), 18u);
+  for (size_t i = 0; i < 18; ++i) {
+    for (const PlanLine& line : {polyline[i], arc[i]}) {
+      EXPECT_NEAR(std::hypot(line.start.x - 1, line.start.y), 1, 1e-9);
+      EXPECT_LE(line.end.y, 1e-9);
+      EXPECT_NEAR((line.end - line.start).norm(), 2 * std::sin(M_PI / 36), 1e-9);
+    }
+    EXPECT_NEAR((polyline[i].start - arc[i].start).norm(), 0, 1e-9);
+  }
+  EXPECT_EQ(load("circle.dxf", head + "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n" + tail).size(), 36u);
+}
+
+TEST_F(PlanFiles, BlocksOfADxfAreNoWalls) {
+  const std::string line = "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n0\n";
+  EXPECT_EQ(
+      load("block.dxf", "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\ndoor\n10\n0\n20\n0\n30\n0\n" + line +
+                            "0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + line + "0\nENDSEC\n0\nEOF\n")
+          .size(),
+      1u);
+}
+
 TEST_F(PlanFiles, GeoJsonOfOthersHasPolygons) {
   EXPECT_EQ(
       load("a.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":null,)"
