@@ -33,7 +33,7 @@ std::vector<PlanLine> planOf(const std::string& text, const std::string& file);
 
 /// Plans are compared and searched piece by piece: bounds their number.
 /// @param length  m, of all walls
-/// @throws InputError for over 300 km
+/// @throws InputError for over 30 km
 void checkPlanLength(double length, const std::string& file);
 
 }  // namespace hybrid_slam::run

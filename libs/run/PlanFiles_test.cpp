@@ -8,6 +8,7 @@
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -35,12 +36,7 @@ struct PlanFiles : testing::Test {
     return loadPlan(temporary.path(name));
   }
   std::string errorOf(const std::string& name, const std::string& text) const {
-    try {
-      load(name, text);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return test::errorOf([&] { load(name, text); });
   }
 };
 
@@ -126,6 +122,23 @@ TEST_F(PlanFiles, DxfOfOthersHasArcs) {
   EXPECT_EQ(load("circle.dxf", head + "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n" + tail).size(), 36u);
 }
 
+/// Counts and angles that a hostile or broken DXF may state.
+TEST_F(PlanFiles, CountsAndAnglesOfADxfAreNotBelieved) {
+  const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
+  EXPECT_THAT(errorOf("a.dxf", head + "0\nLWPOLYLINE\n8\n0\n90\n1073741825\n" + tail),
+              HasSubstr("without walls"));
+  EXPECT_THAT(errorOf("a.dxf", head + "0\nLEADER\n8\n0\n76\n1431655766\n" + tail),
+              HasSubstr("without walls"));
+  EXPECT_THAT(errorOf("a.dxf", head + "0\nARC\n8\n0\n10\n0\n20\n0\n40\n0\n50\n0\n51\n1.355e26\n" + tail),
+              HasSubstr("without walls"));
+  EXPECT_LE(load("a.dxf", head + "0\nARC\n8\n0\n10\n0\n20\n0\n40\n1\n50\n0\n51\n1e300\n" + tail).size(), 36u);
+  EXPECT_THAT(errorOf("a.dxf", head + "0\nLINE\n8\n0\n10\nx\n" + tail),
+              HasSubstr("line 7 of the DXF: expected a number"));
+  std::string circles = head;
+  for (int i = 0; i < 30'000; ++i) circles += "0\nCIRCLE\n40\n2e-5\n";
+  EXPECT_THAT(errorOf("a.dxf", circles + tail), HasSubstr("over a million walls"));
+}
+
 TEST_F(PlanFiles, BlocksOfADxfAreNoWalls) {
   const std::string line = "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n0\n";
   EXPECT_EQ(
@@ -153,7 +166,7 @@ TEST_F(PlanFiles, WhatIsNoPlanIsAnInputError) {
               HasSubstr("impossible coordinate"));
   EXPECT_THAT(errorOf("a.geojson",
                       R"({"features":[{"geometry":{"type":"LineString","coordinates":[[0,0],[4e5,0]]}}]})"),
-              HasSubstr("walls of over 300 km"));
+              HasSubstr("walls of over 30 km"));
   EXPECT_THAT(errorOf("a.svg", "<svg/>"), HasSubstr("not a floor plan"));
   EXPECT_THAT(errorOf("a.svg", "<g id=\"walls\">\n<line x1=\"a\"/>\n</g>"), HasSubstr("not a floor plan"));
   EXPECT_THAT(errorOf("a.dxf", std::string(5000, 'x')), HasSubstr("not a floor plan"));

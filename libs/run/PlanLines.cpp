@@ -21,8 +21,8 @@ void PlanLines::add(const mrpt::math::TPoint2D& start, const mrpt::math::TPoint2
 }
 
 void checkPlanLength(double length, const std::string& file) {
-  constexpr double kMost = 3e5;  // m
-  if (!(length <= kMost)) throw InputError("walls of over 300 km", file, "expected a floor plan in metres");
+  constexpr double kMost = 3e4;  // m
+  if (!(length <= kMost)) throw InputError("walls of over 30 km", file, "expected a floor plan in metres");
 }
 
 }  // namespace hybrid_slam::run

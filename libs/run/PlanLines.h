@@ -29,7 +29,7 @@ class PlanLines {
 /// The walls of a DXF: LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE, in the unit of $INSUNITS (0 or none: m).
 /// Arcs become chords of at most 10 deg. Blocks (symbols of doors, furniture) and the layer OPENINGS are left
 /// out.
-/// @throws std::runtime_error if it is no DXF or has an unknown unit; InputError as PlanLines::add
+/// @throws std::runtime_error if it is no ASCII DXF or has an unknown unit; InputError as PlanLines::add
 void readPlanDxf(const std::string& text, PlanLines& lines);
 
 }  // namespace hybrid_slam::run

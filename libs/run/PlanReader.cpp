@@ -14,7 +14,7 @@ namespace {
 using mrpt::math::TPoint2D;
 using Json = nlohmann::json;
 
-constexpr size_t kMostBytes = size_t{64} << 20;
+constexpr size_t kMostBytes = size_t{16} << 20;
 constexpr char kExpected[] = "expected a floor plan: .geojson, .dxf, or .svg of hybrid-slam";
 
 // GeoJSON
@@ -96,7 +96,7 @@ std::vector<PlanLine> loadPlan(const std::string& file) {
   if (!in) throw InputError("cannot read the floor plan", file, kExpected);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(in.gcount()));
-  if (text.size() > kMostBytes) throw InputError("floor plan of over 64 MiB", file, kExpected);
+  if (text.size() > kMostBytes) throw InputError("floor plan of over 16 MiB", file, kExpected);
   return planOf(text, file);
 }
 

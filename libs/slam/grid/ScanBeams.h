@@ -55,6 +55,15 @@ struct ScanBeams {
     return std::all_of(rays.begin(), rays.end(), [range](const Ray& ray) { return ray.range <= range; });
   }
 
+  /// The points hit, robot frame, m.
+  std::vector<mrpt::math::TPoint2D> endPoints() const {
+    std::vector<mrpt::math::TPoint2D> points;
+    points.reserve(rays.size());
+    for (const Ray& ray : rays)
+      points.push_back(origins[ray.laser] + mrpt::math::TPoint2D(ray.dirX, ray.dirY) * ray.range);
+    return points;
+  }
+
   template <class State>
   void visit(State& state) {
     state(origins, rays);

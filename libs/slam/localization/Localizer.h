@@ -19,11 +19,11 @@ namespace hybrid_slam {
 /// the surroundings have changed.
 class Localizer : public Filter {
  public:
+  /// The resolution is that of the map, not `resolution` of [grid].
   /// @param lines  may be empty
-  /// @param start  of the robot (m, rad; map frame), right within 0.5 m and 15 deg; empty: anywhere in the
-  /// map
+  /// @param start  pose of the robot (m, rad; map frame), right within 0.5 m and 15 deg; empty: anywhere in
+  ///               the map
   /// @throws InputError for incompatible settings
-  /// The cells of the map, not `resolution` of [grid], set the resolution.
   Localizer(FilterConfiguration configuration, OccupancyGrid grid, LineDatabase lines,
             std::optional<mrpt::math::TPose2D> start);
 
@@ -32,6 +32,9 @@ class Localizer : public Filter {
   /// Whether the place of the robot is known. If not, several places are possible, or none fits; the poses
   /// and their spreads then cover all of them.
   bool isLocalized() const { return isTracking_; }
+
+  /// The scans by which the place is searched for and checked.
+  const RecentScans& recentScans() const { return recent_; }
 
   size_t updates() const override { return path_.size(); }
   const FilterStep& lastStep() const override { return step_; }
@@ -63,7 +66,7 @@ class Localizer : public Filter {
   tbb::task_arena arena_;
   bool isTracking_ = false, hasTracked_ = false;
   size_t unsupported_ = 0;      ///< successive scans that do not fit the map at the tracked pose
-  std::deque<bool> explained_;  ///< whether the last scans are, there
+  std::deque<bool> explained_;  ///< for each of the last scans, whether the map explains it at that pose
   mrpt::math::TPose2D odometry_;
   mrpt::math::TPose2D pose_;  ///< best estimate
   std::vector<mrpt::math::TPose2D> path_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "slam/localization/PlanFit.h"
 
 namespace hybrid_slam {
 namespace {
@@ -28,7 +29,8 @@ OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-  if ((high.x - low.x) / kCell * ((high.y - low.y) / kCell) > kMostCells)
+  const double tile = kCell * Tile::kSize;  // memory is taken by tiles
+  if (((high.x - low.x) / tile + 1) * ((high.y - low.y) / tile + 1) * Tile::kSize * Tile::kSize > kMostCells)
     throw InputError("floor plan too large", "option --prior-plan", "expected at most 0.3 km^2, in metres");
   const CellIndex first = grid.cellOf(low.x, low.y), last = grid.cellOf(high.x, high.y);
   for (int y = first.y; y <= last.y; ++y)
@@ -83,9 +85,12 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   for (Candidate& candidate : candidates_) {
     candidate.localizer->process(odometry, scans);
     if (found_ || !candidate.localizer->isLocalized()) continue;
-    found_ = Found{candidate.scale,
-                   candidate.localizer->bestPath().back(),
-                   {OccupancyGrid(cell_), linesOf(walls_, candidate.scale, directionWindow_)}};
+    const RecentScans& recent = candidate.localizer->recentScans();
+    const TPose2D newest = candidate.localizer->bestPath().back() + (TPose2D() - recent.since());
+    const PlanFit fit = fitPlan(recent.joined().endPoints(), walls_, {newest, candidate.scale});
+    found_ = Found{fit.scale,
+                   fit.pose + recent.since(),
+                   {OccupancyGrid(cell_), linesOf(walls_, fit.scale, directionWindow_)}};
   }
 }
 

@@ -13,12 +13,14 @@
 namespace hybrid_slam {
 
 /// A localiser for each scale from 0.97 to 1.03, in a grid of the plan in which everything but walls is free.
+/// Several may find the robot; where one does, the recent scans are fitted to the plan, which gives the scale
+/// (PlanFit.h).
 class PlanSearch {
  public:
-  /// @param start  of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the scale is
-  ///               then taken as 1; empty: anywhere
-  /// @throws InputError for a plan without walls of 1 m or of more than 2^25 cells, and for settings as
-  ///         Localizer
+  /// @param start  pose of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the scale is
+  ///               then fitted from 1; empty: anywhere
+  /// @throws InputError for a plan without walls of 1 m or of more than 2^25 cells, and for settings that
+  ///         Localizer rejects
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
              std::optional<mrpt::math::TPose2D> start);
 
@@ -30,9 +32,10 @@ class PlanSearch {
     mrpt::math::TPose2D pose;  ///< of the robot now, in the scaled plan
     ScanMap map;               ///< no cells, and the scaled plan's lines as if each had been seen three times
   };
-  /// Once the robot has been found; of several scales the one nearest to 1.
+  /// Set once the robot has been found; of several scales the one nearest to 1.
   const std::optional<Found>& found() const { return found_; }
-  /// Found, or not with as many scans: further ones change nothing.
+  /// Whether the robot has been found or the last scan of the search has passed. Further scans change
+  /// nothing.
   bool isOver() const;
 
  private:

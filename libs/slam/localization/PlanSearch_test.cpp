@@ -24,6 +24,8 @@ TEST(PlanSearch, APlanWithoutWallsOfAMetreIsRejected) {
 }
 
 TEST(PlanSearch, APlanInMillimetresIsRejected) {
+  EXPECT_THROW(PlanSearch(configuration(), {{{-1e6, 0}, {-1e6 + 2, 0}}, {{1e6, 0}, {1e6 + 2, 0}}}, {}),
+               InputError);
   EXPECT_THROW(PlanSearch(configuration(), {{{0, 0}, {40'000, 0}}, {{0, 0}, {0, 47'000}}}, {}), InputError);
 }
 
@@ -50,10 +52,10 @@ TEST(PlanSearch, FindsTheRobotAndTheScale) {
                                test::observationOf(test::room(), at, random))});
   }
   ASSERT_TRUE(search.found());
-  EXPECT_NEAR(search.found()->scale, 1.02, 0.021);
+  EXPECT_NEAR(search.found()->scale, 1.02, 0.005);
   const TPose2D expected = frame + at;
-  EXPECT_NEAR(search.found()->pose.x, expected.x, 0.2);
-  EXPECT_NEAR(search.found()->pose.y, expected.y, 0.2);
+  EXPECT_NEAR(search.found()->pose.x, expected.x, 0.1);
+  EXPECT_NEAR(search.found()->pose.y, expected.y, 0.1);
   EXPECT_NEAR(std::remainder(search.found()->pose.phi - expected.phi, 2 * M_PI), 0, 0.03);
   EXPECT_FALSE(search.found()->map.lines.lines().empty());
 }

@@ -1,0 +1,115 @@
+#include "slam/localization/PlanFit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "slam/plan/PointIndex.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+constexpr double kReach = 1;                           // m: farthest wall of a point
+constexpr double kVoxel = 0.25;                        // m: of points nearer to each other one is used
+constexpr double kSigma = 0.05;                        // m per metre of wall: error of a plan
+constexpr double kScaleSigma = 0.02;                   // a priori
+constexpr double kMostStretched = 0.1, kFarthest = 1;  // m: beyond, the fit has failed
+constexpr int kIterations = 30;
+
+/// One point of each square.
+std::vector<TPoint2D> thinned(const std::vector<TPoint2D>& points) {
+  std::set<std::pair<long, long>> taken;
+  std::vector<TPoint2D> result;
+  for (const TPoint2D& p : points)
+    if (taken.emplace(std::lround(p.x / kVoxel), std::lround(p.y / kVoxel)).second) result.push_back(p);
+  return result;
+}
+
+/// The point of a wall nearest to p.
+TPoint2D nearest(const PlanLine& wall, const TPoint2D& p) {
+  const TPoint2D d = wall.end - wall.start, v = p - wall.start;
+  const double t = (v.x * d.x + v.y * d.y) / std::max(d.x * d.x + d.y * d.y, 1e-12);
+  return wall.start + d * std::clamp(t, 0.0, 1.0);
+}
+
+/// The walls around the points; the rest of a large plan stays out of the index.
+class Walls {
+ public:
+  Walls(const std::vector<PlanLine>& walls, const TPoint2D& centre, double radius)
+      : walls_(walls), index_(kReach) {
+    for (size_t i = 0; i < walls.size(); ++i)
+      if ((nearest(walls[i], centre) - centre).norm() < radius)
+        addWithin(walls[i], centre, radius, static_cast<int>(i));
+  }
+  const PlanLine* nearestTo(const TPoint2D& p) const {
+    const PlanLine* best = nullptr;
+    double least = kReach;
+    index_.near(p, [&](int i) {
+      const PlanLine& wall = walls_[static_cast<size_t>(i)];
+      const double distance = (nearest(wall, p) - p).norm();
+      if (distance < least) least = distance, best = &wall;
+    });
+    return best;
+  }
+
+ private:
+  void addWithin(const PlanLine& wall, const TPoint2D& centre, double radius, int i) {
+    const TPoint2D d = wall.end - wall.start, middle = nearest(wall, centre);
+    const TPoint2D step = d * (radius / d.norm());
+    index_.add(nearest(wall, middle - step), nearest(wall, middle + step), i);
+  }
+
+  const std::vector<PlanLine>& walls_;
+  PointIndex index_;
+};
+
+}  // namespace
+
+PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>& walls,
+                const PlanFit& first) {
+  const std::vector<TPoint2D> chosen = thinned(points);
+  double radius = 0;
+  for (const TPoint2D& p : chosen) radius = std::max(radius, p.norm());
+  // In the plan as drawn, the points shrink as the plan grows: p -> at + R p / scale.
+  const TPoint2D start = TPoint2D(first.pose.x, first.pose.y) * (1 / first.scale);
+  TPoint2D at = start;
+  double phi = first.pose.phi, scale = first.scale, variance = 0;
+  const Walls near(walls, start, radius * 1.1 + 2 * kReach);
+  for (int i = 0; i < kIterations; ++i) {
+    // The kernel narrows from the error of the first pose to that of the plan.
+    const double width = std::max(3 * kSigma, 0.5 * std::pow(0.8, i));
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of x, y, phi, scale
+    Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+    information.diagonal() << 1, 1, 1, 1 / (kScaleSigma * kScaleSigma);  // what no point constrains stays
+    gradient[3] = (1 - scale) * information(3, 3);
+    const double c = std::cos(phi), s = std::sin(phi);
+    for (const TPoint2D& p : chosen) {
+      const TPoint2D turned((c * p.x - s * p.y) / scale, (s * p.x + c * p.y) / scale), q = at + turned;
+      const PlanLine* wall = near.nearestTo(q);
+      if (!wall) continue;
+      const TPoint2D off = q - nearest(*wall, q);
+      const double u = off.norm() / width;
+      if (u >= 1) continue;
+      const TPoint2D d = (wall->end - wall->start) * (1 / (wall->end - wall->start).norm()), n(-d.y, d.x);
+      const double weight = kVoxel * (1 - u * u) * (1 - u * u) / (kSigma * kSigma);  // Tukey's biweight
+      const double across = n.x * turned.x + n.y * turned.y;
+      const Eigen::Vector4d slope(n.x, n.y, n.y * turned.x - n.x * turned.y, -across / scale);
+      information += weight * slope * slope.transpose();
+      gradient -= weight * (n.x * off.x + n.y * off.y) * slope;
+    }
+    const auto solver = information.ldlt();
+    const Eigen::Vector4d step = solver.solve(gradient);
+    at += TPoint2D(step[0], step[1]), phi += step[2], scale += step[3];
+    variance = solver.solve(Eigen::Vector4d::UnitW())[3];
+    if (!(std::abs(scale - 1) < kMostStretched && (at - start).norm() < kFarthest)) return first;
+  }
+  return {{at.x * scale, at.y * scale, std::remainder(phi, 2 * M_PI)}, scale, std::sqrt(variance)};
+}
+
+}  // namespace hybrid_slam
