@@ -35,6 +35,13 @@ TEST(OdometryContinuity, ContinuesFromTheLastPose) {
   EXPECT_NEAR(odometry({7, 7, 0}).y, 2, 1e-12) << "twice";
 }
 
+TEST(OdometryContinuity, AnImpossibleFirstPoseIsTheOrigin) {
+  OdometryContinuity odometry;
+  EXPECT_EQ(odometry({1e20, 0, 0}), TPose2D());
+  EXPECT_EQ(odometry({5, 0, 0}), TPose2D());
+  EXPECT_NEAR(odometry({6, 0, 0}).x, 1, 1e-12);
+}
+
 TEST(OdometryContinuity, AnImpossibleJumpIsARestart) {
   OdometryContinuity odometry;
   odometry({1000, 0, 0});

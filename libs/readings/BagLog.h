@@ -15,7 +15,7 @@
 namespace hybrid_slam::readings {
 
 /// Reads a bag as a stream. A scan is labelled by its topic and has the time of its header, or when it was
-/// recorded if that is zero. A message is recorded a little later than what it tells was measured, each
+/// recorded if that is zero. A message is recorded a little later than the time that it states, each
 /// topic by another delay: objects are put into the order of their times within one second.
 class BagLog {
  public:

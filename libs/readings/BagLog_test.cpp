@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "readings/LogReader.h"
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "readings/SweepTimes.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestBags.h"
 
 namespace hybrid_slam::readings {
@@ -52,12 +52,7 @@ class BagLogTest : public testing::Test {
     return planOf(contentsOf(file), options, file);
   }
   std::string errorOf(const std::vector<TestMessage>& messages, const BagOptions& options = {}) {
-    try {
-      plan(messages, options);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return test::errorOf([&] { plan(messages, options); });
   }
   template <class Object>
   std::vector<std::shared_ptr<Object>> read(const std::vector<TestMessage>& messages) {
@@ -252,7 +247,8 @@ TEST_F(BagLogTest, WhatIsNotClearIsAnErrorThatListsTheTopics) {
               HasSubstr("the bag has /odom (nav_msgs/msg/Odometry, 1 messages)"));
   const std::vector<TestMessage> twins{scan, scanOn("/scan_filtered", 1, "laser"),
                                        frameAt("base_link", "laser", test::turned(0, 0, 0))};
-  EXPECT_THAT(errorOf(twins), HasSubstr("choose with --topic, repeatable: /scan (sensor_msgs/msg/LaserScan"));
+  EXPECT_THAT(errorOf(twins),
+              HasSubstr("choose with --topic or [input] sensor_label: /scan (sensor_msgs/msg/LaserScan"));
   EXPECT_EQ(errorOf(twins, {{"/scan"}, ""}), "no error");
   EXPECT_THAT(errorOf(twins, {{"/laser"}, ""}), HasSubstr("no scans on the topic `/laser`"));
   const std::vector<TestMessage> unknown{scan, scanOn("/other", 1, "elsewhere")};
@@ -261,7 +257,7 @@ TEST_F(BagLogTest, WhatIsNotClearIsAnErrorThatListsTheTopics) {
               HasSubstr("no transform from `base_link` to `laser`"));
   const std::vector<TestMessage> odometries{scan, odometryAt(1, {}), odometryAt(1, {}, "/filtered")};
   EXPECT_THAT(errorOf(odometries), HasSubstr("several odometry topics"));
-  EXPECT_THAT(errorOf(odometries), HasSubstr("--odometry-topic: /odom"));
+  EXPECT_THAT(errorOf(odometries), HasSubstr("--odometry-topic or [input] odometry_topic: /odom"));
   EXPECT_EQ(plan(odometries, {{}, "/filtered"}).odometryTopic, "/filtered");
   EXPECT_THAT(errorOf(odometries, {{}, "/none"}), HasSubstr("no odometry on the topic `/none`"));
 }

@@ -47,7 +47,7 @@ const Entry* named(const std::vector<const Entry*>& entries, const std::string& 
   return found == entries.end() ? nullptr : *found;
 }
 
-/// Notes what a message tells about frames.
+/// Notes what a message states about frames.
 void note(const bags::Message& message, Entry& entry, FrameTree& frames) {
   if (const auto* scan = std::get_if<bags::ScanMessage>(&message)) {
     if (entry.frame.empty()) entry.frame = scan->header.frame;
@@ -73,7 +73,7 @@ std::vector<const Entry*> scansOf(const BagContents& contents, const BagOptions&
     wanted.push_back(named(scans, topic));
     if (!wanted.back())
       throw InputError("no scans on the topic `" + topic + "`", file,
-                       "--topic: the bag has " + listOf(scans));
+                       "--topic or [input] sensor_label: the bag has " + listOf(scans));
   }
   return wanted;
 }
@@ -86,11 +86,13 @@ const Entry* odometryOf(const BagContents& contents, const BagOptions& options, 
     const auto transforms = select(
         contents, [](const Entry& entry) { return entry.topic.messageType == MessageType::transforms; });
     if (named(transforms, options.odometryTopic)) return nullptr;
-    throw InputError("no odometry on the topic `" + options.odometryTopic + "`", file,
-                     "--odometry-topic: the bag has " + listOf(all.empty() ? transforms : all));
+    throw InputError(
+        "no odometry on the topic `" + options.odometryTopic + "`", file,
+        "--odometry-topic or [input] odometry_topic: the bag has " + listOf(all.empty() ? transforms : all));
   }
   if (all.size() > 1)
-    throw InputError("several odometry topics", file, "choose one with --odometry-topic: " + listOf(all));
+    throw InputError("several odometry topics", file,
+                     "choose with --odometry-topic or [input] odometry_topic: " + listOf(all));
   return all.empty() ? nullptr : all.front();
 }
 
@@ -193,10 +195,13 @@ BagPlan planOf(const BagContents& contents, const BagOptions& options, const std
     }
     const bool isNewFrame = used.insert(scan->frame).second;
     if (scans.size() > 1 && options.topics.empty() && (!isNewFrame || !laser.isMountingKnown))
-      throw InputError("several scan topics", file, "choose with --topic, repeatable: " + listOf(scans));
+      throw InputError("several scan topics", file,
+                       "choose with --topic or [input] sensor_label: " + listOf(scans));
     const std::string missing = "no transform from `" + expectedBase + "` to `" + scan->frame + "`";
     if (scans.size() > 1 && !laser.isMountingKnown)
-      throw InputError(missing, file, "expected the poses of several lasers; --topic chooses one");
+      throw InputError(
+          missing, file,
+          "expected the poses of several lasers, or one chosen with --topic or [input] sensor_label");
     if (!laser.isMountingKnown)
       plan.notes.push_back(missing + ": the laser of " + scan->topic.name +
                            " is taken to be at the robot's centre, facing ahead");

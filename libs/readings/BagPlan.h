@@ -13,7 +13,7 @@
 
 namespace hybrid_slam::readings {
 
-/// The user's choice; empty: what is clear.
+/// The user's choice; empty: the default (planOf).
 struct BagOptions {
   std::vector<std::string> topics;  ///< of scans
   std::string odometryTopic;        ///< of nav_msgs/Odometry, or that of the transforms
@@ -53,10 +53,11 @@ struct BagPlan {
   std::vector<std::string> notes;    ///< for the user: what was assumed
 };
 
-/// Clear are: a single scan topic, or several of lasers with known poses in frames of their own; a single
-/// odometry topic, or else the transform from an `odom` frame to the robot's base.
-/// @throws InputError if there are no scans, a topic is missing, or the choice is not clear; it lists the
-///         topics and names the option
+/// By default all lasers are used, and the odometry is that of the only odometry topic, or else the transform
+/// from an `odom` frame to the robot's base. The default needs lasers in frames of their own with known
+/// poses, if there are several, and at most one odometry topic.
+/// @throws InputError if there are no scans, a topic is missing, or there is no default; it lists the topics
+///         and names the options
 BagPlan planOf(const BagContents& contents, const BagOptions& options, const std::string& file);
 
 }  // namespace hybrid_slam::readings

@@ -64,7 +64,7 @@ class CarmenParser : public LogParser {
   LogRecord robotLaser(std::string_view name, LogFields& fields) const;
   /// The laser's configuration and ranges, up to its remissions.
   static LaserRecord configuredScan(std::string_view name, LogFields& fields);
-  /// Of the laser with this number.
+  /// Pose of the laser with this number.
   mrpt::math::TPose2D mounting(int number) const;
   void parameter(LogFields& fields);
   double time(LogFields& fields) const;
@@ -115,7 +115,8 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
-  // Logs differ in whether the heading of a rear laser's row includes the half turn: PARAM tells where it is.
+  // Logs differ in whether the heading of a rear laser's row includes the half turn: PARAM states where it
+  // is.
   record.laserPose = mounting(name == "RLASER" ? 2 : 1);
   if (name == "FLASER" && !options_.laserX)
     record.laserPose = frontMounting_.of(laser, *record.odometry).value_or(record.laserPose);

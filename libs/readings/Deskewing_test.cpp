@@ -54,7 +54,7 @@ Log pairs(const test::Motion& motion) {
   return log;
 }
 
-/// Of the worst scan, m.
+/// Error of the worst scan, m.
 double worst(const std::vector<Reading>& readings, const test::Motion& motion) {
   double all = 0;
   for (const Reading& reading : readings)

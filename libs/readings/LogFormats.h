@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,13 @@ extern const LogFormat kCarmenLog, kGfsLog, kDpslamLog, kTinyslamLog;
 /// All formats, in the order in which they are tried.
 inline std::vector<const LogFormat*> logFormats() {
   return {&kCarmenLog, &kGfsLog, &kDpslamLog, &kTinyslamLog};
+}
+
+/// How the names of logs end: rawlogs, text logs and bags, also compressed. For a choice of files: the format
+/// itself is detected from the content.
+inline std::vector<std::string> logEndings() {
+  return {".rawlog", ".clf", ".log", ".gfs",  ".dat", ".bag", ".db3",
+          ".mcap",   ".gz",  ".bz2", ".zstd", ".zst", ".lz4"};
 }
 
 /// The format that a line implies; null if it could be in any.

@@ -21,7 +21,7 @@ struct BagPlan;
 /// gives the objects that log2rawlog writes without options.
 class LogReader {
  public:
-  /// @param plan  of a bag; null: what is clear
+  /// @param plan  of a bag; null: the default
   /// @throws InputError if the file is missing or unreadable, if a text file is not a log, or if it is not
   ///         clear what to use of a bag
   explicit LogReader(const std::string& file, const std::shared_ptr<const BagPlan>& plan = nullptr);

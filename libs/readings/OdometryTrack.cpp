@@ -7,7 +7,7 @@
 namespace hybrid_slam::readings {
 namespace {
 
-constexpr size_t kMostReadings = 4000;  ///< no scan waits so long
+constexpr size_t kMostReadings = 4000;  ///< no scan waits longer
 
 }  // namespace
 

@@ -31,7 +31,7 @@ class OdometryTrack {
   }
   /// s; of the last reading. At least one is needed, as for the pose.
   double end() const { return readings_.back().first; }
-  /// Of times up to the first reading, the first reading.
+  /// The pose at a time (s). Up to the first reading it is that of the first reading.
   mrpt::math::TPose2D at(double time) const;
 
  private:

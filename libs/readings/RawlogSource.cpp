@@ -62,7 +62,7 @@ void InputOptions::describe(OptionTable& t) {
         "largest gap between odometry readings for interpolation at a scan's time");
   t.add("scan_time", scanTime, "auto", 0, kLongestSweep, "s",
         "time from the first beam of a scan to the last, for the correction by the robot's motion; auto: as "
-        "the log tells; 0: no correction");
+        "the log states; 0: no correction");
 }
 
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {

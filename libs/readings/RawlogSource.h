@@ -22,7 +22,7 @@ struct InputOptions : Options {
   std::string odometryTopic;  ///< of a bag
   bool requireOdometry = true;
   double maxOdometryGap = 1;
-  std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log tells
+  std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
   void describe(OptionTable& table) override;
 };
 
@@ -81,7 +81,7 @@ class RawlogSource {
   /// Empty at the end of the log.
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
-  /// Of the last object read: `entry 12 of FILE`.
+  /// Where the last object read is: `entry 12 of FILE`.
   std::string place() const;
 
  private:

@@ -21,7 +21,9 @@ using mrpt::obs::CObservationOdometry;
 
 namespace {
 
-constexpr size_t kMostWaiting = 1000;  ///< scans
+constexpr size_t kMostWaiting = 1000;  // scans
+constexpr size_t kMostWaitingBeams = 10'000'000;
+constexpr double kFarthestApart = 10;  // m between the scans of one reading
 
 /// MRPT's code uses valid beams unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
@@ -101,12 +103,16 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
   }
   const size_t reading = grouper_.add(*scan);
   waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
-  if (hasOdometryReadings_ && !lastOdometry_) return;
+  const bool isFull = waiting_.size() >= std::min(kMostWaiting, kMostWaitingBeams / scan->getScanSize());
+  if (hasOdometryReadings_ && !lastOdometry_) {
+    if (isFull) waiting_.pop_front();
+    return;
+  }
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
   // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
   // count bounds it where time stands still.
-  const bool isLong = (hasOdometryReadings_ && age > maxOdometryGap_) || waiting_.size() >= kMostWaiting;
+  const bool isLong = (hasOdometryReadings_ && age > maxOdometryGap_) || isFull;
   if (isLong) return finishWaiting();
   if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
     waiting_.back().odometry = travelled_;
@@ -134,10 +140,12 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
 }
 
 TPose2D ReadingAssembler::withoutJumps(const TPose2D& reading) {
+  const bool isFirst = !lastReading_;
   const TPose2D before = lastReading_.value_or(reading);
   lastReading_ = reading;
-  const bool isAJump = isJump(before, reading);
+  const bool isAJump = isFirst ? isFarAway(reading) : isJump(before, reading);
   jumps_ += isAJump ? 1 : 0;
+  if (isFirst && isAJump) return {};
   if (jumps_ == 0 || !lastOdometry_) return reading;
   return isAJump ? *lastOdometry_ : *lastOdometry_ + (reading - before);
 }
@@ -176,7 +184,10 @@ CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) co
 }
 
 void ReadingAssembler::complete(const Waiting& scan) {
-  if (scan.reading != current_) endReading();
+  // Wrong odometry may move a robot far between two lasers.
+  const bool isApart =
+      !collected_.empty() && !((*scan.odometry - collected_.back().second).norm() <= kFarthestApart);
+  if (scan.reading != current_ || isApart) endReading();
   current_ = scan.reading;
   markInvalidBeams(*scan.scan);
   collected_.emplace_back(corrected(scan), *scan.odometry);

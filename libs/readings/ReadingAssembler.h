@@ -32,11 +32,12 @@ struct Reading {
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used; scans before the first odometry reading use that one. A jump of the
-/// odometry by over 100 m counts as no motion; the odometry goes on from the new value. Scans without beams
-/// or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite, not positive, or at or
-/// beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans are used and which of
-/// them form one reading.
+/// previous odometry reading is used; the last 1000 scans before the first odometry reading use that one, and
+/// earlier ones are dropped. A jump of the odometry by over 100 m, or a first reading beyond 1e8 m, counts as
+/// no motion; the odometry goes on from the new value. Scans taken over 10 m apart never form one reading.
+/// Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite,
+/// not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans
+/// are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -50,7 +51,7 @@ class ReadingAssembler {
   /// @param lasers               labels of the lasers to use; none: all
   /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
-  /// @param sweeps               how long the scans take; default: what the log tells
+  /// @param sweeps               how long the scans take; default: as the log states
   ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
                    SweepTimes sweeps = {});
 
@@ -127,6 +128,8 @@ bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
 /// m; a larger step between two odometry readings means two logs in one file, reset odometry, or an error.
 constexpr double kMaxStep = 100;
+/// Whether a first odometry reading is impossible. Map coordinates (UTM) reach 1e7 m.
+inline bool isFarAway(const mrpt::math::TPose2D& reading) { return !(reading.norm() <= 1e8); }
 /// Whether two odometry readings are over kMaxStep apart.
 inline bool isJump(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& now) {
   return !((now - before).norm() <= kMaxStep);

@@ -1,5 +1,5 @@
 /// @file SweepTimes.h
-/// @brief How long lasers take for the beams of a scan, as logs and settings tell.
+/// @brief How long lasers take for the beams of a scan, as logs and settings state.
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -13,10 +13,10 @@ namespace hybrid_slam::readings {
 
 /// s; the slowest lasers turn once a second.
 constexpr double kLongestSweep = 1;
-/// Whether a laser can take so long (s); 0: not known.
+/// Whether a laser can take this time (s); 0: not known.
 inline bool isSweepTime(double seconds) { return seconds >= 0 && seconds <= kLongestSweep; }
 
-/// What a log tells. MRPT's scans (2.5.8, 2.14.7) have no place for it, so a comment before the scans of the
+/// What a log states. MRPT's scans (2.5.8, 2.14.7) have no place for it, so a comment before the scans of the
 /// laser does: `scan_time = 0.075 s, laser LASER`. It holds for all scans of this label after it.
 struct SweepTime {
   std::string label;
@@ -32,9 +32,9 @@ std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation)
 /// `sensorPose` is the pose "at the moment of starting the scan".
 class SweepTimes {
  public:
-  /// What the log tells.
+  /// The times that the log states.
   SweepTimes() = default;
-  /// @param fixed  s, for all scans, in place of what the log tells; 0: beams are not corrected
+  /// @param fixed  s, for all scans, in place of those that the log states; 0: beams are not corrected
   explicit SweepTimes(const std::optional<double>& fixed) : fixed_(fixed) {}
 
   /// Impossible times count as not known.

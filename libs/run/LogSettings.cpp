@@ -11,11 +11,11 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr size_t kReadings = 2000;
-constexpr double kUsualRange = 20, kLongestRange = 80;  // m
-constexpr double kNoLimit = 200;                        // m; upper bound of grid.max_range
-constexpr double kSparseStep = 0.3;                     // m; the standard proposal's update distance
-constexpr double kCentimetre = 0.01;                    // m
+constexpr size_t kReadings = 2000, kMostBeams = 10'000'000;  // the first of a log
+constexpr double kUsualRange = 20, kLongestRange = 80;       // m
+constexpr double kNoLimit = 200;                             // m; upper bound of grid.max_range
+constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
+constexpr double kCentimetre = 0.01;                         // m
 
 /// What a laser logs for no return, m; 0 if it marks these beams as invalid. Some lasers log one value, or
 /// several close together, for all of them, with few returns just below.
@@ -33,11 +33,12 @@ double noReturn(const std::vector<float>& ranges) {
   return isCode ? std::floor(lowest / kCentimetre) * kCentimetre : 0;
 }
 
-/// The range within which a share of the returns lies.
-double quantile(std::vector<float> ranges, double share) {
+/// The largest value at or below the interpolated quantile (method `lower` of NumPy).
+/// @param values  at least one
+double lowerQuantile(std::vector<float> values, double share) {
   const auto at =
-      ranges.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(ranges.size() - 1));
-  std::nth_element(ranges.begin(), at, ranges.end());
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
@@ -51,7 +52,7 @@ LogSetting maxRange(std::vector<float> ranges, double limit) {
   if (code > 0)
     ranges.erase(std::remove_if(ranges.begin(), ranges.end(), [&](float r) { return r >= code; }),
                  ranges.end());
-  const double most = ranges.empty() ? 0 : quantile(ranges, 0.95);
+  const double most = ranges.empty() ? 0 : lowerQuantile(ranges, 0.95);
   const double useful = std::clamp(10 * std::ceil(most / 10), kUsualRange, kLongestRange);
   if (code > 0 && code <= std::min(useful, limit)) return setting(code, codeText);
   if (limit <= useful) return setting(limit, "the log's limit for the laser");
@@ -71,7 +72,7 @@ LogSetting directionNoise(const std::vector<float>& ranges) {
 /// @param steps  m between readings, of the moving robot
 std::vector<LogSetting> updates(std::vector<float> steps) {
   if (steps.empty()) return {};
-  const double step = quantile(std::move(steps), 0.5);
+  const double step = lowerQuantile(std::move(steps), 0.5);
   const bool isSparse = step > kSparseStep;
   const std::string reason = "scans " + fixedText(step, 2) + " m apart" + (isSparse ? ": use every one" : "");
   return {{"improved_proposal", "update_distance", isSparse ? "0.02" : "0.1", reason},
@@ -96,12 +97,14 @@ std::vector<readings::Reading> firstReadings(const std::string& file, const read
                                              const readings::RawlogSummary& log) {
   readings::RawlogSource source(file, input, log);
   std::vector<readings::Reading> all;
+  size_t beams = 0;
   try {
-    while (all.size() < kReadings)
-      if (const auto reading = source.next())
-        all.push_back(*reading);
-      else
-        break;
+    while (all.size() < kReadings && beams < kMostBeams) {
+      const auto reading = source.next();
+      if (!reading) break;
+      all.push_back(*reading);
+      for (const auto& scan : reading->scans) beams += scan->getScanSize();
+    }
   } catch (const InputError&) {
   }
   return all;
