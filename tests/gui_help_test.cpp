@@ -4,6 +4,7 @@
 
 #include "KeysTest.h"
 #include "window/gui/HelpPages.h"
+#include "window/gui/Messages.h"
 
 namespace hybrid_slam {
 namespace {
@@ -79,6 +80,15 @@ TEST_F(HelpTest, F1OpensThePageOfTheWindow) {
   EXPECT_TRUE(happens([&] { return std::filesystem::exists(opened) && test::contentOf(opened) == page; }));
   setenv("PATH", path.c_str(), 1);
   EXPECT_THROW(window::openPage("doc/none.md", folder.path("bin")), InputError);
+}
+
+TEST_F(HelpTest, MessagesNameTheInstalledPages) {
+  for (const char* made : {"bin", "share/doc/hybrid-slam/doc"})
+    std::filesystem::create_directories(folder.path(made));
+  const std::string page = folder.write("share/doc/hybrid-slam/doc/gui.md", "# Window\n");
+  window::showError(frame, "wrong; see doc/gui.md", folder.path("bin"));
+  window::showNotice(frame, "more in doc/gui.md.", folder.path("bin"));
+  EXPECT_THAT(dialogs.messages, testing::ElementsAre("wrong; see " + page, "more in " + page + "."));
 }
 
 TEST_F(HelpTest, ThePagesOfTheMenuAreThere) {

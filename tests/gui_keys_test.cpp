@@ -1,8 +1,8 @@
 /// The window as a user drives it: with real keys and the mouse, under a window manager.
 #include <wx/display.h>
-#include <wx/dnd.h>
 
 #include "KeysTest.h"
+#include "window/view/FilterScene.h"
 
 namespace hybrid_slam {
 namespace {
@@ -11,6 +11,11 @@ TEST_F(KeysTest, WorkFromTheStart) {
   openLog();
   press(WXK_F6);
   EXPECT_TRUE(stands(State::paused, 1));
+  press(WXK_F5);
+  EXPECT_TRUE(happens([this] { return now().scans > 3; }));
+  press(WXK_F5);
+  EXPECT_TRUE(happens([this] { return now().state == State::paused; }));
+  EXPECT_LT(now().scans, 60u);
   press('G', wxMOD_CONTROL);
   EXPECT_TRUE(happens([this] { return !dialogs.titles.empty(); }));
   EXPECT_THAT(dialogs.titles, testing::ElementsAre("Go to scan"));
@@ -49,6 +54,41 @@ TEST_F(KeysTest, ControlAndArrowsChangeTheSpeed) {
   EXPECT_TRUE(happens([this] { return frame->replay()->speed() == "0.5 x"; })) << frame->replay()->speed();
 }
 
+TEST_F(KeysTest, BackByAKeyDoesNotReplayAll) {
+  openAt(40);
+  press(WXK_LEFT);
+  EXPECT_TRUE(stands(State::paused, 39));
+  EXPECT_EQ(now().run, 1u) << "from a checkpoint";
+}
+
+TEST_F(KeysTest, AtFullSpeedTheSliderStandsWhereThePanesAre) {
+  frame->open(ini, log, {}, {"particle_filter.update_distance=0.001"});  // every scan is an update
+  ASSERT_TRUE(stands(State::paused, 0));
+  ASSERT_TRUE(isReady());
+  for (int i = 0; i < 5; ++i) press(WXK_UP, wxMOD_CONTROL);
+  ASSERT_TRUE(happens([this] { return frame->replay()->speed() == "fastest"; })) << frame->replay()->speed();
+  press(WXK_SPACE);
+  EXPECT_TRUE(happens([this] {
+    const auto place = static_cast<size_t>(frame->replay()->slider()->GetValue());
+    for (const size_t i : {0u, 1u}) {
+      const auto& shown = frame->replay()->canvas(i)->shown();
+      EXPECT_EQ(shown ? shown->updates : 0, place) << "pane " << i;
+    }
+    return place == 60;
+  }));
+}
+
+TEST_F(KeysTest, ControlAndRAskForALogOfAnyFormat) {
+  press('R', wxMOD_CONTROL);
+  EXPECT_TRUE(happens([this] { return dialogs.titles.size() == 1; }));
+  for (const char* ending :
+       {"*.rawlog", "*.clf", "*.gfs", "*.dat", "*.bag", "*.db3", "*.mcap", "*.gz", "*.bz2", "*.zst", "*.lz4"})
+    EXPECT_THAT(dialogs.filter, HasSubstr(ending));
+  press('R', wxMOD_CONTROL | wxMOD_SHIFT);
+  EXPECT_TRUE(happens([this] { return dialogs.titles.size() == 2; }));
+  EXPECT_THAT(dialogs.titles, testing::ElementsAre("Open log", "Open recording folder"));
+}
+
 TEST_F(KeysTest, WithoutALogThereIsNothingToPlay) {
   EXPECT_FALSE(frame->replay()->stepButton()->IsEnabled());
   EXPECT_THAT(frame->replay()->canvas(0)->title(), HasSubstr("Open log"));
@@ -65,6 +105,7 @@ TEST_F(KeysTest, WithoutALogThereIsNothingToPlay) {
 TEST_F(KeysTest, ALogNeedsNoSettings) {
   frame->open("", log);
   ASSERT_TRUE(stands(State::paused, 0));
+  ASSERT_TRUE(isReady());
   press(WXK_F4);
   EXPECT_TRUE(happens([this] { return !dialogs.titles.empty(); }));
   EXPECT_THAT(dialogs.titles, testing::ElementsAre("Parameters"));
@@ -73,13 +114,13 @@ TEST_F(KeysTest, ALogNeedsNoSettings) {
   EXPECT_TRUE(dialogs.messages.empty());
 }
 
-TEST_F(KeysTest, ALogThatIsDroppedIsOpened) {
-  wxArrayString names;
-  names.Add(log);
-  auto* const target = dynamic_cast<wxFileDropTarget*>(frame->GetDropTarget());
-  ASSERT_NE(target, nullptr);
-  EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+TEST_F(KeysTest, WhatIsDroppedIsOpened) {
+  drop(log);
   EXPECT_TRUE(stands(State::paused, 0));
+  EXPECT_NE(frame->settings()->configuration.filter.filter.particles, 8);
+  drop(ini);
+  EXPECT_EQ(frame->settings()->configuration.filter.filter.particles, 8);
+  EXPECT_TRUE(dialogs.messages.empty());
 }
 
 TEST_F(KeysTest, TheWindowFitsTheScreen) {
@@ -121,6 +162,33 @@ TEST_F(KeysTest, TheLivePageSaysThatThereIsNoConnectionAndItsRecordingCanBeRepla
   press(WXK_RIGHT);
   EXPECT_TRUE(stands(State::paused, 1));
   EXPECT_EQ(dialogs.messages.size(), 2u);
+}
+
+TEST_F(KeysTest, ALiveRunBeginsWithAClickAndShowsTheVerdictSoFar) {
+  press('2', wxMOD_ALT);
+  ASSERT_TRUE(happens([this] { return frame->live()->IsShownOnScreen(); }));
+  test::Events events;
+  live::ObservationServer server("127.0.0.1", 0, {}, events.log());
+  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
+  frame->live()->setOutput(folder.path("live"));
+  click(frame->live()->connectButton());
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  publishLaps(server);
+  EXPECT_TRUE(happens([this] {
+    const auto& shown = frame->live()->canvas()->shown();
+    return shown && captionOf(*shown).back().rfind("so far ", 0) == 0;
+  }));
+
+  const wxString title = frame->GetTitle();
+  drop(log);
+  ASSERT_EQ(dialogs.messages.size(), 1u);
+  EXPECT_THAT(dialogs.messages[0], HasSubstr("a live run is in progress"));
+  EXPECT_EQ(frame->GetTitle(), title);
+  EXPECT_EQ(frame->settings()->configuration.run.rawlog, "") << "nothing has changed";
+  EXPECT_EQ(frame->replay()->session(), nullptr);
+  click(frame->live()->connectButton());
+  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 2; }));
+  EXPECT_THAT(dialogs.messages[1], HasSubstr("recording-20"));
 }
 
 }  // namespace

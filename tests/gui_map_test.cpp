@@ -62,17 +62,48 @@ TEST_F(GuiTest, ShowsTheSearchForTheStartInTheMapOfAnEarlierRun) {
   EXPECT_GT(count(found, canvas, 80, 180, 255), 20u) << "robot";
 }
 
+/// As `--prior-plan` does.
+TEST_F(GuiTest, BeginsWithAFloorPlan) {
+  using window::MapChoice;
+  run::RunOptions options;
+  options.priorPlan = folder.write(
+      "room.geojson",
+      R"({"features":[{"geometry":{"type":"LineString","coordinates":[[-5,-3],[5,-3],[5,3],[-5,3],[-5,-3]]}}]})");
+  options.start = test::poseOnLap(0, 80);
+  frame->open(ini, log, MapChoice::of(options));
+  frame->applyChanges({"particle_filter.particles=9"});
+  EXPECT_EQ(frame->settings()->map().use, MapChoice::Use::plan);
+  EXPECT_EQ(frame->settings()->map().file, options.priorPlan);
+  frame->replay()->seek(60);
+  ASSERT_TRUE(stands(State::ended, 60));
+  ASSERT_TRUE(happens([&] { return frame->replay()->canvas(0)->shown() != nullptr; }));
+  EXPECT_THAT(now().events,
+              testing::Contains(testing::AllOf(HasSubstr("place found"), HasSubstr(options.priorPlan))));
+  const auto end = frame->replay()->canvas(0)->shown()->path.back(), truth = test::poseOnLap(59, 80);
+  EXPECT_LT((end - truth).norm(), 0.5) << "in the frame of the plan";
+  EXPECT_TRUE(dialogs.messages.empty()) << "the general filter maps without it";
+  frame->useMap({});
+  EXPECT_EQ(frame->settings()->map().use, MapChoice::Use::none);
+}
+
 TEST_F(GuiTest, AsksForTheMapOfAnEarlierRun) {
   using window::MapChoice;
   window::MapDialog dialog(frame, {});
   EXPECT_EQ(dialog.choice().use, MapChoice::Use::none);
   const std::string map = folder.write("map.yaml", "image: map.pgm\n");
-  for (wxWindow* child : dialog.GetChildren())
-    if (auto* const picker = dynamic_cast<wxFilePickerCtrl*>(child)) {
-      picker->SetPath(wxString::FromUTF8(map));
-      wxFileDirPickerEvent chosen(wxEVT_FILEPICKER_CHANGED, picker, picker->GetId(), picker->GetPath());
-      picker->ProcessWindowEvent(chosen);
-    }
+  const std::string plan = folder.write("plan.dxf", "");
+  const auto pick = [&](const std::string& file) {
+    for (wxWindow* child : dialog.GetChildren())
+      if (auto* const picker = dynamic_cast<wxFilePickerCtrl*>(child)) {
+        picker->SetPath(wxString::FromUTF8(file));
+        wxFileDirPickerEvent chosen(wxEVT_FILEPICKER_CHANGED, picker, picker->GetId(), picker->GetPath());
+        picker->ProcessWindowEvent(chosen);
+      }
+  };
+  pick(plan);
+  EXPECT_EQ(dialog.choice().use, MapChoice::Use::plan);
+  EXPECT_EQ(dialog.choice().file, plan);
+  pick(map);
   EXPECT_EQ(dialog.choice().use, MapChoice::Use::mapOn) << "a map that is opened is used";
   dialog.set({MapChoice::Use::mapOn, map, mrpt::math::TPose2D(1.5, -2, M_PI / 2)});
   dialog.Show();

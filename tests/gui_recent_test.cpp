@@ -4,6 +4,61 @@
 namespace hybrid_slam {
 namespace {
 
+/// Fills in the dialog of Ctrl+M with real keys and a click, each step once the one before has worked.
+class MapTypist : public wxTimer {
+ public:
+  MapTypist(const std::string& file, const std::string& start) : file_(file), start_(start) { Start(200); }
+
+  void Notify() override {
+    auto* const dialog = open();
+    if (!dialog) return;
+    if (++ticks_ > 200) return dialog->EndModal(wxID_CANCEL);  // else the test would not end
+    wxTextCtrl *file = nullptr, *start = nullptr;
+    wxRadioBox* use = nullptr;
+    for (wxWindow* control : dialog->GetChildren()) {
+      if (auto* const picker = dynamic_cast<wxFilePickerCtrl*>(control)) file = picker->GetTextCtrl();
+      if (auto* const box = dynamic_cast<wxRadioBox*>(control)) use = box;
+      if (auto* const text = dynamic_cast<wxTextCtrl*>(control)) start = text;
+    }
+    if (step_ == 0) type(file, file_);
+    if (step_ == 1 && file->GetValue() == file_ && !isChosen(use)) return click(use);
+    if (step_ == 1 && isChosen(use)) ++step_;
+    if (step_ == 2) type(start, start_);
+    if (step_ == 3 && start->GetValue() == start_) {
+      ++step_;
+      wxUIActionSimulator().Char(WXK_RETURN);
+    }
+  }
+
+ private:
+  static window::MapDialog* open() {
+    for (wxWindow* each : wxTopLevelWindows)
+      if (auto* const dialog = dynamic_cast<window::MapDialog*>(each); dialog && dialog->IsModal())
+        return dialog;
+    return nullptr;
+  }
+  static bool isChosen(const wxRadioBox* use) {
+    return use->GetSelection() == static_cast<int>(window::MapChoice::Use::localise);
+  }
+  void type(wxTextCtrl* into, const std::string& text) {
+    if (wxWindow::FindFocus() != into) return into->SetFocus();
+    ++step_;  // first: the simulator may run the window
+    wxUIActionSimulator().Text(text.c_str());
+  }
+  static void click(wxRadioBox* use) {
+    for (int y = 0; y < use->GetSize().y; ++y) {
+      const wxPoint edge = use->ClientToScreen(wxPoint(use->FromDIP(20), y));
+      if (use->GetItemFromPoint(edge) != static_cast<int>(window::MapChoice::Use::localise)) continue;
+      wxUIActionSimulator mouse;
+      mouse.MouseMove(edge + wxPoint(0, use->FromDIP(8)));
+      return (void)mouse.MouseClick();
+    }
+  }
+
+  std::string file_, start_;
+  int step_ = 0, ticks_ = 0;
+};
+
 class RecentFilesTest : public KeysTest {
  protected:
   /// As if the program were started again.
@@ -56,10 +111,37 @@ TEST_F(RecentFilesTest, AFileThatIsGoneIsSaidAndForgotten) {
   EXPECT_EQ(entries()->GetSubMenu()->GetMenuItemCount(), 0u);
 }
 
-TEST_F(RecentFilesTest, ASessionIsChosenByAKey) {
+/// A recording of ROS 2 is one.
+TEST_F(RecentFilesTest, AFolderIsOpened) {
+  const std::string recording = folder.path("recording");
+  std::filesystem::create_directory(recording);
+  folder.write("recording/drive_0.mcap", "no messages");
+  frame->open("", recording);
+  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
+  openRecent('1');
+  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 2; }));
+  EXPECT_EQ(dialogs.messages[1], dialogs.messages[0]) << "what is wrong with it";
+  EXPECT_TRUE(entries()->IsEnabled());
+}
+
+TEST_F(RecentFilesTest, TheMapOfAnEarlierRunIsTypedAndLocalisedIn) {
+  openAt(40);
+  frame->saveReplayMapTo(folder.path("maps"));
+  ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+  const std::string session = folder.path("maps/hybrid/session.hslam");
+  dialogs.left = "Map or floor plan";
+  const MapTypist typist(session, "0, 0, 0");
   press('M', wxMOD_CONTROL);
-  EXPECT_TRUE(happens([this] { return !dialogs.titles.empty(); }));
-  EXPECT_THAT(dialogs.titles, testing::ElementsAre("Map of an earlier run"));
+  EXPECT_THAT(dialogs.titles, testing::ElementsAre(dialogs.left));
+  const window::MapChoice chosen = frame->settings()->map();
+  ASSERT_EQ(chosen.use, window::MapChoice::Use::localise);
+  EXPECT_EQ(chosen.file, session);
+  ASSERT_TRUE(chosen.start);
+  ASSERT_TRUE(stands(State::paused, 0));
+  ASSERT_TRUE(isReady());
+  press(WXK_SPACE);
+  EXPECT_TRUE(happens([this] { return status(1) == "localised"; })) << status(1);
+  EXPECT_TRUE(dialogs.messages.empty());
 }
 
 }  // namespace

@@ -39,6 +39,37 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   EXPECT_EQ(count(screenshot("room-without-scan-lines"), *frame->replay()->canvas(0), 0, 70, 230), 0u);
 }
 
+/// What is read off the log comes with a later event of the window.
+TEST_F(GuiTest, OpeningALogReturnsBeforeItIsRead) {
+  const std::string sparse = test::writeGzipped(folder.path("sparse.rawlog"), test::laps(30, 12));
+  const auto step = [this] { return frame->settings()->configuration.filter.improved.updateDistance; };
+  const auto isEnabled = [this](int command) { return frame->GetMenuBar()->IsEnabled(command); };
+  frame->open("", sparse);
+  EXPECT_EQ(step(), 0.1) << "the default";
+  EXPECT_THAT(frame->replay()->canvas(0)->title(), HasSubstr("reading the log"));
+  for (const int command : {window::kParameters, window::kSaveIni, window::kPlay})
+    EXPECT_FALSE(isEnabled(command));
+  EXPECT_TRUE(isEnabled(window::kOpenLog));
+  ASSERT_TRUE(happens([&] { return isEnabled(window::kParameters); }));
+  EXPECT_EQ(step(), 0.02) << "of scans far apart";
+  frame->applyChanges({"particle_filter.seed=7"});
+  EXPECT_EQ(step(), 0.02) << "the same log";
+}
+
+TEST_F(GuiTest, ShowsTheLasersAndTheWarningsOnTheLog) {
+  test::Log two = test::laps(20);
+  const auto rear = test::scan(1000, {}, 91, "REAR");
+  rear->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  two.push_back(rear);
+  frame->open(ini, test::writeGzipped(folder.path("two.rawlog"), two));
+  ASSERT_TRUE(happens([&] { return status(0).find("warning: laser `REAR` is not used") == 0; })) << status(0);
+  std::vector<std::string> lines;
+  for (const wxString& line : frame->replay()->events()->GetStrings()) lines.push_back(line.utf8_string());
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("laser LASER: 181 beams")));
+  EXPECT_EQ(lines.back(), status(0));
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
 TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
   frame->open(SOURCE_DIR "/config-ini/csie-lms100.ini", SOURCE_DIR "/datasets/csie/csie-loop.rawlog");
   ASSERT_TRUE(stands(State::paused, 0));
@@ -134,7 +165,7 @@ TEST_F(GuiTest, ParametersAreCheckedAndSaved) {
 
 TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   menu(window::kLivePage);
-  frame->open(ini, log);
+  frame->open(ini, test::writeGzipped(folder.path("sparse.rawlog"), test::laps(60, 12)));
   ASSERT_TRUE(stands(State::paused, 0));
   test::Events events;
   live::ObservationServer server("127.0.0.1", 0, {}, events.log());
@@ -169,6 +200,8 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
   EXPECT_THAT(dialogs.messages[1], HasSubstr("recording-20"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("live/map.png")));
+  EXPECT_EQ(run::Configuration(folder.path("live/config.ini"), {}).filter.improved.updateDistance, 0.1)
+      << "as hybrid-slam-live, not what follows from the other log";
   EXPECT_TRUE(stands(State::ended, 60));
 }
 

@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief hybrid-slam-gui: replays rawlogs and maps live robot data in a window.
+/// @brief hybrid-slam-gui: replays logs and maps live robot data in a window.
 
 #include <wx/app.h>
 #include <wx/glcanvas.h>
@@ -64,8 +64,7 @@ int main(int argc, char** argv) {
     hybrid_slam::addSettings(app, settings);
     app.footer(
         "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 "
-        "wrong "
-        "command line.");
+        "wrong command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
     files.sort();
     filter.addTo(settings, app);

@@ -41,10 +41,10 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
 
   canvas_ = new MapCanvas(this, "no map yet: Connect", view_, [this] { canvas_->Refresh(false); });
   plots_ = new PlotPanel(this);
-  events_ = new wxListBox(this, wxID_ANY, wxDefaultPosition, FromDIP(wxSize(-1, 90)));
+  events_ = new EventList(this, wxSize(-1, 90),
+                          "What happened to the connection and in the filter, the newest last");
   explain(canvas_, kPaneHelp);
   explain(plots_, kPlotsHelp);
-  explain(events_, "What happened to the connection and in the filter, the newest last");
   auto* const column = new wxBoxSizer(wxVERTICAL);
   column->Add(row, 0, wxEXPAND);
   column->Add(canvas_, 1, wxEXPAND);
@@ -75,7 +75,8 @@ void LivePage::start() {
   live::hostAndPort(server, "the live view's server");
   session_.reset();
   shown_.reset();
-  used_ = settings_->copy({"run.output=" + output_->GetValue().utf8_string()});
+  // As hybrid-slam-live does, without the settings read off the log that is replayed.
+  used_ = settings_->withLog(nullptr)->copy({"run.output=" + output_->GetValue().utf8_string()});
   session_ = std::make_unique<LiveSession>(used_->configuration, used_->live, server);
 }
 
@@ -94,12 +95,8 @@ void LivePage::refresh() {
   const auto now = session_->snapshot();
   if (now == shown_) return;
   const bool isNews = !shown_ || shown_->state != now->state;
-  if (!shown_ || shown_->events != now->events) {
-    events_->Clear();
-    for (const std::string& line : now->events) events_->Append(wxString::FromUTF8(line));
-    if (!now->events.empty()) events_->EnsureVisible(static_cast<int>(events_->GetCount()) - 1);
-  }
   shown_ = now;
+  events_->show(now->events);
   canvas_->show(now->filter);
   plots_->show({now->filter});
   text_->SetLabel(now->state == State::running && !now->isConnected

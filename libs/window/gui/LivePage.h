@@ -3,7 +3,6 @@
 #pragma once
 
 #include <wx/button.h>
-#include <wx/listbox.h>
 #include <wx/panel.h>
 #include <wx/stattext.h>
 #include <wx/textctrl.h>
@@ -11,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "window/gui/EventList.h"
 #include "window/gui/MapCanvas.h"
 #include "window/gui/PlotPanel.h"
 #include "window/gui/Settings.h"
@@ -36,6 +36,7 @@ class LivePage : public wxPanel {
   void setServer(const wxString& server) { server_->SetValue(server); }
   void setOutput(const wxString& folder) { output_->SetValue(folder); }
   MapCanvas* canvas() const { return canvas_; }
+  wxWindow* connectButton() const { return button_; }
   /// The newest event of the run; empty without one.
   std::string note() const { return shown_ && !shown_->events.empty() ? shown_->events.back() : ""; }
   std::string state() const { return text_->GetLabel().utf8_string(); }
@@ -51,7 +52,7 @@ class LivePage : public wxPanel {
   std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
   MapCanvas* canvas_ = nullptr;
   PlotPanel* plots_;
-  wxListBox* events_;
+  EventList* events_;
   std::function<void(const std::string&)> onRecording_;
   std::unique_ptr<LiveSession> session_;
   std::shared_ptr<const LiveSnapshot> shown_;

@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "base/Errors.h"
-#include "files/InstalledFiles.h"
 #include "window/gui/HelpPages.h"
 #include "window/gui/Messages.h"
 #include "window/gui/ParametersDialog.h"
@@ -50,7 +49,7 @@ MainFrame::MainFrame()
   bindViewMenu();
   bindHelpMenu();
   bindKeys();
-  SetDropTarget(new LogDrop(*this));
+  SetDropTarget(new FileDrop(*this));
   live_->setSettings(settings_);
   live_->setOnRecording([this](const std::string& recording) {
     if (replay_->session()) return;  // it has its own log
@@ -59,6 +58,7 @@ MainFrame::MainFrame()
   Centre();
   Bind(wxEVT_TIMER, [this](wxTimerEvent&) {
     replay_->refresh();
+    followLog();
     live_->refresh();
     showState();
     enableCommands();
@@ -75,6 +75,7 @@ void MainFrame::bindFileMenu() {
   };
   bind(kOpenIni, &MainFrame::openIni);
   bind(kOpenLog, &MainFrame::openLog);
+  bind(kOpenFolder, &MainFrame::openFolder);
   bind(kSaveIni, &MainFrame::saveIni);
   bind(kExportPicture, &MainFrame::exportPicture);
   bind(kExportResults, &MainFrame::exportResults);
@@ -103,10 +104,9 @@ void MainFrame::bindHelpMenu() {
   Bind(
       wxEVT_MENU,
       [this](wxCommandEvent&) {
-        showNotice(this, files::withInstalledPages(
-                             "hybrid-slam-gui " HYBRID_SLAM_VERSION
-                             ": grid maps with line directions, on MRPT. Keys are in the menus; more in "
-                             "doc/gui.md."));
+        showNotice(this, "hybrid-slam-gui " HYBRID_SLAM_VERSION
+                         ": grid maps with line directions, on MRPT. Keys are in the menus; more in "
+                         "doc/gui.md.");
       },
       wxID_ABOUT);
 }
@@ -129,6 +129,8 @@ void MainFrame::enableCommands() {
   };
   for (const int command : {kPlay, kStep, kStepBack, kRestart, kSeek, kExportResults})
     enable(command, isPlayable);
+  // Until the log has been read, it is not known which settings follow from it.
+  for (const int command : {kParameters, kSaveIni}) enable(command, isPlayable || !replay_->session());
   enable(kSaveMap, isReplayShown() ? isPlayable : live_->isRunning());
   enable(kExportPicture, canvas()->shown() != nullptr);
   enable(kRecentFiles, !recent_->isEmpty());

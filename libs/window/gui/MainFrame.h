@@ -27,7 +27,7 @@ class MainFrame : public wxFrame {
   /// @param changes  SECTION.KEY=VALUE each
   void open(const std::string& ini, const std::string& rawlog, const MapChoice& map = {},
             const std::vector<std::string>& changes = {});
-  /// Later runs map on or localise in this map.
+  /// Later runs continue or localise in this map, or begin with this floor plan.
   void useMap(const MapChoice& map);
   /// @param changes  SECTION.KEY=VALUE each @param resets  SECTION.KEY each, which get their defaults
   void applyChanges(const std::vector<std::string>& changes, const std::vector<std::string>& resets = {});
@@ -46,10 +46,10 @@ class MainFrame : public wxFrame {
   const Settings* settings() const { return settings_.get(); }
 
  private:
-  /// A log that is dropped on the window is opened.
-  class LogDrop : public wxFileDropTarget {
+  /// A log or INI file that is dropped on the window is opened.
+  class FileDrop : public wxFileDropTarget {
    public:
-    explicit LogDrop(MainFrame& frame) : frame_(frame) {}
+    explicit FileDrop(MainFrame& frame) : frame_(frame) {}
     bool OnDropFiles(wxCoord x, wxCoord y, const wxArrayString& names) override;
 
    private:
@@ -65,11 +65,14 @@ class MainFrame : public wxFrame {
   bool isReplayShown() const { return pages_->GetSelection() == 0; }
   MapCanvas* canvas() const { return isReplayShown() ? replay_->canvas(0) : live_->canvas(); }
   void use(const std::shared_ptr<Settings>& settings);
+  void followLog();
   void openIni();
   void openIni(const std::string& ini);
   void openRecent(int command);
   void openLog();
   void openLog(const std::string& log);
+  void openFolder();
+  void openFile(const std::string& file);
   void saveIni();
   void exportPicture();
   void exportResults();
@@ -86,7 +89,8 @@ class MainFrame : public wxFrame {
   ReplayPage* replay_;
   LivePage* live_;
   wxTimer timer_;
-  wxString note_;  ///< shown last
+  wxString note_;                                     ///< shown last
+  std::shared_ptr<const run::LogSettings> followed_;  ///< in the settings
   std::unique_ptr<RecentFiles> recent_;
 };
 

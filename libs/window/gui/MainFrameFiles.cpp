@@ -8,11 +8,22 @@
 #include "files/IniFile.h"
 #include "files/OutputFolder.h"
 #include "files/PartialFile.h"
+#include "readings/LogFormats.h"
 #include "window/gui/MainFrame.h"
 #include "window/gui/MapDialog.h"
 #include "window/gui/Messages.h"
 
 namespace hybrid_slam::window {
+namespace {
+
+/// Of a file dialog.
+std::string logFilter() {
+  std::string names;
+  for (const std::string& ending : readings::logEndings()) names += (names.empty() ? "*" : ";*") + ending;
+  return "Logs|" + names + "|All files|*";
+}
+
+}  // namespace
 
 void MainFrame::open(const std::string& ini, const std::string& rawlog, const MapChoice& map,
                      const std::vector<std::string>& changes) {
@@ -32,14 +43,25 @@ void MainFrame::applyChanges(const std::vector<std::string>& changes,
 }
 
 void MainFrame::use(const std::shared_ptr<Settings>& settings) {
+  const std::string& rawlog = settings->configuration.run.rawlog;
+  if (!rawlog.empty() && live_->isRunning())
+    throw InputError("a live run is in progress", rawlog, "stop it first: Live, Stop");
   settings_ = settings;
   live_->setSettings(settings);
-  const std::string& rawlog = settings->configuration.run.rawlog;
   SetTitle("hybrid-slam: " + (rawlog.empty() ? "no log" : std::filesystem::path(rawlog).filename().string()));
   if (rawlog.empty()) return;
-  if (live_->isRunning()) throw InputError("a live run is in progress", rawlog, "stop it first: Live, Stop");
   replay_->open(settings->configuration);
+  enableCommands();
   recent_->add(rawlog);
+}
+
+/// The replay reads the log in its own thread: only then is it known which settings follow from it.
+void MainFrame::followLog() {
+  const auto read = replay_->ofLog();
+  if (!read || read == followed_) return;
+  followed_ = read;
+  if (settings_->configuration.run.rawlog.empty()) return;  // an INI file without a log was opened since
+  orTell(this, [&] { settings_ = settings_->withLog(read); });
 }
 
 void MainFrame::openIni() {
@@ -55,25 +77,29 @@ void MainFrame::openIni(const std::string& ini) {
 
 void MainFrame::openRecent(int command) {
   const std::string file = recent_->file(command);
-  if (!std::filesystem::is_regular_file(file)) {
+  if (!std::filesystem::exists(file)) {  // a recording may be a folder
     recent_->remove(file);
     throw InputError("no such file", file, "it is no longer among the recent files");
   }
-  files::isIni(file) ? openIni(file) : openLog(file);
+  openFile(file);
 }
 
-bool MainFrame::LogDrop::OnDropFiles(wxCoord, wxCoord, const wxArrayString& names) {
-  orTell(&frame_, [&] { frame_.openLog(names[0].utf8_string()); });
+void MainFrame::openFile(const std::string& file) { files::isIni(file) ? openIni(file) : openLog(file); }
+
+bool MainFrame::FileDrop::OnDropFiles(wxCoord, wxCoord, const wxArrayString& names) {
+  orTell(&frame_, [&] { frame_.openFile(names[0].utf8_string()); });
   return true;
 }
 
 void MainFrame::openLog(const std::string& log) { use(settings_->copy({"run.rawlog=" + log})); }
 
 void MainFrame::openLog() {
-  wxFileDialog dialog(
-      this, "Open log", "", "",
-      "Logs (*.rawlog, *.clf, *.gfs, *.log, *.gz)|*.rawlog;*.clf;*.gfs;*.log;*.gz|All files|*",
-      wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+  wxFileDialog dialog(this, "Open log", "", "", logFilter(), wxFD_OPEN | wxFD_FILE_MUST_EXIST);
+  if (dialog.ShowModal() == wxID_OK) openLog(dialog.GetPath().utf8_string());
+}
+
+void MainFrame::openFolder() {
+  wxDirDialog dialog(this, "Open recording folder", "", wxDD_DEFAULT_STYLE | wxDD_DIR_MUST_EXIST);
   if (dialog.ShowModal() == wxID_OK) openLog(dialog.GetPath().utf8_string());
 }
 

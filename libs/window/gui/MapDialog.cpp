@@ -14,27 +14,44 @@
 #include "window/gui/Messages.h"
 
 namespace hybrid_slam::window {
+namespace {
+
+using Use = MapChoice::Use;
+
+/// By the end of its name, as run/PlanFiles.h tells the kinds of plans apart.
+bool isPlan(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  return ending == ".geojson" || ending == ".dxf" || ending == ".svg";
+}
+
+}  // namespace
 
 MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
-    : wxDialog(parent, wxID_ANY, "Map of an earlier run") {
+    : wxDialog(parent, wxID_ANY, "Map or floor plan") {
   auto* const column = new wxBoxSizer(wxVERTICAL);
   const auto add = [&](wxWindow* control) {
     column->Add(control, wxSizerFlags().Expand().Border(wxALL, FromDIP(8)));
   };
-  add(new wxStaticText(this, wxID_ANY, "Session, map.yaml or gridmap"));
-  file_ = new wxFilePickerCtrl(
-      this, wxID_ANY, "", "Open map",
-      "Maps (*.hslam, *.yaml, *.gridmap.gz)|*.hslam;*.yaml;*.gridmap;*.gridmap.gz|All files|*",
-      wxDefaultPosition, FromDIP(wxSize(460, -1)), wxFLP_OPEN | wxFLP_USE_TEXTCTRL);
+  add(new wxStaticText(this, wxID_ANY, "Session, map.yaml, gridmap or floor plan (.geojson, .dxf, .svg)"));
+  file_ =
+      new wxFilePickerCtrl(this, wxID_ANY, "", "Open map or floor plan",
+                           "Maps and floor plans (*.hslam, *.yaml, *.gridmap.gz, *.geojson, *.dxf, *.svg)|"
+                           "*.hslam;*.yaml;*.gridmap;*.gridmap.gz;*.geojson;*.dxf;*.svg|All files|*",
+                           wxDefaultPosition, FromDIP(wxSize(460, -1)), wxFLP_OPEN | wxFLP_USE_TEXTCTRL);
   add(file_);
-  const wxString uses[] = {"none: a new map", "map on in it", "localise in it; it stays as it is"};
-  use_ = new wxRadioBox(this, wxID_ANY, "Use", wxDefaultPosition, wxDefaultSize, 3, uses, 1);
+  const wxString uses[] = {"none: a new map", "continue mapping in it", "localise in it; it stays as it is",
+                           "begin with the lines of this floor plan"};
+  use_ = new wxRadioBox(this, wxID_ANY, "Use", wxDefaultPosition, wxDefaultSize, 4, uses, 1);
   add(use_);
-  file_->Bind(wxEVT_FILEPICKER_CHANGED, [this](wxFileDirPickerEvent&) {  // a map that is opened is to be used
-    if (use_->GetSelection() == static_cast<int>(MapChoice::Use::none))
-      use_->SetSelection(static_cast<int>(MapChoice::Use::mapOn));
-  });
-  add(new wxStaticText(this, wxID_ANY, "Start in this map: x, y (m), heading (deg); empty: searched for"));
+  file_->Bind(wxEVT_FILEPICKER_CHANGED,
+              [this](wxFileDirPickerEvent&) {  // a file that is opened is to be used
+                const auto use = static_cast<Use>(use_->GetSelection());
+                if (isPlan(file_->GetPath().utf8_string()))
+                  use_->SetSelection(static_cast<int>(Use::plan));
+                else if (use == Use::none || use == Use::plan)
+                  use_->SetSelection(static_cast<int>(Use::mapOn));
+              });
+  add(new wxStaticText(this, wxID_ANY, "Start in it: x, y (m), heading (deg); empty: searched for"));
   start_ = new wxTextCtrl(this, wxID_ANY);
   add(start_);
   column->Add(CreateButtonSizer(wxOK | wxCANCEL), wxSizerFlags().Expand().Border(wxALL, FromDIP(8)));
@@ -63,12 +80,14 @@ void MapDialog::set(const MapChoice& map) {
 
 MapChoice MapDialog::choice() const {
   MapChoice map;
-  map.use = static_cast<MapChoice::Use>(use_->GetSelection());
-  if (map.use == MapChoice::Use::none) return map;
+  map.use = static_cast<Use>(use_->GetSelection());
+  if (map.use == Use::none) return map;
   map.file = file_->GetPath().utf8_string();
+  const bool isForPlan = map.use == Use::plan;
   if (!std::filesystem::is_regular_file(map.file))
-    throw InputError("no map", map.file.empty() ? "file name" : map.file,
-                     "expected a session.hslam, map.yaml or gridmap");
+    throw InputError(
+        isForPlan ? "no floor plan" : "no map", map.file.empty() ? "file name" : map.file,
+        isForPlan ? "expected a .geojson, .dxf or .svg" : "expected a session.hslam, map.yaml or gridmap");
   map.start = startOf(start_->GetValue().utf8_string());
   return map;
 }

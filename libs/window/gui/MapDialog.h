@@ -1,5 +1,5 @@
 /// @file MapDialog.h
-/// @brief Asks for the map of an earlier run, whether it is mapped on in, and the start.
+/// @brief Asks for the map of an earlier run or a floor plan, what it is used for, and the start in it.
 #pragma once
 
 #include <wx/dialog.h>
@@ -16,7 +16,7 @@ class MapDialog : public wxDialog {
   MapDialog(wxWindow* parent, const MapChoice& now);
 
   void set(const MapChoice& map);
-  /// @throws InputError for a map that is missing, or a start that is no pose
+  /// @throws InputError for a file that is missing, or a start that is no pose
   MapChoice choice() const;
   /// "X, Y, DEG" (m, deg) as a pose; empty for blanks.
   /// @throws InputError for anything else

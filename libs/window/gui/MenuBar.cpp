@@ -10,9 +10,11 @@ namespace {
 wxMenu* fileMenu() {
   auto* const file = new wxMenu;
   file->Append(kOpenLog, "Open &log...\tCtrl+R", "Replays a log; settings are read off it");
+  file->Append(kOpenFolder, "Open recording f&older...\tCtrl+Shift+R",
+               "Replays a ROS 2 bag, which is a folder of .db3 or .mcap files");
   file->Append(kOpenIni, "Open &INI file...\tCtrl+O", "Settings, and the log they name");
-  file->Append(kOpenMap, "Open &map or session...\tCtrl+M",
-               "Maps on, or localises, in the map of an earlier run");
+  file->Append(kOpenMap, "Open &map, session or plan...\tCtrl+M",
+               "Continues or localises in the map of an earlier run, or begins with a floor plan");
   file->Append(kRecentFiles, "Recent &files", new wxMenu, "Logs and INI files opened last");
   file->Append(kSaveIni, "&Save settings as INI...\tCtrl+S", "Every key with its value");
   file->AppendSeparator();

@@ -10,6 +10,7 @@ namespace hybrid_slam::window {
 enum Command {
   kOpenIni = wxID_HIGHEST + 1,
   kOpenLog,
+  kOpenFolder,
   kSaveIni,
   kExportPicture,
   kExportResults,

@@ -1,5 +1,5 @@
 /// @file Messages.h
-/// @brief Error dialogs with the one-line messages of the programs.
+/// @brief Dialogs with the one-line messages of the programs.
 #pragma once
 
 #include <wx/msgdlg.h>
@@ -7,15 +7,24 @@
 #include <string>
 
 #include "base/Errors.h"
+#include "files/InstalledFiles.h"
 
 namespace hybrid_slam::window {
 
-inline void showError(wxWindow* parent, const std::string& message) {
-  wxMessageDialog(parent, wxString::FromUTF8(message), "hybrid-slam: error", wxOK | wxICON_ERROR).ShowModal();
+/// As shown to the user: with the pages that are installed. @param bin  folder of the program
+inline wxString shownText(const std::string& message,
+                          const std::filesystem::path& bin = files::programFolder()) {
+  return wxString::FromUTF8(files::withInstalledPages(message, bin));
 }
 
-inline void showNotice(wxWindow* parent, const std::string& message) {
-  wxMessageDialog(parent, wxString::FromUTF8(message), "hybrid-slam", wxOK | wxICON_INFORMATION).ShowModal();
+inline void showError(wxWindow* parent, const std::string& message,
+                      const std::filesystem::path& bin = files::programFolder()) {
+  wxMessageDialog(parent, shownText(message, bin), "hybrid-slam: error", wxOK | wxICON_ERROR).ShowModal();
+}
+
+inline void showNotice(wxWindow* parent, const std::string& message,
+                       const std::filesystem::path& bin = files::programFolder()) {
+  wxMessageDialog(parent, shownText(message, bin), "hybrid-slam", wxOK | wxICON_INFORMATION).ShowModal();
 }
 
 /// Runs an action of the user; errors are shown in a dialog.

@@ -37,7 +37,13 @@ ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
   }
   column->Add(panes, 1, wxEXPAND);
   plots_ = new PlotPanel(this);
-  column->Add(plots_, wxSizerFlags().Expand().Border(wxTOP, FromDIP(2)));
+  events_ = new EventList(this, wxSize(200, 60),
+                          "The lasers used, the settings read off the log, what is wrong with it, and what "
+                          "happened in the filters, the newest last");
+  auto* const below = new wxBoxSizer(wxHORIZONTAL);
+  below->Add(plots_, wxSizerFlags(5).Expand());
+  below->Add(events_, wxSizerFlags(2).Expand().Border(wxRIGHT, FromDIP(4)));
+  column->Add(below, wxSizerFlags().Expand().Border(wxTOP, FromDIP(2)));
   addControls(column);
   SetSizer(column);
 }
@@ -112,6 +118,7 @@ void ReplayPage::open(const run::Configuration& configuration) {
   faster(0);
   enableControls();
   showTitles();
+  events_->show({});
   for (MapCanvas* canvas : canvases_) canvas->show(nullptr);
 }
 
@@ -123,6 +130,7 @@ void ReplayPage::refresh() {
   for (size_t i = 0; i < std::min(canvases_.size(), now->filters.size()); ++i)
     canvases_[i]->show(now->filters[i]);
   plots_->show(now->filters);
+  events_->show(now->events);
   enableControls();
   showTitles();
   const bool isPlaying = now->state == State::playing;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "window/gui/EventList.h"
 #include "window/gui/MapCanvas.h"
 #include "window/gui/PlotPanel.h"
 #include "window/view/ReplaySession.h"
@@ -36,12 +37,16 @@ class ReplayPage : public wxPanel {
   void toggle(bool Layers::*layer);
   void showGeneral(bool isShown);
   MapCanvas* canvas(size_t i) const { return canvases_.at(i); }
-  /// The newest event of the replay; empty without one.
+  /// The newest note of the replay; empty without one.
   std::string note() const { return shown_ ? shown_->note : ""; }
   /// Whether a log can be played; false while it is read.
   bool hasLog() const { return shown_ && shown_->state != ReplaySnapshot::State::loading; }
   std::string speed() const { return speed_->GetStringSelection().utf8_string(); }
+  /// Null without a log, and until it has been read.
+  std::shared_ptr<const run::LogSettings> ofLog() const { return shown_ ? shown_->ofLog : nullptr; }
   wxWindow* stepButton() const { return step_; }
+  const wxSlider* slider() const { return place_; }
+  const EventList* events() const { return events_; }
   ReplaySession* session() const { return session_.get(); }
 
  private:
@@ -53,6 +58,7 @@ class ReplayPage : public wxPanel {
   std::shared_ptr<SharedView> view_ = std::make_shared<SharedView>();
   std::vector<MapCanvas*> canvases_;
   PlotPanel* plots_ = nullptr;
+  EventList* events_ = nullptr;
   wxButton *restart_ = nullptr, *back_ = nullptr, *play_ = nullptr, *step_ = nullptr;
   wxChoice* speed_ = nullptr;
   wxSlider* place_ = nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/Errors.h"
+#include "files/InstalledFiles.h"
 #include "files/TemporaryFolder.h"
 
 namespace hybrid_slam::window {
@@ -28,6 +29,7 @@ std::string textWithout(const mrpt::config::CConfigFileBase& settings,
 MapChoice MapChoice::of(const run::RunOptions& run) {
   if (!run.continueFrom.empty()) return {Use::mapOn, run.continueFrom, run.start};
   if (!run.localizeIn.empty()) return {Use::localise, run.localizeIn, run.start};
+  if (!run.priorPlan.empty()) return {Use::plan, run.priorPlan, run.start};
   return {};
 }
 
@@ -38,25 +40,32 @@ std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
 
 Settings::Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before)
     : configuration(file, changes, {{"live", &live}}) {
-  if (before) {
-    const run::RunOptions& of = before->configuration.run;
-    configuration.run.continueFrom = of.continueFrom;
-    configuration.run.localizeIn = of.localizeIn;
-    configuration.run.start = of.start;
-  }
-  const std::string& log = configuration.run.rawlog;
-  const readings::InputOptions& input = configuration.input;
-  if (log.empty()) return;
+  files::findInputFiles({&configuration.run.rawlog});
+  if (!before) return;
+  const run::RunOptions& of = before->configuration.run;
+  configuration.run.continueFrom = of.continueFrom;
+  configuration.run.localizeIn = of.localizeIn;
+  configuration.run.priorPlan = of.priorPlan;
+  configuration.run.start = of.start;
+  const readings::InputOptions &input = configuration.input, &inputBefore = before->configuration.input;
+  if (of.rawlog == configuration.run.rawlog && inputBefore.sensorLabel == input.sensorLabel &&
+      inputBefore.odometryTopic == input.odometryTopic)
+    follow(before->ofLog_);
+}
+
+void Settings::follow(const std::shared_ptr<const run::LogSettings>& log) {
+  ofLog_ = log;
+  if (!log) return;
   try {
-    if (before && before->configuration.run.rawlog == log &&
-        before->configuration.input.sensorLabel == input.sensorLabel)
-      ofLog_ = before->ofLog_;  // each edited parameter makes a copy: read the log only once
-    else
-      ofLog_ = std::make_shared<run::LogSettings>(
-          run::readLogSettings(log, input, readings::summarise(log, input)));
-    if (ofLog_) applyLogSettings(*ofLog_, configuration);
+    applyLogSettings(*log, configuration);
   } catch (const InputError&) {  // the replay reports it
   }
+}
+
+std::shared_ptr<Settings> Settings::withLog(const std::shared_ptr<const run::LogSettings>& log) const {
+  Settings other(*this);
+  other.ofLog_ = log;
+  return other.copy();
 }
 
 std::shared_ptr<Settings> Settings::inMap(const MapChoice& map) const {
@@ -64,14 +73,17 @@ std::shared_ptr<Settings> Settings::inMap(const MapChoice& map) const {
   run::RunOptions& run = changed->configuration.run;
   run.continueFrom = map.use == MapChoice::Use::mapOn ? map.file : "";
   run.localizeIn = map.use == MapChoice::Use::localise ? map.file : "";
+  run.priorPlan = map.use == MapChoice::Use::plan ? map.file : "";
   run.start = map.start;
   return changed;
 }
 
 std::shared_ptr<Settings> Settings::defaults() const {
   const std::string& log = configuration.run.rawlog;
-  return std::shared_ptr<Settings>(
+  const std::shared_ptr<Settings> standard(
       new Settings("", log.empty() ? std::vector<std::string>{} : std::vector{"run.rawlog=" + log}, this));
+  if (!standard->ofLog_) standard->follow(ofLog_);  // with the lasers that were chosen
+  return standard;
 }
 
 std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes,

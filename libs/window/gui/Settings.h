@@ -13,12 +13,12 @@
 
 namespace hybrid_slam::window {
 
-/// The map of an earlier run in which a run maps on or localises.
+/// The map in which a run continues or localises, or the floor plan that it begins with.
 struct MapChoice {
-  enum class Use { none, mapOn, localise };
+  enum class Use { none, mapOn, localise, plan };
   Use use = Use::none;
-  std::string file;                          ///< session, map.yaml or gridmap
-  std::optional<mrpt::math::TPose2D> start;  ///< in this map (m, rad); empty: searched for
+  std::string file;                          ///< session, map.yaml or gridmap; floor plan
+  std::optional<mrpt::math::TPose2D> start;  ///< in this map or plan (m, rad); empty: searched for
 
   static MapChoice of(const run::RunOptions& run);
 };
@@ -28,12 +28,13 @@ struct Settings {
   live::LiveOptions live;
   run::Configuration configuration;
 
-  /// With the settings read off the log (run/LogSettings.h), if there is one.
+  /// Reads no log, which takes time: see withLog.
   /// @param file  empty: the defaults
   /// @throws InputError as Configuration does
   static std::shared_ptr<Settings> fromFile(const std::string& file,
                                             const std::vector<std::string>& changes = {});
-  /// A modified copy. @param changes  SECTION.KEY=VALUE each
+  /// A modified copy. It keeps what follows from the log if it names the same one.
+  /// @param changes  SECTION.KEY=VALUE each
   /// @param resets  SECTION.KEY each, which are no longer set: they get their defaults, or follow from the
   /// log
   std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {},
@@ -42,12 +43,16 @@ struct Settings {
   std::shared_ptr<Settings> defaults() const;
   /// A copy for runs in another map, or in a new one.
   std::shared_ptr<Settings> inMap(const MapChoice& map) const;
+  /// A copy in which these settings hold that the user has not set. @param log  null: none
+  std::shared_ptr<Settings> withLog(const std::shared_ptr<const run::LogSettings>& log) const;
   MapChoice map() const { return MapChoice::of(configuration.run); }
 
  private:
   Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before);
 
-  /// Read off the log; null without one.
+  void follow(const std::shared_ptr<const run::LogSettings>& log);
+
+  /// Read off the log; null without one, and until it has been read.
   std::shared_ptr<const run::LogSettings> ofLog_;
 };
 

@@ -73,6 +73,21 @@ TEST(FilterScene, HasTheRequestedLayers) {
   EXPECT_TRUE(none->getByName("robot"));
 }
 
+TEST(Caption, HasTheMatchesDrawnAndTheVerdict) {
+  using testing::ElementsAre;
+  FilterSnapshot filter = room();
+  filter.updates = 7;
+  filter.step.ess = 0.5;
+  filter.step.linesMatched = 2;  // what is drawn counts
+  EXPECT_THAT(captionOf(filter),
+              ElementsAre("hybrid: 7 updates, ESS 50 %", "1 lines; of the scan: 1 of 2 match"));
+  filter.verdict.emplace().level = run::Verdict::Level::doubtful;
+  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates, ESS 50 %",
+                                             "1 lines; of the scan: 1 of 2 match", "so far doubtful"));
+  filter.place = Place{false, false, 12};
+  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates", "searching the start: 12 hypotheses"));
+}
+
 TEST(FilterScene, WhileThePlaceIsUnknownThereIsNoEllipse) {
   FilterSnapshot filter = room();
   const PictureSize size{600, 400};

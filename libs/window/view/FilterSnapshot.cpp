@@ -58,7 +58,7 @@ void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, 
   linesBefore_ = std::exchange(linesAfter_, view.bestLines());
 }
 
-std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bool withVerdict) const {
+std::shared_ptr<FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bool withVerdict) const {
   auto out = std::make_shared<FilterSnapshot>();
   out->method = method_;
   out->updates = view.updates();
@@ -73,7 +73,7 @@ std::shared_ptr<const FilterSnapshot> FilterWatch::snapshot(const FilterView& vi
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
-  if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = mapSoFar_.judge(view)();
+  if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = judge(view)();
   if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
   for (const LineSegment& line : prepare_(scans_).lines) {

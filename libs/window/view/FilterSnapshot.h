@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,7 +70,9 @@ class FilterWatch {
   void saw(const FilterView& view, const readings::Reading& reading, bool isUpdate);
   /// Copies the grid, which takes some ms: call only when needed for display.
   /// @param withVerdict  compares the scans along the path, which may take 0.1 s
-  std::shared_ptr<const FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
+  std::shared_ptr<FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
+  /// The verdict on the path so far: a function to be called in any thread.
+  std::function<run::Verdict()> judge(const FilterView& view) const { return mapSoFar_.judge(view); }
 
  private:
   std::string method_;

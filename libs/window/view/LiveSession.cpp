@@ -1,6 +1,9 @@
 #include "window/view/LiveSession.h"
 
 #include <chrono>
+#include <functional>
+#include <future>
+#include <utility>
 
 #include "base/Errors.h"
 #include "live/ObservationClient.h"
@@ -11,6 +14,30 @@ namespace hybrid_slam::window {
 namespace {
 
 constexpr size_t kEvents = 200;
+
+/// Finds the verdict on the map so far in another thread, so that no scan waits for it. A copy of the map is
+/// made to show it, so at most once per second.
+class LiveVerdict {
+ public:
+  using Show = std::function<void(const run::Verdict&)>;
+  explicit LiveVerdict(Show show) : show_(std::move(show)) {}
+
+  /// Called after each scan of a filter that maps.
+  void follow(const FilterView& view, const FilterWatch& watch) {
+    const auto now = std::chrono::steady_clock::now();
+    if (view.place() || view.updates() == judged_ || now - last_ < std::chrono::seconds(1)) return;
+    if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    judged_ = view.updates();
+    last_ = now;
+    next_ = std::async(std::launch::async, [this, judge = watch.judge(view)] { show_(judge()); });
+  }
+
+ private:
+  Show show_;
+  size_t judged_ = 0;  ///< updates
+  std::chrono::steady_clock::time_point last_;
+  std::future<void> next_;  ///< its destructor waits
+};
 
 }  // namespace
 
@@ -56,8 +83,19 @@ void LiveSession::work() {
   }
 }
 
+/// In the picture that is shown; the following ones keep it.
+void LiveSession::showVerdict(const run::Verdict& verdict) {
+  publish([&](LiveSnapshot& next) {
+    if (!next.filter) return;
+    const auto judged = std::make_shared<FilterSnapshot>(*next.filter);
+    judged->verdict = verdict;
+    next.filter = judged;
+  });
+}
+
 std::string LiveSession::run() {
-  FilterWatch watch(configuration_);
+  FilterWatch watch(configuration_, true);
+  LiveVerdict verdict([this](const run::Verdict& found) { showVerdict(found); });
   auto lastPicture = std::chrono::steady_clock::time_point{};
   bool isOutdated = false;
   live::ObservationClient client({server_.first, server_.second, options_.timeout,
@@ -68,7 +106,7 @@ std::string LiveSession::run() {
     watch.saw(view, reading, isUpdate);
     isOutdated |= isUpdate;
     const auto now = std::chrono::steady_clock::now();
-    std::shared_ptr<const FilterSnapshot> picture;
+    std::shared_ptr<FilterSnapshot> picture;
     if (isOutdated && now - lastPicture > std::chrono::milliseconds(200)) {
       picture = watch.snapshot(view);
       lastPicture = now;
@@ -76,8 +114,11 @@ std::string LiveSession::run() {
     }
     publish([&](LiveSnapshot& next) {
       ++next.scans;
-      if (picture) next.filter = picture;
+      if (!picture) return;
+      if (next.filter && !picture->place) picture->verdict = next.filter->verdict;
+      next.filter = picture;
     });
+    verdict.follow(view, watch);
   });
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
              [&] {

@@ -49,6 +49,7 @@ class LiveSession {
   std::string run();
   template <class Change>
   void publish(const Change& change);
+  void showVerdict(const run::Verdict& verdict);
 
   run::Configuration configuration_;
   live::LiveOptions options_;

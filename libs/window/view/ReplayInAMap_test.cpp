@@ -77,6 +77,25 @@ TEST_F(ReplayInAMap, MapsOnWhereThePlaceIsFound) {
   EXPECT_THAT(replay.snapshot()->note, HasSubstr("hybrid: place found after"));
 }
 
+TEST_F(ReplayInAMap, AFloorPlanIsForTheFilterWithLines) {
+  std::string corners;
+  const auto add = [&](const mrpt::math::TPoint2D& at) {
+    corners += (corners.empty() ? "[" : ",[") + std::to_string(at.x) + "," + std::to_string(at.y) + "]";
+  };
+  for (const auto& wall : test::room()) add(wall.first);
+  add(test::room().front().first);
+  now.run.priorPlan = folder.write(
+      "room.geojson", R"({"features":[{"geometry":{"type":"LineString","coordinates":[)" + corners + "]}}]}");
+  now.run.start = mrpt::math::TPose2D(0, 0, 0);
+  ReplaySession replay(now, {Method::hybrid, Method::general});
+  replay.setSpeed(0);
+  replay.play();
+  ASSERT_TRUE(test::happens([&] { return replay.snapshot()->state == State::ended; }));
+  EXPECT_EQ(replay.snapshot()->messages, 0u) << replay.snapshot()->message;
+  EXPECT_THAT(replay.snapshot()->events,
+              testing::Contains(testing::AllOf(HasSubstr("hybrid: place found"), HasSubstr("room.geojson"))));
+}
+
 TEST_F(ReplayInAMap, AFileThatIsNoMapFailsWithItsName) {
   now.run.localizeIn = folder.write("none.hslam", "none");
   ReplaySession replay(now, {Method::hybrid});

@@ -7,9 +7,14 @@
 namespace hybrid_slam::window {
 namespace {
 
+/// A filter without lines, or with others, maps without a floor plan beside the hybrid one with it.
 run::Configuration withMethod(run::Configuration c, run::RunOptions::Method method,
                               const std::string& folder) {
   c.setMethod(method);
+  if (method != run::RunOptions::Method::hybrid && !c.run.priorPlan.empty()) {
+    c.run.priorPlan.clear();
+    c.run.start.reset();
+  }
   c.run.output = folder;
   return c;
 }

@@ -6,7 +6,7 @@
 
 #include "base/Errors.h"
 #include "files/StagedFolder.h"
-#include "run/LogSettings.h"
+#include "readings/LogWarnings.h"
 #include "window/view/ReplayPass.h"
 
 namespace hybrid_slam::window {
@@ -17,6 +17,7 @@ using Clock = ReplayPass::Clock;
 
 /// Interval between snapshots during a replay: copying the grids takes time from the filters.
 constexpr auto kPictureInterval = std::chrono::milliseconds(80);
+constexpr size_t kEvents = 200;
 
 }  // namespace
 
@@ -131,15 +132,22 @@ void ReplaySession::work() {
   }
 }
 
+void ReplaySession::readLog() {
+  const std::string& file = configuration_.run.rawlog;
+  readings::RawlogSummary summary = summarise(file, configuration_.input, [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return isClosing_;
+  });
+  const auto ofLog =
+      std::make_shared<const run::LogSettings>(run::readLogSettings(file, configuration_.input, summary));
+  for (const std::string& line : applyLogSettings(*ofLog, configuration_)) event(line);
+  for (const std::string& warning : readings::warningsOf(summary, file)) note("warning: " + warning);
+  change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
+  log_ = std::move(summary);
+}
+
 void ReplaySession::runPass() {
-  if (!log_) {
-    const std::string& file = configuration_.run.rawlog;
-    log_ = summarise(file, configuration_.input, [this] {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      return isClosing_;
-    });
-    applyLogSettings(run::readLogSettings(file, configuration_.input, *log_), configuration_);
-  }
+  if (!log_) readLog();
   const auto* const from = checkpoints_.upTo(std::exchange(restartAt_, 0));
   ReplayPass pass(configuration_, methods_, *log_, from);
   if (!from) ++runs_;
@@ -273,11 +281,24 @@ void ReplaySession::savePass(ReplayPass& pass, const std::string& folder) {
   }
 }
 
-void ReplaySession::note(const std::string& text) {
+template <class Change>
+void ReplaySession::change(const Change& edit) {
   const std::lock_guard<std::mutex> lock(mutex_);
   auto next = std::make_shared<ReplaySnapshot>(*snapshot_);
-  next->note = text;
+  edit(*next);
   snapshot_ = next;
+}
+
+void ReplaySession::event(const std::string& text) {
+  change([&](ReplaySnapshot& next) {
+    next.events.push_back(text);
+    if (next.events.size() > kEvents) next.events.erase(next.events.begin());
+  });
+}
+
+void ReplaySession::note(const std::string& text) {
+  event(text);
+  change([&](ReplaySnapshot& next) { next.note = text; });
 }
 
 void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
@@ -288,30 +309,24 @@ void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
     pass.lastPicture = Clock::now();
   }
   if (withMaps) pass.isOutdated = false;
-  auto next = std::make_shared<ReplaySnapshot>();
-  next->state = state;
-  next->scans = pass.scans;
-  next->total = pass.log.scans;
-  next->time = pass.time;
-  next->run = runs_;
-  next->filters = pass.pictures;
-  next->filters.resize(methods_.size());
-  const std::lock_guard<std::mutex> lock(mutex_);
-  next->note = snapshot_->note;
-  next->message = snapshot_->message;
-  next->isError = snapshot_->isError;
-  next->messages = snapshot_->messages;
-  snapshot_ = next;
+  change([&](ReplaySnapshot& next) {
+    next.state = state;
+    next.scans = pass.scans;
+    next.total = pass.log.scans;
+    next.time = pass.time;
+    next.run = runs_;
+    next.filters = pass.pictures;
+    next.filters.resize(methods_.size());
+  });
 }
 
 void ReplaySession::tell(const std::string& message, bool isError, State state) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto next = std::make_shared<ReplaySnapshot>(*snapshot_);
-  next->state = state;
-  next->message = message;
-  next->isError = isError;
-  ++next->messages;
-  snapshot_ = next;
+  change([&](ReplaySnapshot& next) {
+    next.state = state;
+    next.message = message;
+    next.isError = isError;
+    ++next.messages;
+  });
 }
 
 }  // namespace hybrid_slam::window

@@ -1,5 +1,5 @@
 /// @file ReplaySession.h
-/// @brief Replays a rawlog through two filters in lockstep, in a separate thread, with player controls.
+/// @brief Replays a log through two filters in lockstep, in a separate thread, with player controls.
 #pragma once
 
 #include <condition_variable>
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "run/Configuration.h"
+#include "run/LogSettings.h"
 #include "window/view/Checkpoints.h"
 
 namespace hybrid_slam::window {
@@ -26,8 +26,10 @@ struct ReplaySnapshot {
   size_t run = 0;               ///< number of starts from the beginning of the log
   std::string message;          ///< one line: an error, or the result of an export
   bool isError = false;         ///< the message is an error
-  std::string note;             ///< one line on the run: the map saved, the start found, a loop closed
-  size_t messages = 0;          ///< number of messages, so that each is shown once
+  std::string note;             ///< one line, shown last: a warning on the log, the map saved, a loop closed
+  std::vector<std::string> events;  ///< one line each: lasers, settings read off the log, all notes
+  size_t messages = 0;              ///< number of messages, so that each is shown once
+  std::shared_ptr<const run::LogSettings> ofLog;               ///< null until the log has been read
   std::vector<std::shared_ptr<const FilterSnapshot>> filters;  ///< one per method; null before the first scan
 };
 
@@ -78,11 +80,15 @@ class ReplaySession {
   /// @}
   void work();
   void runPass();
+  void readLog();
   bool hasWork(ReplayPass& pass);
   bool waitUntilDue(std::unique_lock<std::mutex>& lock, ReplayPass& pass);
   void advance(ReplayPass& pass);
   void exportPass(ReplayPass& pass, const std::string& folder);
   void savePass(ReplayPass& pass, const std::string& folder);
+  template <class Change>
+  void change(const Change& edit);
+  void event(const std::string& text);
   void note(const std::string& text);
   void publish(ReplayPass& pass, ReplaySnapshot::State state, bool withMaps);
   void tell(const std::string& message, bool isError, ReplaySnapshot::State state);

@@ -342,6 +342,39 @@ TEST_F(ReplaySessionTest, SavesTheMapAndGoesOn) {
   EXPECT_EQ(session.snapshot()->run, 1u) << "the same run";
 }
 
+TEST_F(ReplaySessionTest, SaysWhichLasersItTakesAndWhatFollowsFromTheLog) {
+  test::Log log = test::laps(kScans);
+  const auto rear = test::scan(1000, {}, 91, "REAR");
+  rear->sensorPose.setYawPitchRoll(0, 0.5, 0);
+  log.push_back(rear);
+  ReplaySession session(configuration(test::writeGzipped(folder.path("two.rawlog"), log)), {Method::hybrid});
+  ASSERT_TRUE(reaches(session, State::paused, 0));
+  const auto now = session.snapshot();
+  EXPECT_THAT(now->events, testing::Contains(HasSubstr("laser LASER: 181 beams")));
+  EXPECT_THAT(now->events, testing::Contains(HasSubstr("improved_proposal.update_distance = 0.1: ")));
+  EXPECT_THAT(now->events, testing::Contains(HasSubstr("warning: laser `REAR` is not used: ")));
+  EXPECT_THAT(now->note, HasSubstr("REAR")) << "in the status bar";
+  ASSERT_TRUE(now->ofLog);
+  EXPECT_EQ(now->ofLog->lasers.size(), 1u);
+  EXPECT_EQ(now->messages, 0u) << "no dialog";
+  session.step();
+  ASSERT_TRUE(reaches(session, State::paused, 1));
+  EXPECT_EQ(session.snapshot()->events, now->events) << "they stay";
+}
+
+TEST_F(ReplaySessionTest, ALogWithoutTheRequiredOdometryFailsEachTime) {
+  run::Configuration c =
+      configuration(test::writeGzipped(folder.path("none.rawlog"), {test::scan(1), test::scan(2)}));
+  c.source.write("input", "require_odometry", "true");
+  ReplaySession session(c, {Method::hybrid});
+  for (const size_t attempt : {1u, 2u}) {
+    ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == attempt; }));
+    EXPECT_EQ(session.snapshot()->state, State::failed);
+    EXPECT_THAT(session.snapshot()->message, HasSubstr("no odometry"));
+    session.play();
+  }
+}
+
 TEST_F(ReplaySessionTest, AnInvalidLogFailsWithItsName) {
   ReplaySession session(configuration(folder.path("missing.rawlog")), {Method::hybrid});
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::failed; }));
