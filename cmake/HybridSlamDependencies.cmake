@@ -1,6 +1,7 @@
-# Everything the build looks for. What the libraries need, the installed package looks for as well.
+# Everything the build looks for. What the libraries need, the installed package looks for as well
+# (hybrid_slam_find_dependencies), and Debian's package of the headers depends on it (hybrid_slam_found, _headers).
 
-# hybrid_slam_find(PACKAGE...): find_package, also in hybrid_slamConfig.cmake and in the Debian package of the headers.
+# hybrid_slam_find(PACKAGE...): find_package.
 macro(hybrid_slam_find)
   find_package(${ARGN} REQUIRED)
   string(REPLACE ";" " " package "${ARGN}")
@@ -12,6 +13,7 @@ endmacro()
 macro(hybrid_slam_find_library name header)
   find_path(HYBRID_SLAM_${name}_HEADERS ${header} REQUIRED)
   string(APPEND hybrid_slam_find_dependencies "find_path(HYBRID_SLAM_${name}_HEADERS ${header} REQUIRED)\n")
+  list(APPEND hybrid_slam_headers ${HYBRID_SLAM_${name}_HEADERS}/${header})
 endmacro()
 
 foreach(module core system serialization config comms math random poses img bayes opengl obs maps slam graphs graphslam hwdrivers io)
@@ -24,14 +26,11 @@ hybrid_slam_find(BZip2)
 hybrid_slam_find(SQLite3)
 hybrid_slam_find_library(zstd zstd.h)
 hybrid_slam_find_library(lz4 lz4frame.h)
+hybrid_slam_find_library(dxflib dxflib/dl_dxf.h)
 hybrid_slam_find(Threads)
 hybrid_slam_find(nlohmann_json)
 hybrid_slam_find(yaml-cpp)
 hybrid_slam_find(OpenCV COMPONENTS core imgcodecs imgproc)
-# dxflib brings no CMake package.
-find_library(HYBRID_SLAM_DXFLIB dxflib REQUIRED)
-find_path(HYBRID_SLAM_DXFLIB_HEADERS dxflib/dl_dxf.h REQUIRED)
-string(APPEND hybrid_slam_find_dependencies "find_library(HYBRID_SLAM_DXFLIB dxflib REQUIRED)\n")
 find_package(CLI11 REQUIRED)
 
 if(HYBRID_SLAM_STUDY)

@@ -73,8 +73,9 @@ set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_COMPONENT_PROGRAMS_DEPENDS library)
 set(CPACK_COMPONENT_WINDOW_DEPENDS library programs)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")  # the plots of slam-compare
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "hybrid-slam-gui, mrpt-common")  # the log of config-ini/malaga.ini
-set(CPACK_DEBIAN_WINDOW_PACKAGE_RECOMMENDS libgl1-mesa-dri)
+# The log of config-ini/malaga.ini; rawlog-edit (doc/own-log.md).
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "hybrid-slam-gui, mrpt-common, mrpt-apps")
+set(CPACK_DEBIAN_WINDOW_PACKAGE_RECOMMENDS "libgl1-mesa-dri, xdg-utils")  # xdg-open shows the pages (F1)
 
 # The Debian package that has a file of this machine, appended to development_depends.
 function(hybrid_slam_needs_package_of file)
@@ -86,12 +87,18 @@ function(hybrid_slam_needs_package_of file)
   endif()
 endfunction()
 set(development_depends)
-foreach(package IN LISTS hybrid_slam_found)
-  if(${package}_DIR)
-    hybrid_slam_needs_package_of(${${package}_DIR})
-  elseif(${package}_LIBRARIES)
-    hybrid_slam_needs_package_of(${${package}_LIBRARIES})
+foreach(package IN LISTS hybrid_slam_found)  # by its CMake package, or the library that CMake's own module found
+  string(TOUPPER ${package} PACKAGE)
+  set(found ${${package}_DIR} ${${package}_LIBRARIES} ${${PACKAGE}_LIBRARIES})
+  if(found)
+    list(GET found 0 found)
+    hybrid_slam_needs_package_of(${found})
+  elseif(NOT package STREQUAL Threads)  # a part of the compiler's libc6-dev
+    message(FATAL_ERROR "no file of ${package} is known, so libhybrid-slam-dev would not depend on it")
   endif()
+endforeach()
+foreach(header IN LISTS hybrid_slam_headers)
+  hybrid_slam_needs_package_of(${header})
 endforeach()
 if(HYBRID_SLAM_GUI)  # hybrid_slam_wx links these
   foreach(library_option IN LISTS wxWidgets_LIBRARIES)

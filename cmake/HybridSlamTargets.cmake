@@ -8,7 +8,7 @@ include(GoogleTest)
 set(hybrid_slam_data ${CMAKE_INSTALL_DATADIR}/hybrid_slam)
 set(hybrid_slam_pages ${CMAKE_INSTALL_DATAROOTDIR}/doc/hybrid-slam)
 
-# s; of one test, on a machine that is busy. A test that hangs ends.
+# s of one test on a busy machine, so that one that hangs ends.
 set(hybrid_slam_test_timeout 300)
 if(HYBRID_SLAM_SANITIZE)
   set(hybrid_slam_test_timeout 1200)

@@ -4,6 +4,7 @@
 #                                      debian13 packages13
 # Exit status 1 if any failed. Takes hours from scratch. The last three need root.
 source "$(dirname "$0")/lib.sh"
+export HYBRID_SLAM_WERROR=ON
 parts=(format tidy release sanitize tsan packages debian13 packages13)
 for part in "$@"; do
   [[ " ${parts[*]} " == *" $part "* ]] || { echo "error: unknown part $part, expected ${parts[*]}" >&2; exit 2; }

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that produces it, and
-that the commands for users work.
+"""Checks that every table of figures and every picture in README.md and doc/*.md names the command that produces it,
+and that the commands of these pages work.
 
   scripts/check-docs.py                 checks only the marks, instantly
-  scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN (build/release/bin)
-  scripts/check-docs.py --commands [BIN]    instead runs the commands of README.md and of the pages for users (`User`
-                                        in mkdocs.yml)
+  scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN
+                                        (build/release/bin)
+  scripts/check-docs.py --commands PREFIX    instead runs the commands of the pages, with the programs that
+                                        `cmake --install BUILD --prefix PREFIX` installs
   --root FOLDER                         check the pages of another repository
 
 A mark is an HTML comment directly before the table or picture; there may be several:
@@ -22,11 +23,14 @@ after a script must occur in the script's header comment. A mark may also preced
 A table has figures, and needs a mark, if a cell outside its first column begins with a digit (after `*`, `<` and the
 like), unless it is a reference table: its first column is all `code` and headed by one of the words below.
 
-Commands for users are ```sh blocks. Those of a page run one after the other in a temporary folder, which begins with the
-repository's datasets and config-ini. Each must end with 0. A comment on the line before a block says otherwise:
+Commands to type are ```sh blocks. Those of a page run one after the other in a temporary folder, which is empty at
+first. Each must end with 0. A comment on the line before a block says otherwise:
 
-  <!-- first: COMMANDS -->      also runs these before, to make the files that the page speaks of
-  <!-- not run: WHY -->         for a block that needs a robot, root, ...
+  <!-- first: COMMANDS -->      also runs these before, to make the files that the page speaks of; datasets/ and
+                                config-ini/ are the installed folders
+  <!-- not run: WHY -->         for a block that needs a robot, root, hours, ...
+
+An indented line that calls a program is an error, unless it is a synopsis, with [ or `...`.
 
 `checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
 in percent of the page's number."""
@@ -43,7 +47,8 @@ from pathlib import Path
 
 TIME_LIMIT = 60  # s, for one command
 BLOCK_LIMIT = 120  # s, for the commands of one block
-BLOCK = re.compile(r"(?:^<!--\s*(first|not run):\s*((?:(?!-->).)*?)\s*-->\n)?^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?:^<!--\s*(first|not run):\s*((?:(?!-->).)*?)\s*-->\n)?^```sh\n(.*?)^```$",
+                   re.MULTILINE | re.DOTALL)
 MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
 CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
 DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
@@ -108,7 +113,8 @@ def command_errors(root, command):
         if re.match(r"-+[a-z]", name) and not re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", text):
             errors.append(f"{program} does not know the option {name}")
         path = value or name
-        if "/" in path and ":" not in path and not path.startswith(("/", "~", "$", "out/")) and not (root / path).exists():
+        outside = path.startswith(("/", "~", "$", "out/"))
+        if "/" in path and ":" not in path and not outside and not (root / path).exists():
             errors.append(f"no such file: {path}")
     usage = re.match(r'(#.*\n)*("""[\s\S]*?""")?', text)[0]
     if program.endswith((".sh", ".py")) and arguments and re.fullmatch(r"[a-z][\w-]*", arguments[0]) and \
@@ -134,16 +140,9 @@ def differences(page, made, tolerance):
     return found
 
 
-def user_pages(root):
-    """The pages below `User` in the site's navigation."""
-    text = (root / "mkdocs.yml").read_text()
-    user = re.search(r"^  - User:\n((?:      - .*\n)+)", text, re.MULTILINE)[1]
-    return [root / "doc" / page for page in re.findall(r": (\S+\.md)$", user, re.MULTILINE)]
-
-
 class Checker:
-    def __init__(self, root, bin_folder):
-        self.root, self.bin = root, bin_folder
+    def __init__(self, root, bin_folder, data_folder):
+        self.root, self.bin, self.data = root, bin_folder, data_folder
         self.errors, self.skipped, self.marked, self.outputs = [], [], 0, {}
 
     def output_of(self, command):
@@ -165,22 +164,20 @@ class Checker:
             f"ended with {run.returncode}: {(run.stderr or run.stdout).strip()[-200:]!r}" or ""
 
     def check_commands(self, page):
-        """Runs the blocks of a page for users, and finds commands outside of them."""
+        """Runs the blocks of a page, and finds commands outside of them."""
         text = page.read_text()
         place = lambda offset: f"{page.relative_to(self.root)}:{text.count(chr(10), 0, offset) + 1}"
         programs = "|".join(sorted(folder.name for folder in self.root.glob("apps/*/")))
-        for command in re.finditer(rf"^    (?:{programs}) [^[\n]*$", text, re.MULTILINE):
+        for command in re.finditer(rf"^    (?:{programs}) (?!.*\.\.\.)[^[\n]*$", text, re.MULTILINE):
             self.errors.append(f"{place(command.start())}: command that no test runs: expected a ```sh block")
         with tempfile.TemporaryDirectory() as folder:
-            for name in ("datasets", "config-ini"):
-                if (self.root / name).is_dir():
-                    (Path(folder) / name).symlink_to(self.root / name)
             for block in BLOCK.finditer(text):
                 how, what, code = block.groups()
                 if how == "not run":
                     self.skipped.append(f"{place(block.start())}: not run: {what}")
                     continue
-                _, why = self.run("set -e\n" + (what + "\n" if how else "") + code, folder, BLOCK_LIMIT)
+                first = re.sub(r"(?<![\w./-])(?=(?:datasets|config-ini)/)", f"{self.data}/", what or "")
+                _, why = self.run(f"set -e\n{first}\n{code}", folder, BLOCK_LIMIT)
                 self.outputs[place(block.start())] = why
                 if why:
                     self.errors.append(f"{place(block.start(3))}: {why}")
@@ -218,7 +215,8 @@ class Checker:
             for how, what in own:
                 check = CHECK.fullmatch(what) if how == "checked by" else None
                 if how == "checked by" and (not check or kind != "table"):
-                    self.errors.append(f"{place(0)}: expected a table and `<!-- checked by: COMMAND; tolerance N % -->`")
+                    self.errors.append(f"{place(0)}: expected a table and "
+                                       "`<!-- checked by: COMMAND; tolerance N % -->`")
                 elif how != "quoted":
                     wrong = command_errors(self.root, check[1] if check else what)
                     self.errors += [f"{place(0)}: {error}" for error in wrong]
@@ -229,18 +227,18 @@ class Checker:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--run", nargs="?", const="build/release/bin", metavar="BIN")
-    parser.add_argument("--commands", nargs="?", const="build/release/bin", metavar="BIN")
+    parser.add_argument("--commands", type=Path, metavar="PREFIX")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent, metavar="FOLDER")
     options = parser.parse_args()
     root = options.root.resolve()
-    folder = options.commands or options.run
-    checker = Checker(root, folder and root / folder)
+    pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
     if options.commands:
-        pages = [page for page in (root / "README.md", *user_pages(root)) if page.is_file()]
+        prefix = options.commands.resolve()
+        checker = Checker(root, prefix / "bin", prefix / "share/hybrid_slam")
         for page in pages:
             checker.check_commands(page)
     else:
-        pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
+        checker = Checker(root, options.run and root / options.run, None)
         for page in pages:
             checker.check_page(page)
     print(*checker.skipped, *checker.errors,

@@ -10,6 +10,7 @@ source "$(dirname "$0")/lib.sh"
 threaded=(
   libs/slam/grid libs/slam/filter libs/slam/localization libs/slam/merging libs/live libs/live_run libs/window/view
 )
+limit=3600  # s of one test program on a busy machine, so that one that hangs ends
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
 
@@ -31,7 +32,11 @@ test_libraries() {
     compgen -G "$folder/*_test.cpp" >/dev/null || { echo "$folder has no tests"; continue; }
     compile "$preset" "$name"
     echo "-- $name, $preset"
-    "build/$preset/bin/$name" --gtest_brief=1 || failed=1
+    # In the foreground: in this process group, so that it also ends with check-touched.sh's own timeout.
+    timeout --foreground -k 10 $limit "build/$preset/bin/$name" --gtest_brief=1 || {
+      [[ $? -ne 124 ]] || echo "error: $name has not ended after $limit s"
+      failed=1
+    }
   done
   return $failed
 }

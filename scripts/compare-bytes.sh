@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether two builds give the same bytes: trajectories, steps and maps of the shipped configurations.
+# Whether two builds give the same bytes: trajectories, steps and maps of the shipped configurations, and without any.
 #   scripts/compare-bytes.sh BIN_BEFORE BIN_AFTER     folders that hold hybrid-slam and log2rawlog
 # Ends with 1 and names the files if any differ. The public logs need HYBRID_SLAM_DATASETS (doc/datasets.md).
 set -euo pipefail
@@ -42,8 +42,13 @@ for method in hybrid general; do
     for log in intel-lab csail; do
       [[ -f $out/$log.rawlog ]] ||
         "$after/log2rawlog" "$HYBRID_SLAM_DATASETS/$log.clf.gz" "$out/$log.rawlog" >/dev/null 2>&1
-      same $log-$method-$proposal config-ini/paper.ini "$out/$log.rawlog"
+      for ini in paper lms-logs; do
+        same $log-$ini-$method-$proposal config-ini/$ini.ini "$out/$log.rawlog"
+      done
     done
   done
 done
+options=()  # none: adaptive particles, the default proposal
+same csie-without-ini datasets/csie/csie-loop.rawlog
+if [[ -f $out/intel-lab.rawlog ]]; then same intel-lab-without-ini "$out/intel-lab.rawlog"; fi
 exit $status

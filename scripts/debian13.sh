@@ -3,7 +3,7 @@
 #   scripts/debian13.sh [-C FOLDER] [COMMAND...]
 # COMMAND runs there instead of scripts/test.sh, in the repository's folder (scripts/demo.sh, bash, ...). FOLDER
 # (build/debian13) keeps the root folder and the build for the next call: 4 GB. Needs root, for chroot.
-# HYBRID_SLAM_DATASETS and HYBRID_SLAM_PRESET as for scripts/test.sh.
+# HYBRID_SLAM_DATASETS, HYBRID_SLAM_PRESET and HYBRID_SLAM_WERROR as for scripts/test.sh.
 source "$(dirname "$0")/lib.sh"
 release=trixie folder=build/debian13
 if [[ ${1:-} == -C ]]; then folder=${2:?FOLDER is missing}; shift 2; fi
@@ -23,7 +23,7 @@ if [[ ! -d $root ]]; then
 fi
 
 environment=(HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin CCACHE_DIR=/ccache
-  "HYBRID_SLAM_PRESET=${HYBRID_SLAM_PRESET:-release}")
+  "HYBRID_SLAM_PRESET=${HYBRID_SLAM_PRESET:-release}" "HYBRID_SLAM_WERROR=${HYBRID_SLAM_WERROR:-}")
 datasets=${HYBRID_SLAM_DATASETS:+$(realpath "$HYBRID_SLAM_DATASETS")}
 [[ -z $datasets ]] || environment+=("HYBRID_SLAM_DATASETS=/datasets")
 

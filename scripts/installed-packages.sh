@@ -1,15 +1,45 @@
 #!/usr/bin/env bash
-# Called by scripts/test-packages.sh in a bare root folder: installs the packages beside this script, maps, removes them.
+# Called by scripts/test-packages.sh in a bare root folder: installs the packages beside this script, maps, builds the
+# C++ example, removes them. Beside it are also robot.bag (a ROS bag of three scans) and consumer (tests/consumer).
 set -euo pipefail
 cd "$(dirname "$0")"
 fail() { echo "error: $*" >&2; exit 1; }
-apt_get() { apt-get -q -y -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-unsafe-io "$@" >apt.log 2>&1 || { tail -n 40 apt.log >&2; fail "apt-get $*"; }; }
+apt_get() {
+  apt-get -q -y -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-unsafe-io "$@" >apt.log 2>&1 ||
+    { tail -n 40 apt.log >&2; fail "apt-get $*"; }
+}
 apt_get update
 
 echo "== from a bare system to a map"
 apt_get install --no-install-recommends ./hybrid-slam_*.deb ./libhybrid-slam0*.deb
 (cd /root && hybrid-slam -q datasets/csie/csie-corridor.rawlog -o map)
 [[ -s /root/map/map.png ]] || fail "no map"
+
+echo "== a new user's trial: own-robot.md, a CARMEN log and a bag, in an empty folder"
+mkdir /root/trial
+# The commands of the page before those that need a robot: a server that replays a log, a live run, and its recording.
+awk '/^```/ { inside = /sh$/ && ++block <= 2; next } inside' /usr/share/doc/hybrid-slam/doc/own-robot.md >commands.sh
+(cd /root/trial && bash -e /packages/commands.sh)
+[[ -s /root/trial/live/map.png && -s /root/trial/again/map.png ]] || fail "own-robot.md makes no maps"
+# 40 scans of a robot that drives 4 m straight, in a room of 8 m x 6 m.
+awk 'BEGIN {
+  for (scan = 0; scan < 40; ++scan) {
+    x = 0.1 * scan
+    printf "FLASER 181"
+    for (angle = -90; angle <= 90; ++angle) {
+      ahead = cos(angle * 3.14159265 / 180) / (8 - x)
+      aside = sin(angle * 3.14159265 / 180) / 3
+      if (aside < 0) aside = -aside
+      printf " %.3f", 1 / (ahead > aside ? ahead : aside)
+    }
+    printf " %s 0 0 %s 0 0 %s robot %s\n", x, x, scan, scan
+  }
+}' >/root/trial/robot.clf
+cp robot.bag /root/trial
+for log in robot.clf robot.bag; do
+  (cd /root/trial && hybrid-slam -q $log -o $log.map)
+  [[ -s /root/trial/$log.map/map.png ]] || fail "no map of $log"
+done
 
 echo "== programs, pages, settings"
 apt_get install --no-install-recommends ./hybrid-slam-gui_*.deb
@@ -38,9 +68,28 @@ options=$(bash -c '
   _hybrid_slam slam-merge --o slam-merge
   echo "${COMPREPLY[@]}"')
 [[ $options == *--output* ]] || fail "slam-merge --o completes to '$options'"
+apt_get install --no-install-recommends zsh
+# shellcheck disable=SC2016
+options=$(zsh -fc '
+  autoload -U _hybrid-slam
+  compadd() { print -r -- ${(P)2} }  # called as compadd -a ARRAY
+  words=(slam-merge --o) CURRENT=2 PREFIX=--o
+  _hybrid-slam')
+[[ $options == *--output* ]] || fail "slam-merge --o completes to '$options' in zsh"
 
-echo "== dependencies of the development package"
-apt_get install --simulate ./libhybrid-slam-dev_*.deb
+echo "== what the pages and the window call is recommended or suggested"
+for needed in hybrid-slam:rawlog-edit:mrpt-apps hybrid-slam-gui:xdg-open:xdg-utils; do
+  IFS=: read -r package program from <<<"$needed"
+  dpkg-query -W -f '${Recommends}, ${Suggests}\n' "$package" | grep -qw "$from" ||
+    fail "$package names no package that has $program"
+done
+
+echo "== a C++ project with the development package alone"
+apt_get install --no-install-recommends ./libhybrid-slam-dev_*.deb g++ cmake make
+cmake -S consumer -B /root/consumer >cmake.log 2>&1 || { cat cmake.log >&2; fail "cmake"; }
+cmake --build /root/consumer
+/root/consumer/consumer /usr/share/hybrid_slam/datasets/csie/csie-corridor.rawlog | grep '^pose .* lines$' ||
+  fail "tests/consumer printed no pose"
 
 echo "== removal"
 mapfile -t installed < <(dpkg-query -W -f '${Package}\n' '*hybrid-slam*')

@@ -16,22 +16,22 @@ import sys
 SETUPS = {"paper": "the paper's set-up", "default": "the default settings"}
 WORLDS = {"csie": "CSIE", "intel": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079",
           "killian": "Killian Court"}
-METHODS = ["split", "incremental", "regression", "ransac", "hough", "em"]
-FIRST = METHODS[0]
+FIRST = "split"  # the default, that of runs without a variant
 
 
 def runs(folder):
-    """{method: {seed: (error, success, cpu_s)}} of a results.csv, for the seeds that all methods have run; failed runs have
-    an infinite error."""
-    found = {method: {} for method in METHODS}
+    """{method: {seed: (error, success, cpu_s)}} of a results.csv, for the seeds that all methods have run; failed runs
+    have an infinite error."""
+    found = {FIRST: {}}
     file = folder / "results.csv"
     for row in csv.DictReader(file.open()) if file.is_file() else ():
         if row["status"] == "missing":
             continue
         error = row["trans_mean_m"] or row["ate_rmse_m"]
         done = row["status"] == "done"
-        found[row["variant"] or FIRST][row["seed"]] = (
-            float(error) if done else math.inf, done and row["success"] == "1", float(row["cpu_s"]) if done else math.inf)
+        found.setdefault(row["variant"] or FIRST, {})[row["seed"]] = (
+            float(error) if done else math.inf, done and row["success"] == "1",
+            float(row["cpu_s"]) if done else math.inf)
     common = set.intersection(*(set(seeds) for seeds in found.values()))
     return {method: {seed: seeds[seed] for seed in sorted(common)} for method, seeds in found.items()}
 
@@ -58,7 +58,8 @@ def holm(values):
 
 def cell(world_runs):
     errors = [error for error, _, _ in world_runs.values()]
-    return f"{statistics.median(errors):.4f} ({max(errors):.4f}), {sum(ok for _, ok, _ in world_runs.values())} of {len(errors)}"
+    successes = sum(ok for _, ok, _ in world_runs.values())
+    return f"{statistics.median(errors):.4f} ({max(errors):.4f}), {successes} of {len(errors)}"
 
 
 def table(out, setup):
@@ -67,12 +68,13 @@ def table(out, setup):
     worlds = {world: found for world, found in worlds.items() if found[FIRST]}
     if not worlds:
         return []
+    methods = [method for method in next(iter(worlds.values())) if all(method in found for found in worlds.values())]
     print(f"| method, {SETUPS[setup]} | " + " | ".join(WORLDS[world] for world in worlds) +
           " | CPU time (s) | error against `split` | better / worse | p |")
     print("|---" * (len(worlds) + 5) + "|")
-    compared = {method: paired(worlds.values(), method) for method in METHODS[1:]}
+    compared = {method: paired(worlds.values(), method) for method in methods if method != FIRST}
     p = {method: sign_test(better, worse) for method, (_, better, worse) in compared.items()}
-    for method in METHODS:
+    for method in methods:
         cells = [cell(found[method]) for found in worlds.values()]
         seconds = statistics.mean(run[2] for found in worlds.values() for run in found[method].values())
         cells.append(f"{seconds:.2f}")

@@ -13,7 +13,8 @@ SCRIPT = """#!/bin/sh
 # Prints a table.
 #   scripts/table.sh all
 [ -z "$LOGS" ] || exit 1
-printf '| a | b |\\n|---|---|\\n| c | 1 |\\n\\n| log | error (m) |\\n|---|---|\\n| Intel | 0.051 |\\n| CSAIL | 12 of 50 |\\n'
+printf '| a | b |\\n|---|---|\\n| c | 1 |\\n\\n'
+printf '| log | error (m) |\\n|---|---|\\n| Intel | 0.051 |\\n| CSAIL | 12 of 50 |\\n'
 """
 
 
@@ -65,7 +66,8 @@ class CheckDocs(unittest.TestCase):
 
     def test_tables_without_figures_need_none(self):
         self.expect_good("| key | default |\n|---|---|\n| `sigma` | 0.05 |\n| `seed` | 1 |\n")
-        self.expect_good("| fault | what is done |\n|---|---|\n| half a scan | left out after 0.5 s |\n| 2 scans | both |\n")
+        self.expect_good("| fault | what is done |\n|---|---|\n"
+                         "| half a scan | left out after 0.5 s |\n| 2 scans | both |\n")
         self.expect_error("| key | error |\n|---|---|\n| `sigma` | 0.05 |\n| seed | 1 |\n", "table without a command")
         self.expect_error("| setting | error |\n|---|---|\n| `sigma` | 0.05 |\n", "table without a command")
 
@@ -77,7 +79,8 @@ class CheckDocs(unittest.TestCase):
         self.expect_good(f"<!-- quoted: A paper -->\n<!-- made by:\n  scripts/table.sh -->\n{TABLE}")
         self.expect_good("<!-- made by: mapper -->\n![map](images/map.png)\n")
         self.expect_good("<!-- made by: mapper -->\n    $ mapper\n    0.05\n")
-        self.expect_error(f"<!-- quoted: A paper -->\n<!-- made by: mappre -->\n{TABLE}", "no such script or program: mappre")
+        self.expect_error(f"<!-- quoted: A paper -->\n<!-- made by: mappre -->\n{TABLE}",
+                          "no such script or program: mappre")
 
     def test_commands_that_cannot_work_are_found(self):
         for command, text in (("scripts/none.sh", "no such script or program: scripts/none.sh"),
@@ -99,7 +102,8 @@ class CheckDocs(unittest.TestCase):
 
     def test_other_tables_than_the_command_prints_are_found(self):
         page = self.mark("scripts/table.sh; tolerance 3 %", "checked by")
-        self.expect_error(page.replace("CSAIL", "Malaga"), "doc/page.md:7: `Malaga`, the command prints `CSAIL`", "--run")
+        self.expect_error(page.replace("CSAIL", "Malaga"),
+                          "doc/page.md:7: `Malaga`, the command prints `CSAIL`", "--run")
         self.expect_error(page.replace("error", "ATE"), "doc/page.md:4: `ATE (m)`", "--run")
         self.expect_error(page.replace("12 of 50", "12"), "`12`, the command prints `12 of 50`", "--run")
         self.expect_error(page + "| Malaga | 0.1 |\n| Killian | 0.1 |\n", "4 rows, the command prints", "--run")
@@ -115,19 +119,24 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(self.check(page, "--run", LOGS="1")[0], 1)
 
     def commands(self, page):
-        """(exit code, lines but the last) for the commands of a page for users."""
-        self.write("mkdocs.yml", "nav:\n  - Home: other.md\n  - User:\n      - A page: page.md\n  - Developer:\n")
-        self.write("datasets/log", "a log\n")
-        return self.check(page, "--commands", self.root)
+        """(exit code, lines but the last) for the commands of a page, with an installed program and log."""
+        self.write("prefix/bin/mapper", "#!/bin/sh\ncat \"$1\" >map\n").chmod(0o755)
+        self.write("prefix/share/hybrid_slam/datasets/log", "a log\n")
+        return self.check(page, "--commands", self.root / "prefix")
 
     def test_commands_of_a_page_run_in_one_folder(self):
-        page = "Text.\n\n```sh\ncat datasets/log >map\n```\n\nMore.\n\n```sh\ngrep -q 'a log' map\n```\n"
+        page = "<!-- first: cp datasets/log . -->\n```sh\nmapper log\n```\n\nMore.\n\n```sh\ngrep -q 'a log' map\n```\n"
         self.assertEqual(self.commands(page), (0, []))
         code, lines = self.commands(page.replace("a log' map", "another' map"))
-        self.assertEqual((code, lines), (1, ["doc/page.md:10: ended with 1: ''"]))
-        code, lines = self.commands(page.replace("cat datasets/log >map", "false\ncat datasets/log >map"))
-        self.assertEqual((code, lines[0]), (1, "doc/page.md:4: ended with 1: ''"))
+        self.assertEqual((code, lines), (1, ["doc/page.md:9: ended with 1: ''"]))
+        code, lines = self.commands(page.replace("mapper log", "false\nmapper log"))
+        self.assertEqual((code, lines[0]), (1, "doc/page.md:3: ended with 1: ''"))
         self.assertEqual(self.commands("<!-- first: echo hello >file -->\n```sh\ngrep hello file\n```\n"), (0, []))
+
+    def test_the_folder_of_a_page_is_empty_at_first(self):
+        code, lines = self.commands("```sh\nmapper datasets/log\n```\n")
+        self.assertEqual((code, len(lines)), (1, 1))
+        self.assertIn("doc/page.md:2: ended with 1: ", lines[0])
 
     def test_commands_of_the_readme_run(self):
         self.write("README.md", "```sh\nfalse\n```\n")
@@ -136,7 +145,7 @@ class CheckDocs(unittest.TestCase):
     def test_commands_that_are_not_run_say_why(self):
         self.assertEqual(self.commands("<!-- not run: needs a robot -->\n```sh\nfalse\n```\n"),
                          (0, ["doc/page.md:1: not run: needs a robot"]))
-        self.assertEqual(self.commands("Text.\n\n    mapper [options] LOG\n"), (0, []))
+        self.assertEqual(self.commands("Text.\n\n    mapper [options] LOG\n    mapper --fast ...\n"), (0, []))
         code, lines = self.commands("Text.\n\n    mapper robot.log\n")
         self.assertEqual(code, 1)
         self.assertIn("doc/page.md:3: command that no test runs", lines[0])

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every library and program links exactly what its own sources include, tests aside. $1: the project's folder."""
+"""Every library and program links exactly what its own sources include, tests aside, and of libs/ only folders below it:
+those that CMake adds before, and those in later rows of the table in doc/architecture.md. $1: the project's folder."""
 
 import re
 import sys
@@ -47,6 +48,30 @@ def included(folder, folders):
     return {target_of(header, folders) for header in headers} - {None}
 
 
+def added(folder):
+    """The folders below a folder, in the order in which CMake adds them."""
+    text = re.sub(r"foreach\((\w+) ([^)]*)\)\s*add_subdirectory\(\$\{\1\}\)",
+                  lambda loop: "\n".join(f"add_subdirectory({name})" for name in loop[2].split()),
+                  (folder / "CMakeLists.txt").read_text())
+    for name in re.findall(r"^ *add_subdirectory\(([\w/]+)\)", text, re.MULTILINE):
+        yield folder / name
+        yield from added(folder / name)
+
+
+def order_errors(edges):
+    """An error for each (folder, folder that it links) against the order."""
+    cmake = {folder: place for place, folder in enumerate(added(ROOT / "libs"))}
+    rows = re.findall(r"^\| `([\w/]+)` \|", (ROOT / "doc/architecture.md").read_text(), re.MULTILINE)
+    # A folder without a row counts as above all.
+    row_of = lambda folder: next((rows.index(str(f)) for f in (folder, *folder.parents) if str(f) in rows), -1)
+    for folder, below in edges:
+        names = f"{folder} links {below}"
+        if cmake[ROOT / folder] <= cmake[ROOT / below]:
+            yield f"{names}, which CMake adds later"
+        if row_of(folder) > row_of(below):
+            yield f"{names}, which doc/architecture.md has in a row above"
+
+
 def main():
     declared = {}
     for file in [*ROOT.glob("libs/**/CMakeLists.txt"), *ROOT.glob("apps/*/CMakeLists.txt")]:
@@ -62,6 +87,9 @@ def main():
                    for target in sorted(needs - links)]
         errors += [f"{folder.relative_to(ROOT)} links {target} and includes none of its headers"
                    for target in sorted(links - needs)]
+    in_libs = {name: "libs" / Path(folder) for folder, name in folders.items()}
+    errors += order_errors([(in_libs[name], in_libs[link]) for name, links in declared.values() if name in in_libs
+                            for link in sorted(links & in_libs.keys())])
     sys.exit("\n".join(errors) or 0)
 
 
