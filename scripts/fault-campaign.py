@@ -237,7 +237,7 @@ class Campaign:
             metrics = json.loads((folder / "metrics.json").read_text())
             self.expect(silences > 0 and metrics["scans"] > 2 * count, f"{silences} silences, {metrics['scans']} scans")
             self.row("network unplugged for 0.5 to 4 s in a live run", count, f"{silences} connections given up after 1.5 s "
-                     f"and made again, {metrics['scans']} scans mapped, {metrics['lost_cycles']} lost, exit {code}")
+                     f"and restored, {metrics['scans']} scans mapped, {metrics['lost_cycles']} lost, exit {code}")
 
     def is_steady_path(self, folder):
         """Whether a live run of the short drive, with wrong clocks, has the path of a replay with right ones."""

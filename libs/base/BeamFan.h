@@ -18,12 +18,12 @@ class BeamFan {
   explicit BeamFan(const mrpt::obs::CObservation2DRangeScan& scan);
 
   size_t beams() const { return beams_; }
-  /// In the robot frame (m, rad). The heading is that of the sensor's x axis, which stays in the plane even
-  /// if the sensor is upside down.
+  /// Pose of the sensor in the robot frame (m, rad). The heading is that of the sensor's x axis, which stays
+  /// in the plane even if the sensor is upside down.
   const mrpt::math::TPose2D& sensorPose() const { return sensorPose_; }
   /// Whether angles decrease with the beam's index.
   bool isReversed() const { return isReversed_; }
-  /// Of a beam by its index, rad, relative to the sensor's heading, counter-clockwise.
+  /// Angle (rad) of the beam with this index, relative to the sensor's heading, counter-clockwise.
   double angle(size_t beam) const {
     if (angles_) return (*angles_)[beam];
     const double rise = -0.5 * aperture_ + static_cast<double>(beam) * step_;

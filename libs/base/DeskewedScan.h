@@ -23,8 +23,8 @@ class DeskewedScan : public mrpt::obs::CObservation2DRangeScan {
 
   /// rad, of each beam by its index, as Beam::angle; empty: equal steps.
   std::vector<double> angles;
-  /// m; the ranges as measured, by which a log is known again: the correction of its last scans depends on
-  /// odometry that may come later. Not kept in sessions.
+  /// The ranges as measured, m. They identify the log of a session, because the correction of a log's last
+  /// scans depends on odometry that may come later. Not kept in sessions.
   std::vector<float> measured;
 };
 

@@ -36,7 +36,7 @@ struct LaserScan {
 /// The scans of a robot's lasers at one time.
 using LaserScans = std::vector<LaserScan>;
 constexpr size_t kMaxLasers = 8;
-/// Of a scan: more than lasers have, few enough for line extraction.
+/// Largest number of beams of a scan: more than lasers have, few enough for line extraction.
 constexpr size_t kMostScanBeams = 10000;
 /// m; a sensor pose farther from the robot's centre is taken for an error.
 constexpr double kMaxSensorDistance = 100;
@@ -45,7 +45,7 @@ constexpr double kMaxSensorDistance = 100;
 /// pose of the latest scan.
 using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
 
-/// Of a scan with more than kMostScanBeams beams, every n-th is kept, with the smallest n that suffices.
+/// Keeps every n-th beam of a scan with more than kMostScanBeams beams, with the smallest n that suffices.
 /// @param maxRange  m; the smaller of this and the observation's own limit applies (<= 0: no limit)
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);

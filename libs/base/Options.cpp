@@ -156,7 +156,8 @@ size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& names) {
-  // Of the longer length, so that a name is nearer to one that it begins than to another short one.
+  // The share is that of the longer length, so that a name is nearer to one that it begins than to another
+  // short one.
   const auto share = [&name](const std::string& other) {
     return static_cast<double>(editDistance(name, other)) /
            static_cast<double>(std::max({name.size(), other.size(), size_t{1}}));

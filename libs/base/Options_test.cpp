@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/core/bits_math.h>
 
 #include "base/Errors.h"
 #include "testing/CommaLocale.h"
@@ -83,7 +84,7 @@ TEST(Options, WrongTypeAndRangeSayWhatWasExpected) {
 TEST(Options, SaveAndLoadRoundTrip) {
   Sample s;
   s.length = 1.0 / 3;
-  s.angle = 0.5 * M_PI / 180;
+  s.angle = mrpt::DEG2RAD(0.5);
   s.colour = Colour::blue;
   mrpt::config::CConfigFileMemory file;
   s.saveToConfigFile(file, "s");
@@ -100,7 +101,7 @@ TEST(Options, AreTheSameInEveryLocale) {
   Sample s;
   load(s, "length = 2.25\nangle_deg = 0.5\n");
   EXPECT_EQ(s.length, 2.25);
-  EXPECT_NEAR(s.angle, 0.5 * M_PI / 180, 1e-15);
+  EXPECT_NEAR(s.angle, mrpt::DEG2RAD(0.5), 1e-15);
   mrpt::config::CConfigFileMemory file;
   s.saveToConfigFile(file, "s");
   EXPECT_EQ(file.read_string("s", "length", ""), "2.25");

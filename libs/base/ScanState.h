@@ -24,8 +24,8 @@ inline std::shared_ptr<mrpt::obs::CObservation2DRangeScan> newShared() {
 }
 
 /// What toLaserScan uses, to the bit: ranges that are not numbers too, and the sensor's rotation as a matrix.
-/// The first beam tells whether the scan has angles for each beam; other scans are written as before there
-/// were such.
+/// A flag of the first beam says whether the scan has an angle for each beam. Scans without angles have the
+/// same bytes as in sessions of versions that did not know them.
 template <class State>
 void visit(State& state, mrpt::obs::CObservation2DRangeScan& scan) {
   auto time = static_cast<int64_t>(scan.timestamp.time_since_epoch().count());

@@ -23,20 +23,13 @@
 
 namespace hybrid_slam {
 
-/// Bytes that no StateWriter has written.
+/// Thrown for bytes that no StateWriter can have written.
 struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Numbers, texts, containers, poses, and classes with
-///
-///     template <class State> void visit(State& state) { state(member, ...); }
-///
-/// in MRPT's format of numbers (little-endian). A value that several shared_ptrs own is written once. Reading
-/// trusts nothing: memory grows with the bytes that are there, a pose is within kFarthest, NaN is an error.
-/// What else must hold, `visit` checks by `state.check`. Other classes have a free function `visit(state,
-/// value)`.
-constexpr double kFarthest = 1e6;  ///< m, from the origin of a map
+/// m; a pose farther from the origin of a map is an error.
+constexpr double kFarthest = 1e6;
 
 template <class T>
 constexpr bool isNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -47,7 +40,16 @@ template <class T, class State>
 struct HasVisit<T, State, std::void_t<decltype(std::declval<T&>().visit(std::declval<State&>()))>>
     : std::true_type {};
 
-/// What writer and reader have in common: `Derived::number` and `Derived::bytes` do the work.
+/// Writes or reads numbers, texts, containers, poses, and classes with
+///
+///     template <class State> void visit(State& state) { state(member, ...); }
+///
+/// in MRPT's format of numbers (little-endian). Other classes have a free function `visit(state, value)`. A
+/// value that several shared_ptrs own is written once. Reading trusts nothing: memory grows with the bytes
+/// that are there, a pose is within kFarthest, NaN is an error. What else must hold, `visit` checks by
+/// `state.check`.
+///
+/// This is what writer and reader have in common: `Derived::number` and `Derived::bytes` do the work.
 template <class Derived>
 class State {
  public:

@@ -33,7 +33,7 @@ const CObservation2DRangeScan* usable(const CObservation& observation) {
   return scan && isHorizontal(*scan) ? scan : nullptr;
 }
 
-std::vector<LineSegment> linesOf(const CObservation2DRangeScan& scan, const LineMapOptions& options) {
+std::vector<LineSegment> linesOf(const CObservation2DRangeScan& scan, const HybridLineMapOptions& options) {
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();  // but that of the scan
   return extractLines(toLaserScan(scan, kNoLimit), options.extraction);
 }
@@ -53,7 +53,7 @@ void CHybridLineMap::TMapDefinition::loadFromConfigFile_map_specific(
 }
 
 void CHybridLineMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const {
-  LineMapOptions all = options;
+  HybridLineMapOptions all = options;
   for (const auto& [section, part] : all.sections()) {
     out << "[" << section << "]\n";
     for (const Option& option : part->table()) out << option.key << " = " << option.get() << "\n";

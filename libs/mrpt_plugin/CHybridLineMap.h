@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "mrpt_plugin/LineMapOptions.h"
+#include "mrpt_plugin/HybridLineMapOptions.h"
 #include "slam/lines/LineDatabase.h"
 
 namespace hybrid_slam::mrpt_maps {
@@ -22,10 +22,10 @@ class CHybridLineMap : public mrpt::maps::CMetricMap {
   DEFINE_SERIALIZABLE(CHybridLineMap, hybrid_slam::mrpt_maps)
 
  public:
-  LineMapOptions options;
+  HybridLineMapOptions options;
 
   CHybridLineMap() = default;
-  explicit CHybridLineMap(const LineMapOptions& settings) : options(settings) {}
+  explicit CHybridLineMap(const HybridLineMapOptions& settings) : options(settings) {}
 
   const LineDatabase& database() const { return database_; }
 
@@ -58,7 +58,7 @@ class CHybridLineMap : public mrpt::maps::CMetricMap {
   LineDatabase database_;
 
   MAP_DEFINITION_START(CHybridLineMap)
-  LineMapOptions options;
+  HybridLineMapOptions options;
   MAP_DEFINITION_END(CHybridLineMap)
 };
 

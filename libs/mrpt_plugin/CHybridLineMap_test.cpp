@@ -38,7 +38,7 @@ CPose3D pose3D(const TPose2D& pose) { return CPose3D(pose.x, pose.y, 0, pose.phi
 
 /// Settings that differ from the defaults, and a map of a few scans.
 CHybridLineMap someMap() {
-  LineMapOptions options;
+  HybridLineMapOptions options;
   options.database.minLength = 1.5;
   options.weight.sigma = 0.6 * mrpt::DEG2RAD(1.0);
   options.likelihood.exponent = 3;
@@ -180,17 +180,19 @@ TEST(CHybridLineMap, IsCreatedFromAnIniText) {
   EXPECT_FALSE(map->genericMapParams.enableObservationLikelihood);
 }
 
-TEST(LineMapOptions, MisspeltSectionsAndKeysAreErrors) {
+TEST(HybridLineMapOptions, MisspeltSectionsAndKeysAreErrors) {
   for (const std::string text :
        {"line_wieght]\n", "line_weight]\nsigma = 1\n", "likelihoodOpts]\nexponent = -1\n"}) {
     mrpt::config::CConfigFileMemory source;
     source.setContent("[" + kPrefix + text);
-    EXPECT_THROW(LineMapOptions().load(source, "MappingApplication_hybridLineMap_00"), InputError) << text;
-    LineMapOptions().load(source, "MappingApplication_hybridLineMap_01");  // another map's
+    EXPECT_THROW(HybridLineMapOptions().load(source, "MappingApplication_hybridLineMap_00"), InputError)
+        << text;
+    HybridLineMapOptions().load(source, "MappingApplication_hybridLineMap_01");  // another map's
   }
 }
 
-/// As a particle of MRPT's filter: its maps add their likelihoods, and a copied particle keeps them.
+/// The same as in a particle of MRPT's filter: its maps add their likelihoods, and a copied particle keeps
+/// them.
 TEST(CHybridLineMap, AddsToTheLikelihoodOfSeveralMapsAndTheirCopies) {
   CMultiMetricMap maps = mapsOf("[" + kPrefix + "line_database]\nmin_length = 1.5\n");
   RandomStream random = randomStream();

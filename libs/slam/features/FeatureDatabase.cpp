@@ -21,7 +21,8 @@ Eigen::Vector2d innovation(const PointFeature& seen, const PointFeature& known) 
 void FeatureOptions::describe(OptionTable& table) {
   table.add("enabled", enabled, "weigh corners and arcs of the scan by the particle's map of them");
   table.add("min_wall", minWall, 0.1, 100, "m", "shortest visible wall at a corner");
-  table.add("max_radius", maxRadius, 0, 100, "m", "of an arc: a pillar or a round hall; 0: no arcs");
+  table.add("max_radius", maxRadius, 0, 100, "m",
+            "largest radius of an arc (pillar, round hall); 0: no arcs");
   table.add("sigma", sigma, 0.001, 10, "m",
             "standard deviation of a feature's position in addition to that of its fit");
   table.add("floor", floor, 1e-6, 1, "", "weight of a feature that the map does not confirm");

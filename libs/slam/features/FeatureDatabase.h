@@ -25,8 +25,8 @@ struct MapFeature : PointFeature {
 };
 
 /// Squared Mahalanobis distance of two observations of one feature, or of an observation and a feature. Empty
-/// if they are not the same: of different kind, corners turned by more than 45 deg, radii three standard
-/// deviations apart, or positions more than three.
+/// if they cannot be the same: kinds differ, directions of corners differ by more than 45 deg, or radii or
+/// positions by more than three standard deviations.
 std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known);
 
 /// The Kalman update of a feature by an observation.
@@ -36,7 +36,7 @@ MapFeature merged(const MapFeature& feature, const PointFeature& seen);
 class FeatureDatabase {
  public:
   /// Merges each observation into the feature that it matches best, or inserts it. Every pruneInterval steps,
-  /// removes features seen fewer than minCount times, except those younger than that.
+  /// removes features seen fewer than minCount times, except those younger than pruneInterval steps.
   /// @param seen  map frame, with the errors of the pose (`withModelError`)
   void update(const std::vector<PointFeature>& seen, const FeatureOptions& options);
 

@@ -17,7 +17,8 @@ namespace hybrid_slam {
 ///
 /// The covariance is propagated from the variance of the points about their lines or circle; it does not
 /// include what all beams of a scan have in common (`withModelError`).
-/// @param lines  its gaps and its largest RMS distance from a line or circle are those of the lines
+/// @param lines  settings of line extraction: the gaps that end a run of points, and the largest RMS distance
+///               of points from a line, which here also limits that from a circle
 std::vector<PointFeature> detectFeatures(const LaserScan& scan, const LineExtractionOptions& lines,
                                          const FeatureOptions& options);
 

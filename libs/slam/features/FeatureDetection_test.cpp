@@ -30,7 +30,7 @@ std::vector<PointFeature> featuresOf(const LaserScan& scan) {
   return detectFeatures(scan, LineExtractionOptions(), FeatureOptions());
 }
 
-/// Of the features within 0.3 m of a point; empty unless there is exactly one.
+/// The only feature within 0.3 m of a point; empty unless there is exactly one.
 std::optional<PointFeature> featureAt(const std::vector<PointFeature>& features, const TPoint2D& point) {
   std::optional<PointFeature> found;
   for (const PointFeature& feature : features)
@@ -53,8 +53,7 @@ TEST(FeatureDetection, CornersOfARoomAreWhereTheWallsMeet) {
                   {{1, 4}, FeatureKind::concaveCorner, -135}, {{-1, 4}, FeatureKind::concaveCorner, -45},
                   {{-1, 3}, FeatureKind::convexCorner, 135},  {{-4, 3}, FeatureKind::concaveCorner, -45}};
   for (const auto& corner : expected) {
-    // In the robot's frame.
-    const TPoint2D seen(corner.at.y, -corner.at.x);
+    const TPoint2D seen(corner.at.y, -corner.at.x);  // robot frame
     const auto found = featureAt(features, seen);
     if (corner.kind == FeatureKind::convexCorner && !found) continue;  // its far side is hidden
     ASSERT_TRUE(found) << corner.at;

@@ -21,7 +21,7 @@ PointFeature cornerAt(const TPoint2D& at) {
   return feature;
 }
 
-/// Of corners at these places, seen often enough from kPose.
+/// A database of corners at these places, seen often enough from kPose.
 FeatureDatabase databaseOf(const std::vector<TPoint2D>& places, int count = 100) {
   FeatureDatabase database;
   std::vector<PointFeature> seen;

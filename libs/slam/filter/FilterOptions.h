@@ -96,7 +96,7 @@ struct FilterConfiguration {
   bool closesLoops() const { return useGrid && loopClosing.enabled; }
   /// To close loops with; without grids, to show and save a map of them.
   bool keepsScans() const { return closesLoops() || !useGrid; }
-  /// Of the line databases.
+  /// Settings of the particles' line databases.
   LineDatabaseOptions databaseOptions() const {
     LineDatabaseOptions options = database;
     if (!useGrid) options.minLength = lineMap.minLength;

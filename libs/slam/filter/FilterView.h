@@ -72,7 +72,7 @@ struct Place {
   size_t hypotheses = 0;  ///< places considered while it is unknown
 };
 
-/// In a few words, such as "searching the start: 12 hypotheses".
+/// A short text for the user, such as "searching the start: 12 hypotheses".
 std::string describe(const Place& place);
 
 /// Read access common to our filter and MRPT's.
@@ -88,7 +88,7 @@ class FilterView {
   /// The best particle's line database; empty for a filter without lines.
   virtual std::vector<DatabaseLine> bestLines() const = 0;
   virtual std::vector<WeightedPose> particlePoses() const = 0;
-  /// Of a filter in a fixed map; empty for one that maps.
+  /// The place of the robot as a filter in a fixed map knows it; empty for a filter that maps.
   virtual std::optional<Place> place() const { return std::nullopt; }
 
   /// Times (s) of the stages of an update; off by default, negligible cost.

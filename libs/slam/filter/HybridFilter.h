@@ -30,19 +30,19 @@ class HybridFilter : public Filter {
   std::vector<WeightedPose> particlePoses() const override { return particles_.poses(); }
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
-  /// Of the best particle; without grids, the scans of the updates along its path.
+  /// Map of the best particle; without grids, its cells are those of the scans of the updates along its path.
   ScanMap bestMap() const { return {bestOccupancy(), *particles_.best().lines, *particles_.best().features}; }
 
   /// Keeps the scans at least until `joinMap`.
   void expectMap() { remembersScans_ = true; }
-  /// Joins the map so far to that of an earlier run, in its frame. Later loop closures leave that map as it
-  /// is.
+  /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that
+  /// map.
   /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   /// The map of `joinMap`.
   const std::optional<ScanMap>& base() const { return base_; }
 
-  /// Of each update if the configuration keepsScans(); else empty.
+  /// The scans of each update if the configuration keepsScans(); else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
   /// Whether the map holds nothing else than these.
   bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }

@@ -254,7 +254,7 @@ TEST(HybridMapBuilder, InitializeRestarts) {
   EXPECT_EQ(builder.bestPath(), fresh.bestPath());  // nothing of the first run is left
 }
 
-/// As with MRPT's builder: the new map holds the scans of the old one.
+/// MRPT's builder does the same: the new map holds the scans of the old one.
 TEST(HybridMapBuilder, ContinuesFromAMapOfScans) {
   const auto steps = test::drive(4);
   HybridMapBuilder first(test::roomConfiguration());

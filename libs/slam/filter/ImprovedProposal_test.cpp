@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
-/// By which the robot moves farther than its odometry says.
+/// The motion of the robot beyond what its odometry says.
 const TPose2D kMore(0.01, -0.008, 0.01);
 const StepMotion kMotion{kOdometry, kOdometry, false};
 

@@ -102,12 +102,15 @@ void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOpti
   mrpt::obs::CActionCollection action;
   action.insert(toAction(odometry, motion));
   const mrpt::obs::CSensoryFrame unused;  // logWeightAt has the scan
-  logWeightAt_ = &logWeightAt;
+  logWeightAt_ = logWeightAt;
+  const struct Reset {  // also if weighing throws
+    LogWeightAt& function;
+    ~Reset() { function = nullptr; }
+  } reset{logWeightAt_};
   if (options_.PF_algorithm == CParticleFilter::pfAuxiliaryPFOptimal)
     PF_SLAM_implementation_pfAuxiliaryPFOptimal<OneBin>(&action, &unused, options_, {});
   else
     PF_SLAM_implementation_pfAuxiliaryPFStandard<OneBin>(&action, &unused, options_, {});
-  logWeightAt_ = nullptr;
 }
 
 mrpt::math::TPose3D MrptParticles::getLastPose(size_t i, bool& isValid) const {
@@ -123,7 +126,7 @@ void MrptParticles::PF_SLAM_implementation_custom_update_particle_with_new_pose(
 double MrptParticles::PF_SLAM_computeObservationLikelihoodForParticle(
     const CParticleFilter::TParticleFilterOptions& /*options*/, size_t particle,
     const mrpt::obs::CSensoryFrame& /*observation*/, const mrpt::poses::CPose3D& pose) const {
-  return (*logWeightAt_)(*m_particles[particle].d, TPose2D(pose.asTPose()));
+  return logWeightAt_(*m_particles[particle].d, TPose2D(pose.asTPose()));
 }
 
 }  // namespace hybrid_slam

@@ -5,6 +5,9 @@
 #include <mrpt/bayes/CParticleFilterData.h>
 #include <mrpt/slam/PF_implementations_data.h>
 
+#include <functional>
+#include <vector>
+
 #include "base/RandomStream.h"
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/Particle.h"
@@ -60,7 +63,7 @@ class MrptParticles
   mrpt::bayes::CParticleFilter::TParticleFilterOptions options_;
   RandomStream random_{0, 0, 0};  ///< of the step
   bool hasResampled_ = false;
-  const LogWeightAt* logWeightAt_ = nullptr;  ///< during auxiliaryStep
+  LogWeightAt logWeightAt_;  ///< of auxiliaryStep; empty outside it
 };
 
 }  // namespace hybrid_slam

@@ -3,6 +3,8 @@
 /// KLD-sampling", IJRR 22(12), 2003.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -13,12 +15,13 @@ namespace hybrid_slam {
 
 /// Particles in one bin count as one hypothesis.
 constexpr double kBinSize = 0.2;  // m
-constexpr double kBinAngle = 3 * M_PI / 180;
+constexpr double kBinAngle = mrpt::DEG2RAD(3.0);
 /// Largest Kullback-Leibler divergence from the true posterior, with the probability of this quantile of the
 /// normal distribution (95 %).
 constexpr double kDivergence = 0.25, kQuantile = 1.64;
 
-/// Fox's eq. (7): the particles that approximate a distribution over `bins` bins.
+/// Eq. (7) of Fox, not of the paper: the number of particles that approximate a distribution over `bins`
+/// bins.
 /// @param bins  at least 1; need not be whole
 double kldParticles(double bins);
 

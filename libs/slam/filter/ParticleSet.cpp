@@ -136,7 +136,7 @@ void ParticleSet::proposeAndWeigh(const TPose2D& odometry, const PreparedScan& s
   sampleFromMotionModel(odometry, scan);
 }
 
-// As in Fig. 1: sample from the motion model, weigh by w_grid x w_line.
+// The order of Fig. 1: sample from the motion model, weigh by w_grid x w_line.
 void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedScan& scan) {
   const SpreadNormals normals(stream(m_particles.size() + 1));  // after the particles' and the shared one
   forEachParticle([&](size_t i, Particle& particle) {

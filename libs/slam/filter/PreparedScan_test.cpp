@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam {
@@ -23,7 +21,9 @@ double hostileRange(int shape, size_t i) {
   }
 }
 
-TEST(ScanPreparation, AMillionBeamsTakeSeconds) {
+/// A time that grows with the square of the number of beams is far beyond the limit that CMake sets for a
+/// test.
+TEST(ScanPreparation, AMillionBeamsOfAnyShape) {
   const auto scan = test::scan(1, {}, 1000000);
   for (const LineExtractor* extractor : lineExtractors())
     for (int shape = 0; shape < 4; ++shape) {
@@ -31,11 +31,8 @@ TEST(ScanPreparation, AMillionBeamsTakeSeconds) {
         scan->setScanRange(i, static_cast<float>(hostileRange(shape, i)));
       FilterConfiguration c;
       c.lineExtraction.method = extractor;
-      const auto start = std::chrono::steady_clock::now();
       const PreparedScan prepared = ScanPreparation(c)({scan});
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      EXPECT_LT(seconds, 10) << extractor->name << ", shape " << shape;
-      EXPECT_FALSE(prepared.matchedBeams.rays.empty());
+      EXPECT_FALSE(prepared.matchedBeams.rays.empty()) << extractor->name << ", shape " << shape;
     }
 }
 

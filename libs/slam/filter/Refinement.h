@@ -37,8 +37,9 @@ struct ScanMap {
     state(grid, lines);
   }
 };
+
 /// Builds the map from scans at their poses.
-/// @param base  to insert them into; empty: an empty map
+/// @param base  map to insert them into; empty: an empty one
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
               const std::optional<ScanMap>& base = {});
 

@@ -96,7 +96,7 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
     const TPose2D& pose = hypothesis.match.pose;
     const bool isKnown = std::any_of(kept.begin(), kept.end(), [&pose](const Hypothesis& other) {
       const TPose2D offset = pose - other.match.pose;
-      return offset.norm() < 0.2 && std::abs(offset.phi) < 5 * M_PI / 180;
+      return offset.norm() < 0.2 && std::abs(offset.phi) < mrpt::DEG2RAD(5.0);
     });
     if (!isKnown) kept.push_back(hypothesis);
   }

@@ -32,7 +32,7 @@ struct StepMotion {
 class SlipRecovery {
  public:
   explicit SlipRecovery(const FilterConfiguration& configuration);
-  /// From now on, a robot that was carried is not searched for in the whole map.
+  /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
   /// At least one, the most likely first.
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,

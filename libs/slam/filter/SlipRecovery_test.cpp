@@ -110,7 +110,7 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
   Particle particle = test::particleAt(test::room(), kStart);
   SlipRecovery recovery = used(c, particle, test::room());
   RandomStream random(6, 0, 0);
-  // As through a door: nothing here has been mapped.
+  // The robot is carried through a door: nothing here has been mapped.
   const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
   const StepMotion motion =
       recovery.motionsOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random)).front();

@@ -15,11 +15,10 @@ namespace hybrid_slam {
 
 class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter {
  public:
-  /// @param seed  same seed, same result, in any thread and beside any other filter
-  /// @param motion  of the actions that `process` makes of odometry
-  /// @param mostBytes  `process` throws std::runtime_error if the maps of all particles are larger, or one
-  /// has
-  ///                   over 2^28 cells
+  /// @param motion     motion model of the actions that `process` makes of odometry
+  /// @param seed       same seed, same result, in any thread and beside any other filter
+  /// @param mostBytes  largest size of the maps of all particles: `process` throws std::runtime_error if they
+  ///                   are larger, or if one has over 2^28 cells
   StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed,
                   double mostBytes = std::numeric_limits<double>::infinity());
 

@@ -24,7 +24,7 @@ class WeightTerms {
     double logFeatures = 0;
     double log() const { return std::log(line.value) + logFeatures; }
   };
-  /// Of a particle at `pose`.
+  /// The terms of a particle at `pose` (map frame).
   Value at(const Particle& particle, const mrpt::math::TPose2D& pose, const PreparedScan& scan) const {
     Value value;
     value.line = lineWeight(particle, pose, scan);

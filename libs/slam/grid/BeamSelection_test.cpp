@@ -1,6 +1,7 @@
 #include "slam/grid/BeamSelection.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ using testing::IsEmpty;
 LaserScan corridorScan(double phi, double noise, RandomStream& random) {
   LaserScan scan;
   for (int i = 0; i < 541; ++i) {
-    const double angle = (-135 + 0.5 * i) * M_PI / 180, x = std::cos(angle + phi), y = std::sin(angle + phi);
+    const double angle = mrpt::DEG2RAD(-135 + 0.5 * i), x = std::cos(angle + phi), y = std::sin(angle + phi);
     const double range = std::min(x > 0 ? 8 / x : 1e9, y == 0 ? 1e9 : 1.2 / std::abs(y));
     scan.beams.push_back({angle, range + noise * random.gaussian(), range < 20});
   }
@@ -47,7 +48,7 @@ TEST(BeamSelection, TakesAsManyBeamsFromTheEndOfACorridorAsFromItsSides) {
 TEST(BeamSelection, OneStraightWallIsSampledEvenly) {
   LaserScan scan;
   for (int i = -40; i <= 40; ++i) {  // turned by 10 deg, so that its direction is not on the border of groups
-    const double angle = i * M_PI / 180;
+    const double angle = mrpt::DEG2RAD(i);
     scan.beams.push_back({angle + M_PI / 18, 2 / std::cos(angle), true});
   }
   EXPECT_EQ(BeamSelection({scan}).take(3), (std::vector<size_t>{13, 40, 67}));

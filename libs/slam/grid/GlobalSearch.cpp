@@ -1,5 +1,6 @@
 #include "slam/grid/GlobalSearch.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -17,9 +18,9 @@ namespace {
 constexpr double kWall = 0.6, kFree = 0.4;  // occupancy
 constexpr double kStep = 0.2;               // m
 constexpr double kReach = 500;              // m
-constexpr double kStepAngle = 2 * M_PI / 180, kWindow = 6 * M_PI / 180;
+constexpr double kStepAngle = mrpt::DEG2RAD(2.0), kWindow = mrpt::DEG2RAD(6.0);
 constexpr size_t kMostBeams = 60;
-constexpr double kApart = 0.5, kApartAngle = 10 * M_PI / 180;  // of two poses
+constexpr double kApart = 0.5, kApartAngle = mrpt::DEG2RAD(10.0);  // of two poses
 
 /// The value of a cell with this occupancy.
 double logOdds(double occupancy) {

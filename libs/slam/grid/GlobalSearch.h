@@ -37,11 +37,10 @@ class GlobalSearch {
   std::vector<mrpt::math::TPoint2D> freePlaces(double spacing) const;
 
  private:
-  /// The map in cells of `size_`: where free, and where there is a wall in the cell (2) or a neighbour (1).
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
-  /// Cells outside the map hold no wall.
+  /// 2: wall in the cell of `size_`; 1: wall in a neighbour; 0: neither, or outside the map.
   int wall(int x, int y) const {
     return x >= 0 && y >= 0 && x < width_ && y < height_ ? wall_[index(x, y)] : 0;
   }

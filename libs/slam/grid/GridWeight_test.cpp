@@ -1,6 +1,7 @@
 #include "slam/grid/GridWeight.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 
@@ -13,7 +14,7 @@ using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
 using Method = GridWeightOptions::Method;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kWidth = 8, kHeight = 6;  // of a room with its middle at the origin, m
 
 /// Distance to the room's walls from a point inside.

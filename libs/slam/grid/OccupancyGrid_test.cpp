@@ -12,7 +12,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-// In log-odds of 1/16: 16 ln(0.7 / 0.3) = 13.56, 16 ln(0.4 / 0.6) = -6.49, 16 ln(0.97 / 0.03) = 55.6.
+// Log-odds in steps of 1/16: 16 ln(0.7 / 0.3) = 13.56, 16 ln(0.4 / 0.6) = -6.49, 16 ln(0.97 / 0.03) = 55.6.
 constexpr int kHit = 14, kMiss = -6, kHighest = 56, kLowest = -56;
 
 /// The update parameters of the figures above.

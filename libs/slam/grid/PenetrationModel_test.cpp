@@ -185,7 +185,8 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
     options.sigma = uniform(random, 0.02, 0.5);
     options.unknownDepth = uniform(random, 0.5, 50);
     const double size = uniform(random, 0.03, 0.3);
-    // From sparse worlds, in which beams go far, to dense ones, in which the first cells stop them.
+    // The worlds range from sparse ones, in which beams go far, to dense ones, in which the first cells
+    // stop them.
     const double share = std::pow(random.uniform(), 3);
     const double unknown = world % 2 == 0 ? 0.1 : 0;  // without, free squares are skipped
     OccupancyGrid grid(size);

@@ -44,9 +44,7 @@ struct ScanMatch {
   double logPosterior = 0;  ///< of the scan and the prior at `pose`, up to a constant
 };
 
-/// Matches the beam end points to the occupied cells.
-///
-/// Gauss-Newton from the predicted pose.
+/// Matches the beam end points to the occupied cells by Gauss-Newton steps from the predicted pose.
 ///
 /// Basin of convergence, measured in a simulated room of 8 m x 6 m without a prior, 400 random poses each:
 /// all starts 5 cm and up to 10 deg away reach the true pose (within 2 cm and 0.5 deg), 98 % from 10 cm, 93 %

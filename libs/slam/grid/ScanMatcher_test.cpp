@@ -1,6 +1,7 @@
 #include "slam/grid/ScanMatcher.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include "testing/TestRoomGrid.h"
@@ -11,7 +12,7 @@ namespace {
 using namespace test;
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 const Prior kNoPrior = [](const TPose2D&) { return LogDensity(); };
 

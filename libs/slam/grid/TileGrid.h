@@ -26,7 +26,7 @@ struct CellBox {
 
 /// The cells of a map (see Tile) without bounds.
 ///
-/// As in DP-SLAM, particles with common ancestors share common cells. A grid is a window of blocks of 16 x 16
+/// Particles with common ancestors share common cells, as in DP-SLAM. A grid is a window of blocks of 16 x 16
 /// tiles of 32 x 32 cells. Blocks and tiles are copied on write: copying a grid costs a few pointers for any
 /// map size, and the grid grows in any direction without moving cells.
 class TileGrid {
@@ -98,7 +98,7 @@ class TileReader {
     const Tile* const found = tile(x >> Tile::kBits, y >> Tile::kBits);
     return found ? found->cells()[Tile::index(x, y)] : int8_t{0};
   }
-  /// As TileGrid::tileAt.
+  /// The same tile as TileGrid::tileAt.
   const Tile* tile(int tx, int ty) {
     if (tx != tx_ || ty != ty_ || first_) {
       tile_ = grid_->tileAt(tx, ty);

@@ -1,5 +1,7 @@
 #include "slam/lines/DirectionFrames.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,7 @@
 namespace hybrid_slam {
 
 namespace {
-constexpr double kSigma = 0.5 * M_PI / 180;  // of the walls of one frame
+constexpr double kSigma = mrpt::DEG2RAD(0.5);  // of the walls of one frame
 }
 
 std::vector<DirectionFrame> directionFrames(const std::vector<DatabaseLine>& lines) {

@@ -1,6 +1,7 @@
 #include "slam/lines/DirectionFrames.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 #include <random>
@@ -10,7 +11,7 @@
 namespace hybrid_slam {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::vector<DatabaseLine> linesAt(const std::vector<double>& degrees, double length = 6) {
   std::vector<DatabaseLine> lines;

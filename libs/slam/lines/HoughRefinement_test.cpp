@@ -41,7 +41,7 @@ TEST(HoughRefinement, CorrectsAWrongStart) {
   }
 }
 
-/// In floating point 0.15 / 0.05 is a little below 3.
+/// The quotient 0.15 / 0.05 is a little below 3 in floating point.
 TEST(HoughRefinement, SearchesUpToTheWindowsEdge) {
   RandomStream random(5, 0, 0);
   HoughOptions options;

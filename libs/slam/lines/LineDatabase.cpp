@@ -67,7 +67,7 @@ void LineDatabaseOptions::describe(OptionTable& table) {
 
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
   const double n = line.count;
-  const auto mean = [n](double old, double now) { return (n * old + now) / (n + 1); };
+  const auto mean = [n](double old, double now) { return (n * old + now) / (n + 1); };  // eq. (7), (8)
   const TPoint2D oldMiddle = middle(line), newMiddle = middle(seen);
   const TPoint2D pivot(mean(oldMiddle.x, newMiddle.x), mean(oldMiddle.y, newMiddle.y));
 
@@ -77,11 +77,12 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
   const bool flipped = std::cos(seen.theta - line.theta) < 0;
   const double seenRho = flipped ? -seen.rho : seen.rho, seenTheta = line.theta + turn;
 
-  // signedDistance is minus rho about the pivot.
+  // eq. (7), about the pivot: signedDistance is minus rho from there.
   const double rho =
       -mean(signedDistance(pivot, line.rho, line.theta), signedDistance(pivot, seenRho, seenTheta));
-  const double theta = mean(line.theta, seenTheta);
+  const double theta = mean(line.theta, seenTheta);  // eq. (8)
 
+  // Fig. 2: the two farthest of the four ends.
   const std::array<TPoint2D, 4> ends{line.start, line.end, seen.start, seen.end};
   TPoint2D start, end;
   double longest = -1;

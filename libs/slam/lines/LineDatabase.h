@@ -25,7 +25,7 @@ struct LineDatabaseOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// Of a run, far below the greatest int.
+/// Largest number of updates of a run, far below the greatest int.
 constexpr int kMostUpdates = 1'000'000'000;
 
 struct DatabaseLine : LineSegment {
@@ -84,7 +84,7 @@ void setDirections(std::vector<DatabaseLine>& lines, double window);
 class LineDatabase {
  public:
   LineDatabase() = default;
-  /// From the result of lines().
+  /// Restores a database from the result of lines().
   explicit LineDatabase(std::vector<DatabaseLine> lines);
 
   /// One step of Sec. III-C: search, insertion, update, and pruning every pruneInterval steps.
@@ -114,7 +114,7 @@ class LineDatabase {
 
  private:
   void prune(const LineDatabaseOptions& options);
-  /// What follows from the lines.
+  /// Computes what follows from the lines: dominating direction and total evidence.
   void sum();
 
   std::vector<DatabaseLine> lines_;

@@ -225,7 +225,7 @@ TEST_F(Database, DominatingDirectionTurnsWithTheBuilding) {
   }
 }
 
-/// By hand: weights 6 m x 1 and 10 m x min(count, 20); the cap is reached at the 20th sighting.
+/// Calculated by hand: weights 6 m x 1 and 10 m x min(count, 20); the cap is reached at the 20th sighting.
 TEST_F(Database, DominatingDirectionWeighsByLengthAndCappedCount) {
   const LineSegment tilted = transformed(segment(-5, 0, 5, 0), {0, -9, 0.1});
   for (int count = 1; count <= 25; ++count) {
@@ -244,7 +244,7 @@ TEST_F(Database, LinesThatCancelHaveNoDominatingDirection) {
   EXPECT_FALSE(database.dominatingDirection());
 }
 
-/// By hand: evidence 6 and 12, 0.3 deg apart, window 0.5 deg: the kernel is 1 - 0.36 = 0.64.
+/// Calculated by hand: evidence 6 and 12, 0.3 deg apart, window 0.5 deg: the kernel is 1 - 0.36 = 0.64.
 TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
   std::vector<DatabaseLine> lines(3);
   lines[0].theta = 10 * test::kDegree;

@@ -52,6 +52,7 @@ double rmsDistance(PointRange points, const FittedLine& line) {
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
+// eq. (2)-(4): a, b, c of a x + b y + c = 0.
 LineCoefficients fitCoefficients(PointRange points) {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (const TPoint2D& p : points) {
@@ -64,6 +65,7 @@ LineCoefficients fitCoefficients(PointRange points) {
   return {x * yy - y * xy, y * xx - x * xy, xy * xy - xx * yy};
 }
 
+// eq. (5): the sum of the squared residuals along y.
 double verticalError(PointRange points, const LineCoefficients& line) {
   if (line.b == 0) return std::numeric_limits<double>::infinity();
   double sum = 0;
@@ -74,6 +76,7 @@ double verticalError(PointRange points, const LineCoefficients& line) {
   return sum;
 }
 
+// eq. (6), with the signs that doc/paper-notes.md derives: rho and theta of a x + b y + c = 0.
 std::optional<FittedLine> toHesse(const LineCoefficients& line) {
   const double norm = std::hypot(line.a, line.b);
   if (norm <= 0) return std::nullopt;

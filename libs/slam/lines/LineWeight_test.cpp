@@ -71,8 +71,8 @@ TEST(LineWeight, PaperMatchesAnyLineOfTheDatabase) {
   EXPECT_EQ(lineWeight({line(35, 2)}, 0, database, method(Method::paper)).value, LineWeightOptions().floor);
 }
 
-/// By hand: 6 m of wall at 20 deg, 2 m at 50 deg, sigma 2 deg; seen are 2 m at 110 deg (on the first), 3 m at
-/// 52 deg (1 sigma off the second) and 1 m at 80 deg (on neither).
+/// Calculated by hand: 6 m of wall at 20 deg, 2 m at 50 deg, sigma 2 deg; seen are 2 m at 110 deg (on the
+/// first), 3 m at 52 deg (1 sigma off the second) and 1 m at 80 deg (on neither).
 TEST(LineWeight, GradedByHand) {
   const LineDatabase database = databaseOf({line(20, 6), line(50, 2)});
   auto options = method(Method::graded);
@@ -106,7 +106,7 @@ TEST(LineWeight, SeveralFramesCoexist) {
             LineWeightOptions().floor);  // it is between the two directions
 }
 
-/// By hand: residuals 0, 2 deg (1 sigma) and 45 deg.
+/// Calculated by hand: residuals 0, 2 deg (1 sigma) and 45 deg.
 TEST(LineWeight, DominatingDirectionByHand) {
   const LineDatabase database = databaseOf({line(20, 6)});
   auto options = method(Method::dominatingDirection);

@@ -11,7 +11,7 @@
 namespace hybrid_slam {
 
 /// The line that most points are near to; empty if there is none.
-/// @param near  m: half the width of a line, a point within it belongs to the line
+/// @param near  m: a point at most this far from a line belongs to it
 using LineFinder = std::optional<FittedLine> (*)(PointRange points, double near, RandomStream& random);
 
 /// Looks for a line in each run of the scan, removes its points, and looks again in the rest.

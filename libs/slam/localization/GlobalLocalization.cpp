@@ -101,7 +101,7 @@ void GlobalLocalization::follow(Hypothesis& hypothesis, const RecentScans& recen
   weigh(hypothesis);
 }
 
-// From the newest scan backwards.
+// Takes the scans from the newest backwards, so that a poor hypothesis is given up early.
 Hypothesis GlobalLocalization::judged(const TPose2D& pose, const RecentScans& recent) const {
   Hypothesis hypothesis;
   TPose2D at = pose;

@@ -27,9 +27,9 @@ bool isExplained(const BeamShares& scan);
 
 /// A place where the robot may be.
 struct Hypothesis {
-  mrpt::math::TPose2D pose;            ///< of the newest scan, map frame
+  mrpt::math::TPose2D pose;            ///< of the robot at the newest scan, map frame
   std::vector<ScanEvidence> evidence;  ///< of each remembered scan, oldest first
-  double logWeight = 0;                ///< of all of them, tempered
+  double logWeight = 0;                ///< ln of the tempered weight by all remembered scans
 };
 
 /// Hypotheses over the whole map, each followed by scan matching and weighed by the same window of scans.
@@ -50,7 +50,7 @@ class GlobalLocalization {
   bool isFound() const { return isFound_; }
   /// Whether another place explains the recent scans much better than the robot at `pose`.
   bool refutes(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
-  /// Best first.
+  /// The hypotheses, best first.
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// The belief: the hypotheses, and places all over the map for the chance that none of them is right.
   /// @param since  motion since the newest scan

@@ -17,7 +17,7 @@ namespace {
 
 constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};  // around a given start
 constexpr double kStdXY = 0.05, kStdPhi = mrpt::DEG2RAD(1.0);   // of the particles where tracking begins
-// Of scans at least 0.5 m or 20 deg apart:
+// These thresholds hold for scans at least 0.5 m or 20 deg apart:
 constexpr size_t kLost = 4;  // in succession that do not fit: the place is unknown
 constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams of such a scan
 constexpr size_t kWindow = 8;                            // remembered while the place is known

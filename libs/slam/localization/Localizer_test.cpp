@@ -18,7 +18,7 @@ struct Map {
   LineDatabase lines;
 };
 
-/// From scans all over an area of 8 m x 5 m.
+/// The map made of scans from all over an area of 8 m x 5 m.
 Map mapOf(const Walls& walls) {
   Map map;
   RandomStream random(1, 0, 0);

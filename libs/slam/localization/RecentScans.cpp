@@ -54,7 +54,7 @@ TPose2D RecentScans::matched(const TPose2D& expected, const PreparedScan& scan) 
   return match.fit >= minFit_ ? match.pose : expected;
 }
 
-// As far apart as kStride allows, the newest among them.
+// The newest scan and earlier ones, as far apart as kStride allows.
 std::vector<size_t> RecentScans::spread() const {
   std::vector<size_t> chosen;
   size_t lasers = 0;

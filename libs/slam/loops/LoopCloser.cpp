@@ -1,5 +1,6 @@
 #include "slam/loops/LoopCloser.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kKeyframeDistance = 0.95, kKeyframeAngle = 30 * kDegree;
 constexpr size_t kBeams = 181;   // kept of an update
 constexpr double kReach = 6;     // m of path to either side of a place: its local map
@@ -47,7 +48,7 @@ Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match) {
   return (regular.inverse() + floor).inverse();
 }
 
-/// Of (x, y, phi) when the axes of x and y turn.
+/// The matrix that rotates x and y of (x, y, phi) by `angle` (rad).
 Eigen::Matrix3d rotationBy(double angle) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();

@@ -17,29 +17,34 @@
 namespace hybrid_slam {
 
 /// The newest stretch of the path is matched, as one rigid map, to the maps of earlier stretches that may be
-/// the same place by the uncertainty of the path. Where the path already fits them, the pair is held. A place
-/// that fits elsewhere, and nowhere else as well, is remembered; where several places fit, a longer stretch
-/// is tried. Once several successive ones agree on the correction, the pose graph
-/// of the motions, the pairs held, the matches and the directions of the walls is optimised.
+/// the same place by the uncertainty of the path. There are three outcomes:
+///
+/// - The path already fits there. The pair of poses is *held*: it becomes an edge of the pose graph with the
+///   path's own relative pose, so that a later closure does not break it.
+/// - The stretch fits at one other pose, and nowhere else as well. This match is a candidate.
+/// - The stretch fits at several poses. A longer stretch is tried.
+///
+/// Once several successive candidates agree on the correction, the pose graph of the motions, the held pairs,
+/// the candidates and the directions of the walls is optimised.
 ///
 /// Keeps about 7 kB for each metre of the path.
 class LoopCloser {
  public:
   LoopCloser(const LoopClosingOptions& options, const GridOptions& grid);
 
-  /// The next update: its motion by the best path, what was seen after it, and the lines of that (robot
-  /// frame; empty without lines).
+  /// Adds an update: its motion by the best path, the scans after it, and their lines (robot frame; empty
+  /// without lines).
   void add(const mrpt::math::TPose2D& motion, const LaserScans& scans, const std::vector<LineSegment>& lines,
            bool hasSlipped);
   /// Whether the path has grown enough since the last attempt.
   bool isDue() const { return toAttempt_ <= 0; }
   /// Tries to close a loop at the end of the path.
-  /// @param path       a pose for each update
-  /// @param direction  of the walls, modulo 90 deg, rad; empty: unknown
+  /// @param path       a pose for each update, map frame
+  /// @param direction  direction of the walls, modulo 90 deg, rad, map frame; empty: unknown
   std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
                                    const std::optional<double>& direction);
 
-  /// The map frame is turned by an angle (rad).
+  /// Turns the map frame by an angle (rad).
   void turn(double angle);
 
   template <class State>
@@ -98,7 +103,7 @@ class LoopCloser {
   std::vector<Candidate> candidates_;                  ///< successive, in agreement
   size_t updates_ = 0;
   mrpt::math::TPose2D motion_;  ///< since the last keyframe
-  StepVariance variance_;       ///< of it
+  StepVariance variance_;       ///< of this motion
   double toAttempt_ = 0;        ///< m of path
 };
 

@@ -1,5 +1,7 @@
 #include "slam/loops/PathUncertainty.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +12,14 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double square(double x) { return x * x; }
-constexpr double kDegree = M_PI / 180;
 
 }  // namespace
 
 StepVariance stepVariance(const TPose2D& motion, bool hasSlipped) {
   StepVariance variance{
       square(0.05) * motion.norm() + square(0.002),
-      square(0.25 * kDegree) * motion.norm() + square(0.01 * motion.phi) + square(0.02 * kDegree)};
-  if (hasSlipped) variance.position += square(0.3), variance.heading += square(5 * kDegree);
+      square(mrpt::DEG2RAD(0.25)) * motion.norm() + square(0.01 * motion.phi) + square(mrpt::DEG2RAD(0.02))};
+  if (hasSlipped) variance.position += square(0.3), variance.heading += square(mrpt::DEG2RAD(5.0));
   return variance;
 }
 

@@ -19,8 +19,9 @@ struct Revisit {
   bool isContradicted() const;  ///< more than 30 % of the compared beams
 };
 
-/// Compares each scan of a path with the map of the scans taken at least `delay` of path before. People and
-/// doors contradict with some beams; a doubled wall or a room on top of another one contradicts with most.
+/// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. People
+/// and doors contradict with some beams; a doubled wall or a room on top of another one contradicts with
+/// most.
 ///
 /// Beams up to 8 m on cells of 0.1 m: a wall may be off by 0.1 m to 0.2 m.
 class RevisitCheck {
@@ -28,7 +29,7 @@ class RevisitCheck {
   /// @param delay  m of path
   explicit RevisitCheck(double delay) : delay_(delay), grid_(kResolution) {}
 
-  /// The next scan of the path.
+  /// Adds the next scan of the path.
   /// @param distance  m, along the path
   void add(const mrpt::math::TPose2D& pose, const ScanBeams& beams, double distance, size_t update);
   /// The scans with at least 10 % of their beams compared.

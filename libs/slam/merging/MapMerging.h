@@ -18,14 +18,15 @@ struct MapPart {
 struct MergedMap {
   mrpt::math::TPose2D frame;                      ///< of the newer map in that of the older (m, rad)
   ScanMap map;                                    ///< in the frame and the cells of the older map
-  std::vector<mrpt::math::TPose2D> older, newer;  ///< the paths in it
+  std::vector<mrpt::math::TPose2D> older, newer;  ///< the two paths in the same frame
 };
 
 /// Joins two maps.
 ///
-/// Where the newer scans are known, the filter runs over them once more, in the older map from the first scan
-/// on that this map explains: it removes the drift between both that a rigid motion leaves. All known scans
-/// are then matched to the common map. A map without scans keeps its shape: its cells are added.
+/// Where the newer scans are known, the filter runs over them once more. From the first scan that the older
+/// map explains, it continues that map. This removes the drift between the maps, which a rigid motion cannot.
+/// All known scans are then matched to the common map. A map without scans keeps its shape: its cells are
+/// added.
 ///
 /// @param placement      of the newer map in the older
 /// @param configuration  of the older map

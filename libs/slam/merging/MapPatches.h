@@ -1,5 +1,5 @@
 /// @file MapPatches.h
-/// @brief A map as local maps, to find it in another one piece by piece.
+/// @brief Cuts a map into local maps, to find them in another map piece by piece.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace hybrid_slam {
 
 /// A piece of a map. Its axes are those of the map.
 struct MapPatch {
-  mrpt::math::TPose2D place;  ///< of its frame in the map's; free
+  mrpt::math::TPose2D place;  ///< its frame in that of the map (m, rad); in a free cell
   LocalMap map;
 };
 
@@ -22,7 +22,7 @@ MapPatch wholeMap(const OccupancyGrid& grid, const mrpt::math::TPose2D& place);
 /// are left out.
 std::vector<MapPatch> patchesOf(const OccupancyGrid& grid);
 
-/// m, the middle of the cells that exist.
+/// The middle of the bounding box of the mapped tiles (m, map frame).
 mrpt::math::TPoint2D middleOf(const OccupancyGrid& grid);
 
 }  // namespace hybrid_slam

@@ -1,5 +1,6 @@
 #include "slam/merging/MapPlacement.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kCell = 0.1;                                      // m, at least
 constexpr size_t kPlaces = 24;                                     // of a patch
 constexpr double kMinFit = 0.75, kMinOverlap = 0.5;                // of a patch

@@ -25,9 +25,10 @@ struct MapPlacement {
   std::vector<PatchMatch> patches;  ///< that agree with it
   double patchFit = 0;              ///< their median share of walls that agree: not affected by drift
 
-  /// At least three patches, with a median fit of 95 %, and 20 m of wall, 75 % of which agree.
+  /// Whether at least three patches match, with a median fit of 95 %, and at least 20 m of wall are compared,
+  /// of which 75 % agree.
   bool hasEvidence() const;
-  /// Another place is as good.
+  /// Whether another place is nearly as good.
   bool isAmbiguous() const;
   bool isFound() const { return hasEvidence() && !isAmbiguous(); }
 };

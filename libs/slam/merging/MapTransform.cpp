@@ -28,7 +28,8 @@ CellBox boxOf(int tx, int ty, double size, const TPose2D& frame, const Occupancy
 
 OccupancyGrid resampled(const OccupancyGrid& grid, const TPose2D& frame, double cell) {
   OccupancyGrid result(cell);
-  const int samples = std::max(1, static_cast<int>(std::lround(cell / grid.resolution())));
+  // A cell of far smaller ones is sampled, not searched whole.
+  const int samples = static_cast<int>(std::clamp(std::round(cell / grid.resolution()), 1.0, 16.0));
   const double c = std::cos(frame.phi), s = std::sin(frame.phi), step = cell / samples;
   TileReader reader(grid.tiles());
   const auto valueAt = [&](double x, double y) {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/Errors.h"
+#include "testing/ErrorOf.h"
 #include "testing/SimulatedMotions.h"
 
 namespace hybrid_slam {
@@ -145,14 +145,11 @@ TEST(MotionModelLearner, UndeterminedParametersKeepThePrior) {
 
 TEST(MotionModelLearner, AShortLogIsAnError) {
   const HiddenMotions motions(test::trueModel(), 5, 1);
-  try {
-    learn([&](const auto& model) { return motions.expect(model); }, 10);
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("too short"));
-    EXPECT_THAT(e.what(), HasSubstr(": log; "));
-    EXPECT_THAT(e.what(), HasSubstr("at least 20 needed"));
-  }
+  const std::string error =
+      test::errorOf([&] { learn([&](const auto& model) { return motions.expect(model); }, 10); });
+  EXPECT_THAT(error, HasSubstr("too short"));
+  EXPECT_THAT(error, HasSubstr(": log; "));
+  EXPECT_THAT(error, HasSubstr("at least 20 needed"));
 }
 
 }  // namespace

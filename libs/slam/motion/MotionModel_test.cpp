@@ -1,6 +1,7 @@
 #include "slam/motion/MotionModel.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr int kDraws = 100000;
 // Standard errors of the mean (sigma / sqrt n) and the variance (sigma^2 sqrt(2 / n)) of normal numbers.
 constexpr double kErrors = 5;

@@ -31,15 +31,16 @@ struct SeenOrthoLine {
 };
 
 /// The lines of a scan that deviate from an axis by at most `maxAngle` (rad).
-/// @param seen  robot frame; @param heading  of the robot in the building's frame, rad
+/// @param seen     robot frame
+/// @param heading  of the robot in the building's frame, rad
 std::vector<SeenOrthoLine> orthogonalLines(const std::vector<LineSegment>& seen, double heading,
                                            double maxAngle);
 
-/// Where a seen line is by the pose of the state.
+/// A seen line in the frame of the building, by the pose of the state.
 struct PlacedLine {
   PlacedLine(const SeenOrthoLine& seen, const mrpt::math::TPose2D& pose);
   double offset;           ///< m
-  Eigen::Vector3d byPose;  ///< derivative of the offset
+  Eigen::Vector3d byPose;  ///< derivative of the offset with respect to the pose
   double low, high;        ///< m, extent
 };
 

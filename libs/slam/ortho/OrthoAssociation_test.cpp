@@ -52,7 +52,7 @@ class Association : public testing::Test {
     lines = {{1, 0, 4, 1, 0}, {1, 0, 4, 1, 0}};
     options.sigmaOffset = 0.1;
   }
-  /// Of a line of 1 m from below, its middle at (x, y).
+  /// The match of a line of 1 m seen from below, its middle at (x, y).
   std::optional<size_t> matchOf(double x, double y, int side = 1) const {
     const SeenOrthoLine seen{{x, y}, 0, 1, side};
     return associate(seen, PlacedLine(seen, {}), lines, state, options);

@@ -26,7 +26,8 @@ class OrthoMap {
 
   mrpt::math::TPose2D pose() const;        ///< map frame, in which the robot starts at the origin (m, rad)
   Eigen::Matrix3d poseCovariance() const;  ///< map frame (m, rad)
-  /// Of the building's axes in the map frame, rad in [-pi/4, pi/4]; empty until lines have shown it.
+  /// Direction of the building's axes in the map frame, rad in [-pi/4, pi/4]; empty until lines have shown
+  /// it.
   const std::optional<double>& direction() const { return direction_; }
   std::vector<DatabaseLine> lines() const;  ///< map frame
   int matched() const { return matched_; }  ///< lines of the last scan that belong to walls of the map

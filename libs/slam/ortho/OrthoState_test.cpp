@@ -1,6 +1,7 @@
 #include "slam/ortho/OrthoState.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -9,7 +10,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 OrthoState moved(const TPose2D& odometry) {
   OrthoState state;

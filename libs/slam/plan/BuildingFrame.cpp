@@ -1,5 +1,7 @@
 #include "slam/plan/BuildingFrame.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,7 +9,7 @@
 namespace hybrid_slam {
 namespace {
 
-constexpr double kWindow = 1.5 * M_PI / 180;  // rad: of the walls of one wing
+constexpr double kWindow = mrpt::DEG2RAD(1.5);  // rad: of the walls of one wing
 constexpr double kLeastShare = 0.06, kLeastLength = 5;
 constexpr size_t kMostDirections = 6;
 

@@ -1,5 +1,7 @@
 #include "slam/plan/FloorPlan.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,7 +24,7 @@ constexpr double kLeastWall = 0.3;                         // m, beside a door
 constexpr double kHidden = 0.6;                            // m: longest gap that is no opening, if not free
 constexpr double kShortest = 0.1;                          // m
 // The error that all walls seen from the same poses share, measured on the simulated building.
-constexpr double kPoseOffset = 0.01, kPoseAngle = 0.025 * M_PI / 180;  // m, rad
+constexpr double kPoseOffset = 0.01, kPoseAngle = mrpt::DEG2RAD(0.025);  // m, rad
 
 /// A stretch of a line with a wall.
 struct Stretch {

@@ -161,7 +161,8 @@ class Borders {
       size_t at = first;
       for (size_t i = first; i < last; ++i) {
         const TPoint2D p = middle(i) - a;
-        // From the piece, not its line: a border returns on the other side of a thin wall.
+        // The distance is that from the piece, not from its line: a border returns on the other side of a
+        // thin wall.
         const double t = length > 0 ? (p.x * d.x + p.y * d.y) / (length * length) : 0;
         const double distance = (p - d * std::clamp(t, 0.0, 1.0)).norm();
         if (distance > farthest) farthest = distance, at = i;

@@ -1,5 +1,5 @@
 /// @file GridProbe.h
-/// @brief What a grid says about points and stretches.
+/// @brief Reads the occupancy of a grid at points and along stretches.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -8,6 +8,7 @@
 
 namespace hybrid_slam {
 
+/// The grid must outlive it. Not for several threads at a time: it caches the last tile.
 class GridProbe {
  public:
   explicit GridProbe(const OccupancyGrid& grid) : grid_(grid), reader_(grid.tiles()) {}
@@ -20,7 +21,7 @@ class GridProbe {
   }
   int at(int x, int y) const { return reader_.at(x, y); }
 
-  /// Share of a stretch whose cells are free, 0..1; 0 for an empty one.
+  /// Share of the stretch from a to b that lies in free cells, 0..1; 0 if it is shorter than half a cell.
   double freeShare(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b) const {
     const int steps = static_cast<int>((b - a).norm() / cell() * 2);
     int free = 0;

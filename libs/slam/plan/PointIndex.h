@@ -1,5 +1,5 @@
 /// @file PointIndex.h
-/// @brief Numbers by place: which were put near a point.
+/// @brief Spatial index of numbers, such as those of walls: which of them lie near a point.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
@@ -11,21 +11,23 @@
 
 namespace hybrid_slam {
 
+/// Squares of side `reach`, each with the numbers added there.
 class PointIndex {
  public:
-  /// @param reach  m: two points this near to each other find one another
+  /// @param reach  m: a search finds all numbers up to this far
   explicit PointIndex(double reach) : reach_(reach) {}
 
   void add(const mrpt::math::TPoint2D& p, int number) {
     std::vector<int>& here = squares_[key(column(p.x), column(p.y))];
     if (here.empty() || here.back() != number) here.push_back(number);
   }
-  /// At points every `reach` along a stretch.
+  /// Adds the number at points at most `reach` apart along the stretch from a to b.
   void add(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b, int number) {
     const int steps = static_cast<int>(std::ceil((b - a).norm() / reach_)) + 1;
     for (int i = 0; i <= steps; ++i) add(a + (b - a) * (static_cast<double>(i) / steps), number);
   }
-  /// Calls visit(number) for those near; a number may come more than once.
+  /// Calls visit(number) for every number within `reach` of p. Some farther ones are visited too, and a
+  /// number may be visited more than once.
   template <class Visit>
   void near(const mrpt::math::TPoint2D& p, const Visit& visit) const {
     for (int dy = -1; dy <= 1; ++dy)

@@ -1,5 +1,7 @@
 #include "slam/plan/WallCorners.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,8 +14,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kReach = 0.3;                  // m: longest move of an end
-constexpr double kLeastTurn = 20 * M_PI / 180;  // rad: between the two walls
+constexpr double kReach = 0.3;                      // m: longest move of an end
+constexpr double kLeastTurn = mrpt::DEG2RAD(20.0);  // rad: between the two walls
 
 /// Where the lines of two walls meet, as metres along each.
 struct Meeting {

@@ -1,5 +1,7 @@
 #include "slam/plan/WallLines.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,11 +14,11 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kMostDifferent = 13.8;        // squared Mahalanobis distance
-constexpr double kFarthest = 0.12;             // m: lines further apart are two walls, however unsure
-constexpr double kSteepest = 10 * M_PI / 180;  // rad
-constexpr double kDoor = 1.5;                  // m beyond each end
-constexpr double kSigma = 0.01;                // m: error of an observation of a line
+constexpr double kMostDifferent = 13.8;            // squared Mahalanobis distance
+constexpr double kFarthest = 0.12;                 // m: lines further apart are two walls, however unsure
+constexpr double kSteepest = mrpt::DEG2RAD(10.0);  // rad
+constexpr double kDoor = 1.5;                      // m beyond each end
+constexpr double kSigma = 0.01;                    // m: error of an observation of a line
 
 bool isOneLine(const LineEstimate& a, const LineEstimate& b, double cell) {
   const bool isOpposite = std::cos(a.angle - b.angle) < 0;

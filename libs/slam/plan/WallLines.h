@@ -1,5 +1,5 @@
 /// @file WallLines.h
-/// @brief Which faces lie on one line, and that line.
+/// @brief Groups faces that lie on one straight line, and estimates the line.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ struct WallLine {
 std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid);
 
 /// Groups faces whose lines agree (squared Mahalanobis distance with 2 degrees of freedom below 13.8, the
-/// 99.9 % quantile) and which are at most a door apart; long faces begin.
+/// 99.9 % quantile) and which are at most a door apart. The longest faces come first.
 /// @param cell  m, of the grid
 std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell);
 

@@ -1,5 +1,7 @@
 #include "slam/plan/WallPairs.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,8 +13,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kThickest = 0.4;             // m
-constexpr double kSteepest = 5 * M_PI / 180;  // rad: allowed for short faces, beyond their covariance
+constexpr double kThickest = 0.4;                 // m
+constexpr double kSteepest = mrpt::DEG2RAD(5.0);  // rad: allowed for short faces, beyond their covariance
 
 /// m by which the faces overlap.
 double overlap(const Wall& a, const Wall& b) {

@@ -73,8 +73,9 @@ class Images {
         const TPoint2D way = at_[i] - at_[0];
         offsets.push_back(way.x * across.x + way.y * across.y);
       }
-      if (quantile(offsets, 0.9) - quantile(offsets, 0.1) > kLargestSpread) return true;
-      const double median = quantile(offsets, 0.5);
+      if (interpolatedQuantile(offsets, 0.9) - interpolatedQuantile(offsets, 0.1) > kLargestSpread)
+        return true;
+      const double median = interpolatedQuantile(offsets, 0.5);
       low = std::min(low, median);
       high = std::max(high, median);
     }

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/Errors.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -11,15 +11,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-template <class Call>
-std::string errorOf(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "no error";
+std::string errorOf(const std::function<void()>& call) {
+  const std::string error = test::errorOf(call);
+  EXPECT_THAT(error, testing::Not(HasSubstr("\n")));
+  return error;
 }
 
 TEST(Variant, NameMethodSettingsAndFile) {

@@ -168,7 +168,7 @@ std::string writeReport(const ReportInput& input, std::ostream& out) {
           drawn(trajectoryPlots(input)));
   section(out, "Maps over the walls",
           "The occupied cells of each group's median run over the floor plan (blue), the map aligned by its "
-          "trajectory; their colour tells the distance to the nearest wall.",
+          "trajectory; their colour shows the distance to the nearest wall.",
           drawn(wallPlots(input)));
   section(
       out, "Maps",

@@ -23,7 +23,7 @@ std::vector<size_t> doubledRanks(const std::vector<double>& magnitudes) {
 
 }  // namespace
 
-double quantile(std::vector<double> values, double p) {
+double interpolatedQuantile(std::vector<double> values, double p) {
   std::sort(values.begin(), values.end());
   const double position = p * static_cast<double>(values.size() - 1);
   const auto below = static_cast<size_t>(position);
@@ -32,7 +32,8 @@ double quantile(std::vector<double> values, double p) {
 }
 
 Quartiles quartiles(const std::vector<double>& values) {
-  return {quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75)};
+  return {interpolatedQuantile(values, 0.25), interpolatedQuantile(values, 0.5),
+          interpolatedQuantile(values, 0.75)};
 }
 
 Interval wilsonInterval(size_t successes, size_t trials) {
@@ -78,9 +79,9 @@ double signTest(const std::vector<double>& differences) {
 std::optional<MedianRatio> medianRatio(const std::vector<double>& a, const std::vector<double>& b,
                                        uint64_t seed) {
   constexpr size_t kResamples = 2000;
-  if (a.empty() || quantile(b, 0.5) == 0) return std::nullopt;
+  if (a.empty() || interpolatedQuantile(b, 0.5) == 0) return std::nullopt;
   MedianRatio result;
-  result.ratio = quantile(a, 0.5) / quantile(b, 0.5);
+  result.ratio = interpolatedQuantile(a, 0.5) / interpolatedQuantile(b, 0.5);
   std::vector<double> ratios, resampledA(a.size()), resampledB(a.size());
   for (size_t r = 0; r < kResamples; ++r) {
     RandomStream random(seed, r, 0);
@@ -88,11 +89,11 @@ std::optional<MedianRatio> medianRatio(const std::vector<double>& a, const std::
       const auto pair = static_cast<size_t>(random.uniform() * static_cast<double>(a.size()));
       resampledA[i] = a[pair], resampledB[i] = b[pair];
     }
-    const double divisor = quantile(resampledB, 0.5);
+    const double divisor = interpolatedQuantile(resampledB, 0.5);
     if (divisor == 0) return std::nullopt;
-    ratios.push_back(quantile(resampledA, 0.5) / divisor);
+    ratios.push_back(interpolatedQuantile(resampledA, 0.5) / divisor);
   }
-  result.interval = {quantile(ratios, 0.025), quantile(ratios, 0.975)};
+  result.interval = {interpolatedQuantile(ratios, 0.025), interpolatedQuantile(ratios, 0.975)};
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace hybrid_slam::comparison {
 /// The p-quantile, p in [0, 1], interpolated linearly between the order statistics (Hyndman & Fan's type 7,
 /// the default of R and NumPy).
 /// @param values  at least one
-double quantile(std::vector<double> values, double p);
+double interpolatedQuantile(std::vector<double> values, double p);
 
 struct Quartiles {
   double lower = 0, median = 0, upper = 0;

@@ -19,9 +19,9 @@ TEST(Quantile, TypeSevenByHand) {
   EXPECT_DOUBLE_EQ(even.lower, 1.75);
   EXPECT_DOUBLE_EQ(even.median, 2.5);
   EXPECT_DOUBLE_EQ(even.upper, 3.25);
-  EXPECT_EQ(quantile({7}, 0.25), 7);
-  EXPECT_EQ(quantile({3, 9}, 0), 3);
-  EXPECT_EQ(quantile({3, 9}, 1), 9);
+  EXPECT_EQ(interpolatedQuantile({7}, 0.25), 7);
+  EXPECT_EQ(interpolatedQuantile({3, 9}, 0), 3);
+  EXPECT_EQ(interpolatedQuantile({3, 9}, 1), 9);
 }
 
 // Newcombe, "Two-sided confidence intervals for the single proportion", 1998, table I, method 3.

@@ -33,7 +33,7 @@ FigureSummary summariseFigure(const BySeed& values, const BySeed& success) {
   summary.runs = plain.size();
   if (!plain.empty()) summary.quartiles = quartiles(plain);
   summary.successfulRuns = successful.size();
-  if (!successful.empty()) summary.successfulMedian = quantile(successful, 0.5);
+  if (!successful.empty()) summary.successfulMedian = interpolatedQuantile(successful, 0.5);
   return summary;
 }
 

@@ -36,7 +36,7 @@ WallErrors wallErrors(const COccupancyGridMap2D& map, const simulation::FloorPla
     sum += distances.back();
   }
   if (distances.empty()) throw std::runtime_error("the map has no occupied cells");
-  return {sum / static_cast<double>(distances.size()), quantile(distances, 0.95)};
+  return {sum / static_cast<double>(distances.size()), interpolatedQuantile(distances, 0.95)};
 }
 
 }  // namespace hybrid_slam::comparison

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "base/Errors.h"
 #include "base/RandomStream.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
@@ -128,14 +128,8 @@ TEST(AbsoluteTrajectoryError, RobotThatStandsStillHasNoErrorAndAnyHeading) {
 
 TEST(AbsoluteTrajectoryError, NeedsTwoPosesInCommon) {
   using testing::HasSubstr;
-  const auto errorOf = [](const files::Trajectory& estimate,
-                          const files::Trajectory& reference) -> std::string {
-    try {
-      absoluteTrajectoryError(estimate, reference, 0.02);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+  const auto errorOf = [](const files::Trajectory& estimate, const files::Trajectory& reference) {
+    return test::errorOf([&] { absoluteTrajectoryError(estimate, reference, 0.02); });
   };
   EXPECT_EQ(errorOf({{1, {}}, {2, {}}}, {{5.5, {}}, {4, {}}}),
             "the reference does not overlap the trajectory in time: trajectory 1.000..2.000 s, reference "

@@ -6,7 +6,7 @@
 
 namespace hybrid_slam::evaluation {
 
-/// In the unit of the errors.
+/// Statistics of error magnitudes, in the unit of the errors.
 struct ErrorStatistics {
   double rmse = 0;
   double mean = 0;

@@ -52,7 +52,7 @@ TEST(OdometryBridge, RowOrderIsUsedWhereTimeStepsBack) {
 TEST(OdometryBridge, HeadingErrorsAreSpreadTheShorterWay) {
   files::Trajectory odometry;
   for (int i = 0; i <= 4; ++i) odometry.push_back({static_cast<double>(i), {0, 0, 3.1}});
-  // From 3.1 to -3.1 it is 2 pi - 6.2 forwards, not 6.2 backwards.
+  // The turn from 3.1 to -3.1 is 2 pi - 6.2 forwards, not 6.2 backwards.
   const OdometryBridge bridge({{0, {0, 0, 3.1}}, {4, {0, 0, -3.1}}}, odometry, 0.006);
   expectPose(bridge.poseAt(1), 0, 0, 3.1 + (2 * M_PI - 6.2) / 4);
 }

@@ -1,4 +1,6 @@
 // The rigid motion of a plan onto the truth.
+#include <mrpt/core/bits_math.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
@@ -99,7 +101,7 @@ TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLin
   if (plan.empty() || truth.empty()) return {};
   const std::vector<WallPoint> points = pointsOn(plan, kStep), truePoints = pointsOn(truth, kStep);
   const double frame = directionOf(truth), turn = frame - directionOf(plan);
-  // In the truth's frame turned so that its walls lie along the axes.
+  // The search runs in the truth's frame, turned so that its walls lie along the axes.
   const auto onAxes = [](std::vector<WallPoint> all, double by) {
     const TPose2D rotation(0, 0, by);
     for (WallPoint& p : all) p = {rotation.composePoint(p.at), p.angle + by};
@@ -111,7 +113,7 @@ TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLin
     for (const WallPoint& p : *all) extent = std::max({extent, std::abs(p.at.x), std::abs(p.at.y)});
   const double cell = std::max(kCell, 3 * extent / kMostCells);
 
-  const WallSearch coarse(truth, {0.6, 10 * M_PI / 180}), fine(truth, {0.15, 5 * M_PI / 180});
+  const WallSearch coarse(truth, {0.6, mrpt::DEG2RAD(10.0)}), fine(truth, {0.15, mrpt::DEG2RAD(5.0)});
   Fit best;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double heading = turn + quarter * M_PI / 2;

@@ -22,7 +22,7 @@ double lengthOf(const std::vector<PlanLine>& walls) {
   return sum;
 }
 
-/// Of an even number the upper of the two in the middle; 0 of none.
+/// The median; of an even number of values, the upper of the two in the middle; 0 if there are none.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

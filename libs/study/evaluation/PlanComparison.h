@@ -2,6 +2,7 @@
 /// @brief A floor plan against the true one.
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -18,7 +19,7 @@ namespace hybrid_slam::evaluation {
 /// differ by at most `angle` (rad).
 struct AgreementOptions {
   double distance = 0.1;
-  double angle = 15 * M_PI / 180;
+  double angle = mrpt::DEG2RAD(15.0);
 };
 
 /// Lengths in m, percentages of lengths.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -16,11 +17,11 @@ namespace hybrid_slam::evaluation {
 namespace {
 
 using mrpt::math::TPose2D;
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 TEST(RelationErrors, ByHandWithoutOdometry) {
   const files::Trajectory trajectory{{0, {5, 5, M_PI / 2}}, {1, {5, 6, M_PI}}, {2, {4, 6, M_PI}}};
-  // From 0 to 1 the trajectory moves (1, 0, 90 deg), from 1 to 2 (1, 0, 0).
+  // The trajectory moves (1, 0, 90 deg) from time 0 to 1, and (1, 0, 0) from 1 to 2.
   const std::vector<Relation> relations{
       {0, 1, {1.3, 0.4, 88 * kDegree}}, {1, 2, {1, 0, 0}}, {2, 3, {0, 0, 0}}, {2, 1, {-1, 0, 0}}};
   const RelationErrors e = evaluateRelations(trajectory, relations, nullptr, 0.006);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/Errors.h"
 #include "base/RandomStream.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
@@ -140,13 +140,8 @@ TEST(RelativePoseError, EndsAtTheNearestPoseWithinTenPercent) {
 TEST(RelativePoseError, NoStretchOfThatLength) {
   using testing::HasSubstr;
   const files::Trajectory reference = straight(11);
-  const auto errorOf = [&](const files::Trajectory& estimate, RpeDelta delta) -> std::string {
-    try {
-      relativePoseError(estimate, reference, delta, 0.01);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+  const auto errorOf = [&](const files::Trajectory& estimate, RpeDelta delta) {
+    return test::errorOf([&] { relativePoseError(estimate, reference, delta, 0.01); });
   };
   EXPECT_EQ(
       errorOf(reference, {2, Unit::metres}),

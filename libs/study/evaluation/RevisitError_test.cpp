@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 #include <limits>
@@ -37,7 +38,7 @@ struct Drive {
 std::vector<TPoint2D> look(const TPose2D& robot, double halfLength, double halfWidth, double maxRange) {
   std::vector<TPoint2D> points;
   for (int degree = -180; degree < 180; ++degree) {
-    const double angle = degree * M_PI / 180;
+    const double angle = mrpt::DEG2RAD(degree);
     const double c = std::cos(robot.phi + angle), s = std::sin(robot.phi + angle);
     const double range =
         std::min((std::copysign(halfLength, c) - robot.x) / c, (std::copysign(halfWidth, s) - robot.y) / s);

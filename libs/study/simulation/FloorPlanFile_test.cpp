@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -46,7 +47,7 @@ TEST(FloorPlanFile, EveryWordMakesItsWalls) {
   EXPECT_NEAR(totalLength(wallsOf("rectangle 0 0 2 3")), 10, 1e-12);
   EXPECT_NEAR(totalLength(wallsOf("circle 5 5 2")), 4 * M_PI, 1e-12);
   EXPECT_NEAR(totalLength(wallsOf("arc 5 5 2 0 90")), M_PI, 1e-12);
-  EXPECT_NEAR(totalLength(wallsOf("arc 5 5 2 350 10")), 2 * 20 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(totalLength(wallsOf("arc 5 5 2 350 10")), 2 * mrpt::DEG2RAD(20.0), 1e-12);
 }
 
 TEST(FloorPlanFile, CommentsAndEmptyLinesAreSkipped) {
@@ -91,6 +92,9 @@ TEST(FloorPlanFile, ErrorsNameTheLineAndWhatWasExpected) {
   EXPECT_THAT(errorOf("wall 0 0 1 nan\n"), HasSubstr("`nan` is not a number"));
   EXPECT_THAT(errorOf("wall 1 2 1 2\n"), AllOf(HasSubstr("zero length"), HasSubstr(", line 1; ")));
   EXPECT_THAT(errorOf("polyline 0 0 1 0 1 0 2 0\n"), HasSubstr("point 3 repeats the previous one"));
+  std::string many = "polyline";
+  for (int i = 0; i < 60'000; ++i) many += " " + std::to_string(i) + " 0";
+  EXPECT_THAT(errorOf(many + "\n"), HasSubstr("too many numbers"));
   EXPECT_THAT(errorOf("polyline 0 0 1\n"), HasSubstr("`polyline` with 3 numbers"));
   EXPECT_THAT(errorOf("wall 0 0 1 1\npolygon 0 0 3 0 3 4 0 1\n"),
               AllOf(HasSubstr("polygon is not closed"), HasSubstr(", line 2; ")));

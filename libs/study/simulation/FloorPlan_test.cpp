@@ -1,6 +1,7 @@
 #include "study/simulation/FloorPlan.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,16 +57,16 @@ TEST(FloorPlan, RangesInsideACircleAreExact) {
 }
 
 TEST(FloorPlan, AnArcIsSeenOnlyWithinItsAngles) {
-  // From -30 to 45 deg, across the wrap of the angle.
-  const FloorPlan plan({Wall::arc({0, 0}, 2, 330 * M_PI / 180, 75 * M_PI / 180)});
+  // The arc reaches from -30 to 45 deg, across the wrap of the angle.
+  const FloorPlan plan({Wall::arc({0, 0}, 2, mrpt::DEG2RAD(330.0), mrpt::DEG2RAD(75.0))});
   for (double degrees = -179.5; degrees < 180; degrees += 1) {
-    const auto range = plan.castRay({0, 0}, degrees * M_PI / 180, 10);
+    const auto range = plan.castRay({0, 0}, mrpt::DEG2RAD(degrees), 10);
     EXPECT_EQ(range.has_value(), degrees > -30 && degrees < 45) << degrees;
     if (range) {
       EXPECT_NEAR(*range, 2, 1e-12);
     }
   }
-  // From outside through the open side onto the inside of the arc, and from the other side onto its back.
+  // One ray enters through the open side and meets the inside of the arc, the other meets its back.
   EXPECT_NEAR(plan.castRay({-5, 0}, 0, 20).value(), 7, 1e-12);
   EXPECT_NEAR(plan.castRay({5, 0}, M_PI, 20).value(), 3, 1e-12);
 }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <cmath>
@@ -36,7 +37,7 @@ TEST(Laser, BeamCountsApertureAndRangeAreTheSensors) {
     options.resolutionDeg = resolution;
     const auto scan = Laser(options).scan(plan, {4, 3, 0}, random);
     EXPECT_EQ(scan.getScanSize(), beams);
-    EXPECT_NEAR(scan.aperture, aperture * M_PI / 180, 1e-6);
+    EXPECT_NEAR(scan.aperture, mrpt::DEG2RAD(aperture), 1e-6);
     EXPECT_EQ(scan.maxRange, maxRange);
   };
   check(LaserType::lms100, 0.5, 541, 270, 20);
@@ -109,7 +110,7 @@ TEST(Laser, NoiseHasTheSensorsSigmaAndNoBias) {
       const auto scan = laser.scan(plan, robot, random);
       const auto sensor = robot + mrpt::math::TPose2D(options.x, 0, 0);
       for (size_t i = 0; i < scan.getScanSize(); ++i) {
-        const double angle = (static_cast<double>(i) * 0.5 - spec.apertureDeg / 2) * M_PI / 180;
+        const double angle = mrpt::DEG2RAD(static_cast<double>(i) * 0.5 - spec.apertureDeg / 2);
         const double error =
             scan.getScanRange(i) - *plan.castRay({sensor.x, sensor.y}, sensor.phi + angle, 100);
         sum += error;

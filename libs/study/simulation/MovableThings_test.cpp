@@ -8,11 +8,11 @@
 #include <set>
 #include <string>
 
-#include "base/Errors.h"
 #include "study/simulation/FloorPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/Simulation.h"
 #include "study/simulation/SimulationOutput.h"
+#include "testing/ErrorOf.h"
 #include "testing/TemporaryFile.h"
 
 namespace hybrid_slam::simulation {
@@ -34,12 +34,7 @@ MovableThings thingsOf(const std::string& text) {
 }
 
 std::string errorOf(const std::string& text) {
-  try {
-    thingsOf(text);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::errorOf([&] { thingsOf(text); });
 }
 
 /// Names and first corners of the things of a session.

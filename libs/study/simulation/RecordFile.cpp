@@ -15,7 +15,7 @@ namespace hybrid_slam::simulation {
 namespace {
 
 constexpr double kLargestNumber = 1e5;  // m, s, deg: a building has no more
-constexpr size_t kMostRecords = 20000;
+constexpr size_t kMostRecords = 20000, kMostNumbers = 100000;
 
 }  // namespace
 
@@ -25,6 +25,7 @@ std::vector<Record> readRecords(const std::string& file, const std::vector<std::
     throw InputError("cannot be read", "file " + file, "expected a readable text file");
   std::vector<Record> records;
   std::string line;
+  size_t numbers = 0;
   for (int number = 1; std::getline(in, line); ++number) {
     std::istringstream parts(line.substr(0, line.find('#')));
     Record record;
@@ -40,6 +41,9 @@ std::vector<Record> readRecords(const std::string& file, const std::vector<std::
                          "expected only numbers after the word");
       if (std::abs(*value) > kLargestNumber)
         throw InputError("`" + text + "` is too large", record.where, "expected a number in -100000..100000");
+      if (++numbers > kMostNumbers)
+        throw InputError("too many numbers", record.where,
+                         "expected at most " + std::to_string(kMostNumbers));
       record.numbers.push_back(*value);
     }
     if (records.size() == kMostRecords)

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -153,7 +154,7 @@ TEST(Simulation, ASlipChangesTheOdometryFromItsTimeOn) {
   for (size_t i = 0; i < with.scans.size(); ++i) {
     EXPECT_EQ(with.groundTruth[i].pose, without.groundTruth[i].pose);
     const double turned = with.odometryAtScans[i].phi - without.odometryAtScans[i].phi;
-    const double expected = 0.2 * static_cast<double>(i) < 3.1 ? 0 : 25 * M_PI / 180;
+    const double expected = 0.2 * static_cast<double>(i) < 3.1 ? 0 : mrpt::DEG2RAD(25.0);
     EXPECT_NEAR(std::remainder(turned - expected, 2 * M_PI), 0, 2.02 * M_PI / 4096) << i;
   }
 }

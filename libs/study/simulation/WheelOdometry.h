@@ -56,7 +56,7 @@ class WheelOdometry {
   void slip(const Slip& slip) { advance(slip.distance, 0, slip.rotation); }
 
   const mrpt::math::TPose2D& pose() const { return pose_; }
-  /// As reported by the robot's controller: whole millimetres, and 4096 units per turn.
+  /// The pose as the robot's controller reports it: whole millimetres, and 4096 units per turn.
   mrpt::math::TPose2D reading() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -122,11 +123,11 @@ TEST(WheelOdometry, ReadingsAreRoundedAsTheControllerDoes) {
 
 TEST(WheelOdometry, ASlipMovesOnlyTheOdometry) {
   WheelOdometry wheels(perfect());
-  wheels.slip({0, 30 * M_PI / 180, 0.2});
-  const double half = 15 * M_PI / 180, chord = 0.2 * std::sin(half) / half;
+  wheels.slip({0, mrpt::DEG2RAD(30.0), 0.2});
+  const double half = mrpt::DEG2RAD(15.0), chord = 0.2 * std::sin(half) / half;
   EXPECT_NEAR(wheels.pose().x, chord * std::cos(half), 1e-12);
   EXPECT_NEAR(wheels.pose().y, chord * std::sin(half), 1e-12);
-  EXPECT_NEAR(wheels.pose().phi, 30 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(wheels.pose().phi, mrpt::DEG2RAD(30.0), 1e-12);
 }
 
 TEST(ParseSlips, TakesAListAndNamesWhatIsWrong) {
@@ -134,7 +135,7 @@ TEST(ParseSlips, TakesAListAndNamesWhatIsWrong) {
   const auto slips = parseSlips("10 30 0.2, 20.5 -5 0");
   ASSERT_EQ(slips.size(), 2u);
   EXPECT_EQ(slips[0].time, 10);
-  EXPECT_NEAR(slips[0].rotation, 30 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(slips[0].rotation, mrpt::DEG2RAD(30.0), 1e-12);
   EXPECT_EQ(slips[0].distance, 0.2);
   EXPECT_EQ(slips[1].time, 20.5);
   for (const char* wrong : {"10", "10 30", "10 30 x", "10 30 0.2 1", "-1 30 0.2", "10 30 0.2,,20 1 1", "a"})

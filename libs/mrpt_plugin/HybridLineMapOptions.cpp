@@ -1,4 +1,4 @@
-#include "mrpt_plugin/LineMapOptions.h"
+#include "mrpt_plugin/HybridLineMapOptions.h"
 
 #include <mrpt/config/CConfigFileBase.h>
 
@@ -10,17 +10,17 @@ namespace hybrid_slam::mrpt_maps {
 
 void LikelihoodOptions::describe(OptionTable& table) {
   table.add("exponent", exponent, 0, 1e6, "",
-            "of the line weight; 1 / powFactor makes up for the powFactor of MRPT's filter");
+            "exponent of the line weight; 1 / powFactor cancels the powFactor of MRPT's filter");
 }
 
-std::vector<std::pair<std::string, Options*>> LineMapOptions::sections() {
+std::vector<std::pair<std::string, Options*>> HybridLineMapOptions::sections() {
   return {{"line_extraction", &extraction},   {"segmentation", &extraction.segmentation},
           {"line_fit", &extraction.fit},      {"hough", &extraction.hough},
           {"line_association", &association}, {"line_database", &database},
           {"line_weight", &weight},           {"likelihoodOpts", &likelihood}};
 }
 
-void LineMapOptions::load(const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
+void HybridLineMapOptions::load(const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
   std::vector<std::string> known = {"creationOpts"};  // MRPT's own, of any map
   for (const auto& [section, options] : sections()) {
     known.push_back(section);

@@ -1,4 +1,4 @@
-/// @file LineMapOptions.h
+/// @file HybridLineMapOptions.h
 /// @brief Settings of the line map for MRPT's programs.
 #pragma once
 
@@ -22,7 +22,7 @@ struct LikelihoodOptions : Options {
 };
 
 /// The keys of doc/configuration.md, in sections whose names begin with the map's: PREFIX_line_weight, ...
-struct LineMapOptions {
+struct HybridLineMapOptions {
   LineExtractionOptions extraction;
   AssociationOptions association;
   LineDatabaseOptions database;
