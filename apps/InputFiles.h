@@ -12,7 +12,7 @@
 namespace hybrid_slam {
 
 /// An INI file, a log, or both in this order. A single one is an INI file if its name or its content says so.
-/// Both may be installed ones.
+/// Installed ones are found as well.
 struct InputFiles {
   std::string config, log;  ///< empty: not given
 
@@ -22,8 +22,7 @@ struct InputFiles {
   }
   /// After parsing.
   void sort() {
-    config = files::inputFile(config);
-    log = files::inputFile(log);
+    files::findInputFiles({&config, &log});
     if (log.empty() && !config.empty() && !files::isIni(config)) log.swap(config);
   }
   /// The file that an error is about.

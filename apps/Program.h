@@ -70,6 +70,11 @@ inline std::string nearestOption(const CLI::App& app) {
   return {};
 }
 
+/// Adds -q.
+inline void addQuiet(CLI::App& app, bool& isQuiet) {
+  app.add_flag("-q,--quiet", isQuiet, "print neither progress nor a summary");
+}
+
 /// Reads the command line.
 /// @return the exit code if the program ends here (--help, --version)
 /// @throws InputError for a wrong command line

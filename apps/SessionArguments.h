@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/Errors.h"
+#include "files/InstalledFiles.h"
 #include "run/Configuration.h"
 
 namespace hybrid_slam {
@@ -36,7 +37,7 @@ struct SessionArguments {
   /// --continue, --localize, --prior-plan, --start
   void addMap(CLI::App& app) {
     const std::string maps = " this session, map.yaml or gridmap";
-    app.add_option("--continue", continueFrom, "map on in" + maps)->type_name("FILE");
+    app.add_option("--continue", continueFrom, "continue mapping in" + maps)->type_name("FILE");
     app.add_option("--localize", localizeIn, "localise in" + maps + ", which stays as it is")
         ->type_name("FILE");
     app.add_option(
@@ -64,6 +65,7 @@ struct SessionArguments {
                        "expected one: localisation leaves the map as it is");
     run.resume = resume, run.continueFrom = continueFrom, run.localizeIn = localizeIn;
     run.priorPlan = priorPlan;
+    files::findInputFiles({&run.resume, &run.continueFrom, &run.localizeIn, &run.priorPlan});
     run.checkpointEvery = checkpointEvery;
     if (start.empty()) return;
     run.start.emplace(start[0], start[1], mrpt::DEG2RAD(start[2]));

@@ -20,11 +20,12 @@ struct TopicArguments {
   /// --topic, --odometry-topic, --list
   void add(CLI::App& app) {
     app.add_option("--topic", bag.topics,
-                   "bag: topic of a laser's scans, repeatable (default: what is clear)")
+                   "bag: topic of a laser's scans, repeatable (default: all topics with scans)")
         ->type_name("TOPIC")
         ->allow_extra_args(false);
     app.add_option("--odometry-topic", bag.odometryTopic,
-                   "bag: topic of the odometry, nav_msgs/Odometry or transforms (default: what is clear)")
+                   "bag: topic of the odometry, nav_msgs/Odometry or transforms (default: the only one with "
+                   "nav_msgs/Odometry, else the transforms)")
         ->type_name("TOPIC");
     app.add_flag("--list", wantsList, "print the topics of a bag: messages, name, type");
   }

@@ -225,7 +225,8 @@ bool isMapped(const Study& s, size_t reading) {
   return isExplained(beamShares(beams, s.log.reference[reading], s.map.grid));
 }
 
-double quantile(std::vector<double> values, double q) {
+/// The smallest value that more than a share of all values do not exceed, or the largest; NaN without values.
+double upperQuantile(std::vector<double> values, double q) {
   if (values.empty()) return NAN;
   std::sort(values.begin(), values.end());
   return values[std::min(values.size() - 1, static_cast<size_t>(q * static_cast<double>(values.size())))];
@@ -253,9 +254,9 @@ void report(const Study& s, const std::vector<Trial>& trials) {
     seconds += t.seconds, updates += t.updates, slowest = std::max(slowest, t.slowest);
   }
   std::printf("| %zu | %zu | %zu of %zu | %zu | %zu | %zu | %.1f / %.1f | %.0f / %.0f | %.0f / %.0f |\n",
-              trials.size(), within, mappedWithin, mapped, right, claims, wrong, quantile(distances, 0.5),
-              quantile(distances, 0.95), quantile(times, 0.5), quantile(times, 0.95),
-              1000 * seconds / static_cast<double>(updates), 1000 * slowest);
+              trials.size(), within, mappedWithin, mapped, right, claims, wrong,
+              upperQuantile(distances, 0.5), upperQuantile(distances, 0.95), upperQuantile(times, 0.5),
+              upperQuantile(times, 0.95), 1000 * seconds / static_cast<double>(updates), 1000 * slowest);
 }
 
 /// From the start of the log, or from a share of it on.
@@ -292,8 +293,9 @@ void track(const Study& s) {
   for (const double distance : distances) squares += distance * distance;
   const auto scans = static_cast<double>(log.readings.size() - first);
   std::printf("| %.0f | %.3f | %.3f | %.3f | %.2f | %.1f %% | %.1f %% | %.1f %% | %zu | %.0f |\n", scans,
-              std::sqrt(squares / static_cast<double>(distances.size())), quantile(distances, 0.5),
-              quantile(distances, 0.99), quantile(angles, 0.5), 100 * static_cast<double>(good) / scans,
+              std::sqrt(squares / static_cast<double>(distances.size())), upperQuantile(distances, 0.5),
+              upperQuantile(distances, 0.99), upperQuantile(angles, 0.5),
+              100 * static_cast<double>(good) / scans,
               100 * static_cast<double>(mappedGood) / static_cast<double>(mapped),
               100 * static_cast<double>(unknown) / scans, lost,
               (log.readings.back().timestamp - log.readings[first].timestamp) / seconds);

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <wx/app.h>
+#include <wx/dirdlg.h>
 #include <wx/evtloop.h>
+#include <wx/filedlg.h>
 #include <wx/image.h>
 #include <wx/modalhook.h>
 #include <wx/msgdlg.h>
@@ -37,14 +39,22 @@ class Dialogs : public wxModalDialogHook {
  public:
   std::vector<std::string> messages;  ///< of message boxes
   std::vector<std::string> titles;    ///< of other dialogs, which are cancelled
+  std::string filter;                 ///< of the last file dialog
+  std::string left;                   ///< title of a dialog that the test answers itself
  protected:
   int Enter(wxDialog* dialog) override {
     if (auto* const message = dynamic_cast<wxMessageDialogBase*>(dialog)) {
       messages.push_back(message->GetMessage().utf8_string());
       return wxID_OK;
     }
-    titles.push_back(dialog->GetTitle().utf8_string());
-    return wxID_CANCEL;
+    wxString title = dialog->GetTitle();
+    if (const auto* const folder = dynamic_cast<wxDirDialogBase*>(dialog)) title = folder->GetMessage();
+    if (const auto* const file = dynamic_cast<wxFileDialogBase*>(dialog)) {
+      title = file->GetMessage();
+      filter = file->GetWildcard().utf8_string();
+    }
+    titles.push_back(title.utf8_string());
+    return titles.back() == left ? wxID_NONE : wxID_CANCEL;
   }
 };
 

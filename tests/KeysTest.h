@@ -2,6 +2,7 @@
 /// @brief For the tests of the window with real keys and the mouse, under a window manager.
 #pragma once
 
+#include <wx/dnd.h>
 #include <wx/uiaction.h>
 
 #include "GuiTest.h"
@@ -39,10 +40,20 @@ class KeysTest : public GuiTest {
     };
     ASSERT_TRUE(happens([&] { return shows(0) && shows(1); }));
   }
+  void drop(const std::string& file) {
+    wxArrayString names;
+    names.Add(file);
+    auto* const target = dynamic_cast<wxFileDropTarget*>(frame->GetDropTarget());
+    ASSERT_NE(target, nullptr);
+    EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+  }
+  bool isReady() {
+    return happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); });
+  }
   void openLog() {
     frame->open(ini, log);
     ASSERT_TRUE(stands(State::paused, 0));
-    ASSERT_TRUE(happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); }));
+    ASSERT_TRUE(isReady());
   }
 };
 

@@ -134,7 +134,7 @@ TEST_F(Bags, AreConvertedWithTheTopicsThatAreChosen) {
                     rawlog = folder.path("out.rawlog");
   const std::string files = "'" + bag + "' '" + rawlog + "'";
   test::expectInputError(run(LOG2RAWLOG, files), "log2rawlog",
-                         "several scan topics: " + bag + "; choose with --topic");
+                         "several scan topics: " + bag + "; choose with --topic or [input] sensor_label: ");
   EXPECT_FALSE(std::filesystem::exists(rawlog));
   test::expectInputError(run(HYBRID_SLAM, "'" + bag + "'"), "hybrid-slam", "--topic");
   const test::Outcome outcome = run(LOG2RAWLOG, "--topic /scan " + files);

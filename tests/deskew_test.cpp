@@ -26,7 +26,7 @@ class Deskew : public HybridSlam {
         test::shell(folder, "'" SIMUL_FLOORPLAN "' '" + config + "' -q -o '" + log + "' " + settings);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
-  /// Of the headings since the start, deg rms.
+  /// Error of the headings since the start, deg rms.
   double headingError() const {
     const files::Trajectory path = files::loadTum(output + "/trajectory.tum"),
                             truth = files::loadTum(truthFile);

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "live/CycleGrouper.h"
@@ -18,6 +17,7 @@
 #include "sensors/SensorSource.h"
 #include "standins/LmsStandIn.h"
 #include "standins/PioneerStandIn.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestEvents.h"
 #include "testing/TestLogs.h"
 
@@ -292,15 +292,13 @@ TEST_F(DeviceTest, DamagedPacketsOfThePioneerAreDroppedAndReported) {
 }
 
 TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
-  const auto errorOf = [&](const std::string& ini) -> std::string {
-    try {
+  const auto errorOf = [&](const std::string& ini) {
+    const std::string error = test::errorOf([&] {
       mrpt::config::CConfigFileMemory config(ini);
       sensors::SensorSource(config, 5, 1, events.shared());
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
-      return e.what();
-    }
-    return "no error";
+    });
+    EXPECT_THAT(error, testing::Not(HasSubstr("\n")));
+    return error;
   };
   EXPECT_THAT(errorOf("[live]\nserver = a:1\n"), HasSubstr("no sensors"));
   EXPECT_THAT(errorOf("[A]\ndriver = CNoSuchThing\nprocess_rate = 5\n"),

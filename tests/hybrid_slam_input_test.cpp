@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "HybridSlamProgram.h"
+#include "InstalledProgram.h"
 #include "files/Trajectory.h"
 
 namespace hybrid_slam {
@@ -58,6 +60,26 @@ TEST_F(HybridSlam, WrongStockIni) {
 }
 
 // ---- logs
+
+TEST_F(HybridSlam, FilesOfKeysAndOptionsMayBeInstalledOnes) {
+  const test::InstalledProgram installed(folder, HYBRID_SLAM);
+  test::writeGzipped(installed.data("room.rawlog"), test::laps(4));
+  std::ofstream(installed.data("no-session")) << "text";
+  const auto call = [&](const std::string& arguments) {
+    return test::shell(folder, "'" + installed.path + "' -q -o '" + output + "' " + arguments);
+  };
+  const std::string unknown = folder.write("unknown.ini", "[run]\nrawlog = data/none.rawlog\n");
+  test::expectInputError(call(unknown), "hybrid-slam", "no such file: data/none.rawlog;");
+  for (const char* option : {"--resume", "--continue", "--localize"})
+    test::expectInputError(call(std::string(option) + " data/no-session data/room.rawlog"), "hybrid-slam",
+                           installed.data("no-session"));
+  test::expectInputError(call("--prior-plan data/no-session data/room.rawlog"), "hybrid-slam",
+                         installed.data("no-session"));
+  const std::string known = folder.write("known.ini", "[run]\nrawlog = data/room.rawlog\n");
+  const test::Outcome outcome = call(known);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
+}
 
 TEST_F(HybridSlam, WrongLog) {
   expectError(replay(folder.path("none.rawlog")), "no such file: " + folder.path("none.rawlog"));
@@ -179,6 +201,20 @@ TEST_F(HybridSlam, AnyNumberOfBeams) {
   for (const size_t beams : {1u, 2u, 3u, 5000u}) {
     SCOPED_TRACE(beams);
     expectDone(replay(test::laps(10, 80, beams)));
+  }
+}
+
+TEST_F(HybridSlam, AnotherNumberOfBeamsInMidLog) {
+  test::Log log = test::laps(40);
+  for (size_t i = 20; i < 40; ++i)
+    log[2 * i + 1] = test::scan(1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80), 361);
+  for (const std::string method : {"hybrid", "general", "linemap", "ortho", "stock"}) {
+    SCOPED_TRACE(method);
+    expectDone(replay(log, "-m " + method));
+    const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
+    ASSERT_EQ(trajectory.size(), 40u);
+    const auto truth = test::poseOnLap(39, 80) - test::poseOnLap(0, 80);
+    EXPECT_LT((trajectory.back().pose - truth).norm(), method == "stock" ? 1 : 0.3);
   }
 }
 

@@ -90,5 +90,24 @@ TEST_F(LostRun, TheSecondRunReplacesTheSessionOfTheFirst) {
   EXPECT_EQ(metrics()["particles_min"], 20);
 }
 
+/// A run that maps on in the map of a run just as bad.
+TEST_F(LostRun, IsKeptWhereASecondRunCouldNotStartFromTheSameMap) {
+  const std::string session = output + "/session.hslam", options = retrying(20) + " -s 2 --start 0,0,0";
+  ASSERT_EQ(replay(kLog, retrying(0) + " -s 2"), 0) << err;
+  ASSERT_EQ(replay(kLog, options + " --continue '" + session + "'"), 0) << err;
+  EXPECT_EQ(metrics()["verdict"], "lost");
+  EXPECT_EQ(metrics()["second_run"], false);
+  EXPECT_THAT(err, HasSubstr("warning: no second run: these results may have replaced " + session + "\n"));
+
+  output = folder.path("resumed");
+  ASSERT_EQ(run("--resume '" + session + "' -o '" + output + "'"), 0) << err;
+  EXPECT_EQ(metrics()["verdict"], "lost");
+  EXPECT_EQ(metrics()["second_run"], false);
+  EXPECT_THAT(err, HasSubstr("warning: no second run: the session does not hold the map"));
+
+  ASSERT_EQ(replay(kLog, options + " --continue '" + session + "'"), 0) << err;
+  EXPECT_THAT(err, HasSubstr("\nsecond run, with 20 particles")) << "the map stands elsewhere";
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "ChildProgram.h"
+#include "InstalledProgram.h"
 #include "ResultFiles.h"
 #include "Shell.h"
 #include "files/RawlogReader.h"
@@ -174,6 +175,15 @@ TEST_F(LivePrograms, TheServerSaysThatItsLogIsDamaged) {
   const auto map = live();
   EXPECT_EQ(map->wait(), 0) << map->err();
   EXPECT_EQ(robot->wait(), 0);
+}
+
+TEST_F(LivePrograms, TheLogOfTheServerMayBeAnInstalledOne) {
+  const test::InstalledProgram installed(folder, OBSERVATION_SERVER);
+  test::writeGzipped(installed.data("room.rawlog"), test::laps(3));
+  const std::string config = folder.write("server.ini", "[server]\nport = 0\nrawlog = data/room.rawlog\n");
+  const test::Outcome outcome = test::shell(folder, "'" + installed.path + "' '" + config + "'");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\n3 cycles served"));
 }
 
 TEST_F(LivePrograms, WithoutAServerThereAreNoResults) {

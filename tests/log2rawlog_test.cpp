@@ -6,7 +6,9 @@
 #include <zlib.h>
 
 #include <filesystem>
+#include <fstream>
 
+#include "InstalledProgram.h"
 #include "Shell.h"
 #include "files/TemporaryFolder.h"
 #include "testing/TestLogs.h"
@@ -152,6 +154,15 @@ TEST_F(Log2Rawlog, WarnsOfTheEightMetreMode) {
   EXPECT_THAT(err, HasSubstr("--max-range 8.18 drops them"));
   EXPECT_EQ(convert(log, "--max-range 8.18"), 0);
   EXPECT_THAT(err, IsEmpty());
+}
+
+TEST_F(Log2Rawlog, ConvertsAnInstalledLog) {
+  const test::InstalledProgram installed(folder, LOG2RAWLOG);
+  std::ofstream(installed.data("robot.clf")) << odometryRow("100", "0") + scanRow("100");
+  const test::Outcome outcome =
+      test::shell(folder, "'" + installed.path + "' data/robot.clf '" + rawlog + "'");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(entries(), 2u);
 }
 
 TEST_F(Log2Rawlog, HelpAndVersion) {

@@ -211,6 +211,17 @@ TEST_F(MotionModelLearn, SameSeedSameBytesForAnyNumberOfThreads) {
   EXPECT_NE(test::contentOf(output), first);
 }
 
+TEST_F(MotionModelLearn, AnIgnoredLaserIsAWarning) {
+  test::Log log = test::laps(100);
+  const auto tilted = test::scan(1000, {}, 181, "TILTED");
+  tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0.5, 0);
+  log.push_back(tilted);
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  EXPECT_EQ(learn(path, "--iterations 1 --set improved_proposal.update_angle_deg=5"), 0) << err;
+  EXPECT_THAT(err, HasSubstr("motion-model-learn: warning: laser `TILTED` is not used: "));
+  EXPECT_THAT(out, HasSubstr("laser LASER: 181 beams"));
+}
+
 TEST_F(MotionModelLearn, LearnsFromTheFirstPartOfATruncatedLog) {
   std::vector<size_t> ends;
   const std::string log = test::writePlain(folder.path("log.rawlog"), test::laps(100), &ends);

@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "ChildProgram.h"
+#include "InstalledProgram.h"
 #include "SlamCompareProgram.h"
 
 namespace hybrid_slam {
@@ -67,6 +69,52 @@ TEST_F(SlamCompare, ACompleteComparison) {
   const auto json = nlohmann::json::parse(test::contentOf(folder.path("out/summary.json")));
   EXPECT_EQ(json.at("groups").size(), 3u);
   EXPECT_GT(table("summary.csv").size(), 20u);
+}
+
+TEST_F(SlamCompare, LineMapsAndRightAnglesAreMethodsLikeTheOthers) {
+  const Outcome o = run("--methods hybrid,linemap,ortho --particles 3 --seeds 1 -q" + kTruth);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  EXPECT_THAT(runs(), UnorderedElementsAre("hybrid-3-1", "linemap-3-1", "ortho-3-1"));
+  const auto rows = table("results.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("status"), "done");
+    EXPECT_GT(std::stod(row.at("ate_rmse_m")), 0);
+    EXPECT_GT(std::stod(row.at("wall_mean_m")), 0);
+    EXPECT_GT(std::stoi(row.at("lines")), 0);
+  }
+  EXPECT_THAT(report(), testing::AllOf(HasSubstr("trajectories of linemap-3"), HasSubstr("ortho-3")));
+}
+
+TEST_F(SlamCompare, AnIgnoredLaserIsAWarning) {
+  test::Log log = test::laps(10);
+  for (int i = 0; i < 10; ++i) {
+    const auto tilted = test::scan(1000.1 + 0.2 * i, {}, 181, "TILTED");
+    tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0.5, 0);
+    log.push_back(tilted);
+  }
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const Outcome o = shell("'" SLAM_COMPARE "' '" + path + "' -o out -n 3 --seeds 1 --list");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr("slam-compare: warning: laser `TILTED` is not used: "));
+}
+
+TEST_F(SlamCompare, TheTruthMayBeInstalledFiles) {
+  const test::InstalledProgram installed(folder, SLAM_COMPARE);
+  fs::copy_file(kCsie + "csie-corridor.tum", installed.data("truth.tum"));
+  fs::copy_file(kCsie + "csie.plan", installed.data("building.plan"));
+  std::ofstream(installed.data("relations")) << "1 2 1 0 0 0 0 0\n";
+  std::ofstream(installed.data("text")) << "text\n";
+  const auto list = [&](const std::string& truth) {
+    return shell("'" + installed.path + "' " + kLog + " -o out --list --seeds 1 " + truth);
+  };
+  const Outcome o = list("--reference data/truth.tum --floorplan data/building.plan");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(errorLine(list("--relations data/text")), HasSubstr(installed.data("text")));
+  EXPECT_THAT(errorLine(list("--relations data/relations --odometry data/text")),
+              HasSubstr(installed.data("text")));
+  EXPECT_THAT(errorLine(list("--reference data/none.tum")), HasSubstr("file `data/none.tum`;"));
 }
 
 TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "InstalledProgram.h"
 #include "SlamEvalProgram.h"
 #include "base/RandomStream.h"
 #include "files/Trajectory.h"
@@ -120,6 +121,34 @@ TEST_F(SlamEval, ToleranceDecidesWhichPosesArePaired) {
   write("late.tum", "0.01 0 0 0 0 0 0 1\n1.01 1 0 0 0 0 0 1\n2.04 2 0 0 0 0 0 1\n");
   EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum").at("pairs"), 2);
   EXPECT_EQ(figures("ate --trajectory late.tum --reference truth.tum --tolerance 0.05").at("pairs"), 3);
+}
+
+TEST_F(SlamEval, EveryFileMayBeAnInstalledOne) {
+  const test::InstalledProgram installed(folder, SLAM_EVAL_PROGRAM);
+  const auto install = [&](const std::string& name, const std::string& text) {
+    std::ofstream(installed.data(name)) << text;
+  };
+  const auto call = [&](const std::string& arguments) {
+    return test::shell(folder, "'" + installed.path + "' " + arguments);
+  };
+  install("path", kStraight);
+  install("relations", "0 2 2 0 0 0 0 0\n");
+  install("odometry", "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n");
+  install("covariances",
+          "timestamp,xx,xy,yy,xphi,yphi,phiphi\n0,1,0,1,0,0,1\n1,1,0,1,0,0,1\n"
+          "2,1,0,1,0,0,1\n3,1,0,1,0,0,1\n");
+  install("plan", "wall 0 0 4 0\n");
+  install("text", "text");
+  for (const char* arguments :
+       {"relations --trajectory data/path --relations data/relations --odometry data/odometry",
+        "nees --trajectory data/path --covariances data/covariances --reference data/path",
+        "plan --plan data/plan --truth data/plan"}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments << ": " << outcome.err;
+  }
+  const std::string log = "revisits --trajectory data/path --rawlog data/";
+  test::expectInputError(call(log + "text"), "slam-eval", installed.data("text"));
+  test::expectInputError(call(log + "none"), "slam-eval", "no such file: data/none;");
 }
 
 TEST_F(SlamEval, WrongFiles) {

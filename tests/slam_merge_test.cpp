@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "InstalledProgram.h"
 #include "Shell.h"
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
@@ -139,6 +141,16 @@ TEST_F(SlamMerge, NoOverlapIsAnAnswerAndNoMap) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, testing::MatchesRegex("slam-merge: error: no overlap found: [^\n]*\n"));
   EXPECT_FALSE(fs::exists(folder.path("c")));
+}
+
+TEST_F(SlamMerge, MapsMayBeInstalledOnes) {
+  const test::InstalledProgram installed(folder, SLAM_MERGE);
+  ASSERT_NO_FATAL_FAILURE(map("a", 1));
+  fs::copy_file(folder.path("a/session.hslam"), installed.data("a"));
+  std::ofstream(installed.data("text")) << "text";
+  for (const std::string maps : {"data/text data/a", "data/a data/text"})
+    test::expectInputError(test::shell(folder, "'" + installed.path + "' -o c " + maps), "slam-merge",
+                           installed.data("text"));
 }
 
 TEST_F(SlamMerge, WrongInput) {

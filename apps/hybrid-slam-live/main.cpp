@@ -44,7 +44,7 @@ void describe(CLI::App& app, CommandLine& line) {
   line.session.addCheckpoints(app);
   line.session.addMap(app);
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "no status every 10 s, no summary");
+  addQuiet(app, line.isQuiet);
   app.add_flag("--help-config", line.wantsManual, "print every key of section [live]");
   app.footer(
       "Results: those of hybrid-slam (doc/results.md) and recording-DATE.rawlog, which hybrid-slam "

@@ -44,7 +44,7 @@ void describe(CLI::App& app, CommandLine& line) {
   line.session.addMap(app);
   addSettings(app, line.settings);
   app.add_flag("--strict", line.isStrict, "exit 1 if the verdict on the map is `lost`");
-  app.add_flag("-q,--quiet", line.isQuiet, "no progress, no summary");
+  addQuiet(app, line.isQuiet);
   app.add_flag("--profile", line.wantsProfile, "print time and call count of each stage");
   app.add_flag("--help-config", line.wantsManual, "print every section and key of the INI file");
   app.footer(
@@ -77,6 +77,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   const std::string usage = "expected hybrid-slam [config.ini] LOG";
   stopOnSignals();
   run::Configuration configuration(line.files.config, settings);
+  files::findInputFiles({&configuration.run.rawlog});
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   if (configuration.run.rawlog.empty() && line.session.resume.empty())

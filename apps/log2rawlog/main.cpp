@@ -127,6 +127,7 @@ int convert(int argc, char** argv) {
   options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
   if (angularStepDeg) options.angularStep = mrpt::DEG2RAD(*angularStepDeg);
 
+  files::findInputFiles({&input});
   if (topics.wantsList) {
     printTopics(input);
     return 0;

@@ -15,6 +15,7 @@
 #include "Settings.h"
 #include "Stop.h"
 #include "files/OutputFolder.h"
+#include "readings/LogWarnings.h"
 #include "run/FilteredMotions.h"
 #include "run/LogSettings.h"
 #include "run/MotionModelText.h"
@@ -45,7 +46,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->type_name("N");
   line.filter.addParticles(app);
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "print only errors and warnings");
+  addQuiet(app, line.isQuiet);
   app.footer(
       "Learn with the proposal, update_distance and update_angle_deg you will run with, then\n"
       "  cat config.ini motion.ini > learnt.ini\n"
@@ -94,11 +95,9 @@ int learn(const CommandLine& line, run::Configuration configuration) {
   }
   warn(configuration.warnings);
   const readings::RawlogSummary log = summarise(line.files.log, configuration.input);
-  if (log.jumps.count > 0)
-    warn({std::to_string(log.jumps.count) + " odometry jumps of over 100 m: first at " + log.unit + " " +
-          std::to_string(log.jumps.first) + " of " + line.files.log + "; taken as no motion"});
   if (!log.hasMotion)
     throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
+  warn(readings::warningsOf(log, line.files.log));
   for (const std::string& text :
        applyLogSettings(run::readLogSettings(line.files.log, configuration.input, log), configuration))
     if (!line.isQuiet) std::cout << text << "\n";

@@ -28,7 +28,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "observation-server " HYBRID_SLAM_VERSION);
   app.add_option("config", line.config, "INI file: [server] and one section per sensor (doc/live.md)");
   addSettings(app, line.settings);
-  app.add_flag("-q,--quiet", line.isQuiet, "no summary");
+  addQuiet(app, line.isQuiet);
   app.add_flag("--help-config", line.wantsManual, "print every key of [server] and of a Pioneer's section");
   app.footer(
       "The port is printed on standard output, events of sensors and clients on standard error.\n"
@@ -51,6 +51,7 @@ int run(const CommandLine& line) {
   mrpt::config::CConfigFileMemory source;
   warn(files::loadIni(source, files::inputFile(line.config), line.settings, sections, "",
                       "expected a section [server] (doc/live.md)"));
+  files::findInputFiles({&options.rawlog});
   const auto log = std::make_shared<live::EventLog>("observation-server");
   const std::string summary = sensors::serveObservations(
       options, source, log, [] { return stop.load(); },

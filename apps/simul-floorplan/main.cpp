@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "Program.h"
+#include "Settings.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
 #include "study/simulation/FloorPlan.h"
@@ -123,9 +124,8 @@ int parseAndRun(int argc, char** argv) {
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--session", line.session, "session of the building, overrides the INI file")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--set", line.settings, "override a key of the INI file, SECTION.KEY=VALUE; repeatable")
-      ->allow_extra_args(false);
-  app.add_flag("-q,--quiet", line.quiet, "print only errors");
+  addSettings(app, line.settings);
+  addQuiet(app, line.quiet);
   app.set_version_flag("--version", "simul-floorplan " HYBRID_SLAM_VERSION);
   if (const auto code = parse(app, argc, argv)) return *code;
   line.config = files::inputFile(line.config);

@@ -20,6 +20,7 @@
 #include "files/InstalledFiles.h"
 #include "files/OutputFolder.h"
 #include "readings/EndPointReader.h"
+#include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "run/LogSettings.h"
 #include "run/TrajectoryRecorder.h"
@@ -91,8 +92,8 @@ void describe(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   app.add_flag("--report-only", line.isReportOnly, "start no runs; tables and report of the finished ones");
   app.add_flag("--list", line.isListOnly,
-               "starts no run: prints each one's name, a tab, and its command but for the `-o FOLDER`");
-  app.add_flag("-q,--quiet", line.isQuiet, "prints nothing but errors and warnings");
+               "start no runs; print the name of each, a tab, and its command without `-o FOLDER`");
+  addQuiet(app, line.isQuiet);
   app.footer(
       "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
       "summary.json,\n"
@@ -221,6 +222,7 @@ struct LogSpan {
 LogSpan readLog(const CommandLine& line, const Setup& setup) {
   const readings::InputOptions input = run::Configuration(setup.config, setup.settings).input;
   const readings::RawlogSummary summary = summarise(line.files.log, input);
+  warn(readings::warningsOf(summary, line.files.log));
   readings::RawlogSource source(line.files.log, input, summary);
   run::TrajectoryRecorder recorder;
   while (const auto reading = source.next()) recorder.add(reading->timestamp, reading->motion, 0);
@@ -377,6 +379,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     line.files.sort();
+    files::findInputFiles({&line.reference, &line.relations, &line.odometry, &line.floorplan});
     return execute(line, quoted(command));
   });
 }

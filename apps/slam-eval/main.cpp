@@ -136,7 +136,7 @@ Json revisitsJson(const CommandLine& line) {
           {"apart", errors.apart}};
 }
 
-/// Of a drawing, or of a floor plan of simul-floorplan, arcs in pieces of at most 0.1 m.
+/// The walls of a drawing, or of a floor plan of simul-floorplan with its arcs in pieces of at most 0.1 m.
 std::vector<PlanLine> loadWalls(const std::string& file) {
   const std::string end = std::filesystem::path(file).extension();
   if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") return run::loadPlan(file);
@@ -232,6 +232,8 @@ int evaluate(int argc, char** argv) {
 
   if (const auto code = parse(app, argc, argv)) return *code;
 
+  files::findInputFiles({&line.trajectory, &line.relations, &line.odometry, &line.reference, &line.rawlog,
+                         &line.covariances, &line.plan, &line.truth});
   for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
     if (!(tolerance >= 0))
       throw InputError("wrong value", "option --tolerance", "expected a number of seconds, 0 or more");

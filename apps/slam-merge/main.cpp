@@ -30,7 +30,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->type_name("N");
-  app.add_flag("-q,--quiet", line.isQuiet, "no summary");
+  addQuiet(app, line.isQuiet);
   app.footer(
       "Results: session.hslam (for --continue and --localize), map.png, map.pgm + map.yaml, map.gridmap.gz,\n"
       "lines.csv, config.ini, trajectory.tum of both sessions, metrics.json (place of B in A, evidence).\n"
@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     CLI::App app{"Joins two maps of overlapping areas: B is searched for in A, without a starting pose"};
     describe(app, line);
     if (const auto code = parse(app, argc, argv)) return *code;
+    files::findInputFiles({&line.merge.older, &line.merge.newer});
     return merge(line);
   });
 }

@@ -28,6 +28,10 @@ std::string inputFile(const std::string& name, const fs::path& bin) {
   return isThere(installed) ? installed.string() : name;
 }
 
+void findInputFiles(std::initializer_list<std::string*> names, const fs::path& bin) {
+  for (std::string* const name : names) *name = inputFile(*name, bin);
+}
+
 std::string withInstalledPages(std::string text, const fs::path& bin) {
   const fs::path folder = bin.parent_path() / HYBRID_SLAM_PAGES;
   // No std::regex: it may overflow the stack on a long word, and messages quote what others wrote.

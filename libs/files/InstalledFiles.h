@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
 namespace hybrid_slam::files {
@@ -14,6 +15,10 @@ std::filesystem::path programFolder();
 /// for in PREFIX/share/hybrid_slam.
 /// @return the name as given if it is found in neither
 std::string inputFile(const std::string& name, const std::filesystem::path& bin = programFolder());
+
+/// Replaces each name as `inputFile` does.
+void findInputFiles(std::initializer_list<std::string*> names,
+                    const std::filesystem::path& bin = programFolder());
 
 /// A text with each `doc/PAGE.md` replaced by the path of the installed page. Unchanged where none is
 /// installed.

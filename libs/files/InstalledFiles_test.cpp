@@ -40,6 +40,14 @@ TEST_F(InstalledFiles, AFileThatIsNowhereKeepsItsName) {
   EXPECT_EQ(inputFile("", bin), "");
 }
 
+TEST_F(InstalledFiles, SeveralNamesAtOnce) {
+  std::string found = "config-ini/robot.ini", unknown = "config-ini/none.ini", none;
+  findInputFiles({&found, &unknown, &none}, bin);
+  EXPECT_EQ(found, ini);
+  EXPECT_EQ(unknown, "config-ini/none.ini");
+  EXPECT_EQ(none, "");
+}
+
 TEST_F(InstalledFiles, MessagesNameInstalledPages) {
   EXPECT_EQ(withInstalledPages("see doc/results.md, (doc/results.md).", bin),
             "see " + page + ", (" + page + ").");

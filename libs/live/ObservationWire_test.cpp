@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::live {
@@ -35,12 +36,7 @@ std::string answerTo(const std::string& bytes) {
 }
 
 std::string errorOf(const std::string& payload) {
-  try {
-    deserialise(payload);
-  } catch (const WireError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::errorOf<WireError>([&] { deserialise(payload); });
 }
 
 TEST(ObservationWire, TheHeaderIsAsDocumented) {

@@ -17,8 +17,9 @@ namespace {
 /// Number of observations, about one second: sensors do not start at the same time.
 constexpr size_t kEarly = 5;
 
-/// Quantile: the smallest value that at least `share` of all values do not exceed.
-double quantile(std::vector<double> values, double share) {
+/// The smallest value that at least a share of all values do not exceed (Hyndman & Fan's type 1); 0 without
+/// values.
+double nearestRankQuantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(values.size())));
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<size_t>(rank, 1) - 1);
@@ -78,15 +79,21 @@ void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, C
 void LiveRun::pass(const Arrived& arrived) {
   recording_.write(*arrived.first);
   if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(arrived.first))
-    if (const auto use = assembler_.useOf(*scan);
-        use != readings::ScanGrouper::Use::taken && ignored_.insert(scan->sensorLabel).second)
-      log_.report("laser `" + scan->sensorLabel + "`",
-                  "scan not used, as are further ones: " + readings::reasonOf(use) + ": " + place());
+    reportUse(*scan);
   const size_t jumps = assembler_.jumps();
   assembler_.take(arrived.first);
   if (jumps == 0 && assembler_.jumps() > 0)
     log_.report("odometry", "jumps by over 100 m, taken as no motion, as are further ones: " + place());
   while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
+}
+
+void LiveRun::reportUse(const mrpt::obs::CObservation2DRangeScan& scan) {
+  const auto use = assembler_.useOf(scan);
+  const bool isUsed = use == readings::ScanGrouper::Use::taken;
+  if (!(isUsed ? used_ : ignored_).insert(scan.sensorLabel).second) return;
+  log_.report("laser `" + scan.sensorLabel + "`",
+              isUsed ? "used, " + std::to_string(scan.getScanSize()) + " beams"
+                     : "scan not used, as are further ones: " + readings::reasonOf(use) + ": " + place());
 }
 
 std::string LiveRun::place() const {
@@ -158,9 +165,9 @@ std::string LiveRun::finish(size_t lost) {
                               {"skipped", skipped_.load()},
                               {"lost_cycles", lost},
                               {"latency_ms",
-                               {{"median", quantile(latencies_, 0.5)},
-                                {"p99", quantile(latencies_, 0.99)},
-                                {"max", quantile(latencies_, 1)}}}};
+                               {{"median", nearestRankQuantile(latencies_, 0.5)},
+                                {"p99", nearestRankQuantile(latencies_, 0.99)},
+                                {"max", nearestRankQuantile(latencies_, 1)}}}};
   if (failure_) more["complete"] = false;
   const std::string summary = run_.finish(recording_.path(), recorded, more);
   if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);

@@ -70,11 +70,13 @@ class LiveRun {
 
   void takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival);
   void pass(const Arrived& arrived);
+  /// Reports each laser once that is used, and once that is not.
+  void reportUse(const mrpt::obs::CObservation2DRangeScan& scan);
   void filter();
   void stopFilter();
   void tellState();
   void tellVerdict();
-  /// Of the last observation, in the recording.
+  /// Where the last observation is in the recording.
   std::string place() const;
 
   run::Configuration& configuration_;
@@ -83,7 +85,7 @@ class LiveRun {
   Watcher watcher_;
   run::FilterRun run_;
   Recording recording_;
-  std::set<std::string> ignored_;  ///< labels of lasers whose scans are not used
+  std::set<std::string> used_, ignored_;  ///< labels of lasers whose scans are used, and are not
   readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
   bool hasOdometry_ = false;

@@ -207,6 +207,18 @@ TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecordingAndTheResultsSoFar) {
   EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
 }
 
+TEST_F(LiveRunTest, EachLaserThatIsUsedIsReportedOnce) {
+  options.maxWaiting = 1000;
+  test::Log log = test::laps(10);
+  for (size_t i = 0; i < 10; ++i)
+    log.insert(log.begin() + static_cast<std::ptrdiff_t>(3 * i) + 2,
+               test::scan(1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80), 91, "REAR"));
+  runLive(log);
+  EXPECT_EQ(events.count("laser `LASER`: used, 181 beams"), 1u) << events.text();
+  EXPECT_EQ(events.count("laser `REAR`: used, 91 beams"), 1u) << events.text();
+  EXPECT_EQ(events.count("laser `"), 2u) << events.text();
+}
+
 TEST_F(LiveRunTest, WhatCannotBeTrueIsSkippedAndReported) {
   options.maxWaiting = 1000;
   test::Log log = test::laps(40);

@@ -34,7 +34,8 @@ bool isEmptyScan(const CObservation& observation) {
   return scan && scan->getScanSize() == 0;
 }
 
-/// Of this machine, or reachable from the local network alone: RFC 1918 and link-local IPv4 addresses.
+/// Whether an IPv4 address is this machine's, or reachable from the local network alone (RFC 1918,
+/// link-local).
 bool isPrivate(const std::string& address) {
   in_addr ip{};
   if (::inet_pton(AF_INET, address.c_str(), &ip) != 1) return false;
