@@ -7,9 +7,9 @@
 #include <csignal>
 #include <filesystem>
 
-#include "base/Errors.h"
 #include "files/Gzip.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 #include "testing/RosBags.h"
 
 namespace hybrid_slam::bags {
@@ -58,12 +58,22 @@ void expectSame(const std::vector<TestMessage>& found, const std::vector<TestMes
 }
 
 std::string errorOf(const std::string& path) {
-  try {
-    read(path);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::errorOf([&] { read(path); });
+}
+
+void execute(const std::string& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  sqlite3_open(path.c_str(), &database);
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+      << sqlite3_errmsg(database);
+  sqlite3_close(database);
+}
+
+/// Adds topics with the numbers `from` to `to` and the same or different names.
+void addTopics(const std::string& path, int from, int to, const std::string& name = "'/t' || i") {
+  execute(path, "WITH RECURSIVE n(i) AS (VALUES(" + std::to_string(from) +
+                    ") UNION ALL SELECT i + 1 FROM n WHERE i < " + std::to_string(to) +
+                    ") INSERT INTO topics SELECT i, " + name + ", 'a/B', 'cdr', '' FROM n");
 }
 
 /// A start of the file gives the messages that it has.
@@ -200,11 +210,9 @@ TEST(Rosbag2Database, OtherDatabasesAreNone) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), {});
   EXPECT_TRUE(read(path).messages.empty());
-  sqlite3* database = nullptr;
-  sqlite3_open(path.c_str(), &database);
-  sqlite3_exec(database, "DROP TABLE messages; CREATE VIEW messages AS SELECT 1 AS topic_id", nullptr,
-               nullptr, nullptr);
-  sqlite3_close(database);
+  execute(path, "DROP TABLE messages; CREATE VIEW messages AS SELECT 1 AS topic_id");
+  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
+  execute(path, "DROP VIEW messages; CREATE VIRTUAL TABLE messages USING fts5(topic_id, timestamp, data)");
   EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
   EXPECT_THAT(errorOf(folder.write("b.db3", std::string("SQLite format 3\0", 16) + std::string(5000, 'x'))),
               HasSubstr("expected a ROS 2 recording"));
@@ -213,26 +221,88 @@ TEST(Rosbag2Database, OtherDatabasesAreNone) {
 TEST(Rosbag2Database, TenThousandTopicsAreReadAndMoreAreNot) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
-  const auto addTopics = [&](int from, int to) {
-    sqlite3* database = nullptr;
-    sqlite3_open(path.c_str(), &database);
-    const std::string numbers = "WITH RECURSIVE n(i) AS (VALUES(" + std::to_string(from) +
-                                ") UNION ALL SELECT i + 1 FROM n WHERE i < " + std::to_string(to) + ") ";
-    EXPECT_EQ(
-        sqlite3_exec(database,
-                     (numbers + "INSERT INTO topics SELECT i, '/t' || i, 'a/B', 'cdr', '' FROM n").c_str(),
-                     nullptr, nullptr, nullptr),
-        SQLITE_OK);
-    sqlite3_close(database);
-  };
-  addTopics(3, 10000);
+  addTopics(path, 3, 10000);
   EXPECT_EQ(read(path).messages.size(), 2u);
   const std::string copy = folder.path("folder/a.db3");
   std::filesystem::create_directory(folder.path("folder"));
   std::filesystem::copy(path, copy);
   EXPECT_EQ(read(folder.path("folder")).defect, "");
-  addTopics(10001, 10001);
+  addTopics(path, 10001, 10001);
   EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+}
+
+TEST(Rosbag2Database, TopicsOfOneNameAreBoundedAsWell) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
+  addTopics(path, 3, 10001, "'/scan'");
+  EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+}
+
+TEST(Rosbag2Database, ComputedColumnsAreRefused) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
+  execute(path, "ALTER TABLE topics ADD COLUMN extra TEXT AS (name || name)");
+  EXPECT_EQ(errorOf(path), "computed columns in table topics: " + path +
+                               "; expected a ROS 2 recording with the tables topics and messages");
+  test::writeDatabase(path, messages(1, Encoding::cdr));
+  execute(path,
+          "ALTER TABLE messages DROP COLUMN data;"
+          "ALTER TABLE messages ADD COLUMN data BLOB AS (zeroblob(1000000))");
+  EXPECT_THAT(errorOf(path), HasSubstr("computed columns in table messages"));
+}
+
+/// SQLite would sort in temporary files, which may become larger than the recording.
+TEST(Rosbag2Database, MessagesAreNotSortedByAColumnNamedRowid) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(5, Encoding::cdr);
+  const std::string path = test::writeDatabase(folder.path("a.db3"), written);
+  execute(path, "ALTER TABLE messages ADD COLUMN rowid INTEGER; UPDATE messages SET rowid = -id");
+  expectSame(read(path).messages, written);
+}
+
+TEST(Rosbag2Database, AFileGivesNoMoreThanItsBytes) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(500, Encoding::cdr));
+  execute(path,
+          "ALTER TABLE messages DROP COLUMN data; ALTER TABLE messages ADD COLUMN data BLOB DEFAULT x'" +
+              std::string(20000, '0') + "'; VACUUM");
+  const Content content = read(path);
+  EXPECT_EQ(content.defect, "damaged database (more messages than bytes)");
+  EXPECT_LT(content.messages.size() * 10000, std::filesystem::file_size(path));
+}
+
+/// A page of 512 bytes within the tree of a table, behind `start`: the pages `first` and 50 times `other`.
+std::string innerPage(const std::string& start, char first, char other) {
+  constexpr int kCells = 50, kCellsBegin = 512 - 5 * kCells;
+  const auto number = [](int value) {
+    return std::string{static_cast<char>(value >> 8), static_cast<char>(value)};
+  };
+  std::string page = start + std::string("\5\0\0", 3) + number(kCells) + number(kCellsBegin) +
+                     std::string{0, 0, 0, 0, other};
+  for (int i = 0; i < kCells; ++i) page += number(kCellsBegin + 5 * i);
+  page.resize(kCellsBegin);
+  for (int i = 0; i < kCells; ++i) page += std::string{0, 0, 0, i == 0 ? first : other, 1};
+  return page;
+}
+
+/// One row a million times, in 5 kB.
+TEST(Rosbag2Database, ASchemaOfTheSamePageManyTimesIsRefused) {
+  const files::TemporaryFolder folder;
+  const std::string path = folder.path("a.db3");
+  execute(
+      path,
+      "PRAGMA page_size = 512; CREATE TABLE topics(id, name, type, serialization_format);"
+      "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data); CREATE TABLE x(a UNIQUE)");
+  const std::string bytes = test::contentOf(path);
+  ASSERT_EQ(bytes.size(), 5u * 512);
+  std::string head = bytes.substr(0, 100);
+  head[31] = 10;  // pages
+  const std::string fourRows = bytes.substr(100, 16), cells = bytes.substr(116, 512 - 116);
+  const std::string lastRow = fourRows.substr(0, 4) + '\1' + fourRows.substr(5, 3) + fourRows.substr(14);
+  test::write(path, innerPage(head, 6, 10) + bytes.substr(512) + fourRows + std::string(100, '\0') + cells +
+                        lastRow + std::string(106, '\0') + cells + innerPage("", 7, 7) + innerPage("", 8, 8) +
+                        innerPage("", 9, 9));
+  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
 }
 
 TEST(Rosbag2Database, NoSpaceToUnpackItIsAnError) {
@@ -279,6 +349,18 @@ TEST(RecordingFolder, ItsFilesInTheOrderOfTheirNumbers) {
   const Content content = read(folder.path(""));
   EXPECT_EQ(content.defect, "");
   expectSame(content.messages, all);
+}
+
+TEST(RecordingFolder, AFileThatCannotBeReadIsTheEnd) {
+  const files::TemporaryFolder folder;
+  const auto written = messages(5, Encoding::cdr);
+  folder.write("drive_0.db3", "");
+  EXPECT_THAT(errorOf(folder.path("")), HasSubstr("not a bag: " + folder.path("drive_0.db3")));
+  test::writeDatabase(folder.path("drive_0.db3"), written);
+  folder.write("drive_1.db3", "");
+  const Content content = read(folder.path(""));
+  EXPECT_EQ(content.defect, "ends before drive_1.db3, which cannot be read");
+  expectSame(content.messages, written);
 }
 
 TEST(Bag, CompressedFilesAreReadAsWell) {

@@ -61,6 +61,10 @@ std::optional<StoredMessage> RecordingFolder::next() {
     }
   } catch (const BrokenBytes& broken) {
     defect_ = broken.what();
+  } catch (const InputError&) {  // the last file of a recording that was killed may be empty
+    if (topics_.empty()) throw;
+    const std::string name = fs::path(files_.back()).filename().string();
+    defect_ = "ends before " + printable(name) + ", which cannot be read";
   }
   return std::nullopt;
 }

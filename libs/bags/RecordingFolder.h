@@ -14,10 +14,12 @@ namespace hybrid_slam::bags {
 /// names.
 std::vector<std::string> filesOfRecording(const std::string& folder);
 
+/// A file that cannot be opened is a defect, behind which nothing is read.
 class RecordingFolder : public Bag {
  public:
-  /// @throws InputError if there is none
+  /// @throws InputError if there is no file
   explicit RecordingFolder(const std::string& path);
+  /// @throws InputError if the first file cannot be opened
   std::optional<StoredMessage> next() override;
   const char* format() const override { return "ROS 2 recording"; }
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* kExpected = "expected a ROS 2 recording with the tables topics and messages";
 constexpr uint64_t kMostUnpackedBytes = uint64_t{16} << 30;
+constexpr int kLongestStatement = 1 << 20;  // bytes, in the file or ours with the numbers of all topics
 
 /// A database in a compressed file as a file of its own, which exists as long as this object.
 class Unpacked {
@@ -67,6 +68,12 @@ class Unpacked {
   int descriptor_ = -1;
 };
 
+/// Whether SQLite shall stop: the pages of a schema may refer to each other.
+int stopsOpening(void* steps) {
+  constexpr int kMostSteps = 1'000'000;  // of SQLite's machine; 10,000 topics need 100,000
+  return ++*static_cast<int*>(steps) > kMostSteps;
+}
+
 std::string textAt(sqlite3_stmt* row, int column) {
   const unsigned char* const text = sqlite3_column_text(row, column);
   return text ? std::string(reinterpret_cast<const char*>(text)).substr(0, kMostNameBytes) : std::string();
@@ -85,16 +92,26 @@ Rosbag2Database::Rosbag2Database(const std::string& path)
        {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_TRIGGER})
     sqlite3_db_config(opened, off, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_drop_modules(opened, nullptr);  // of virtual tables
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostChunkBytes));
+  sqlite3_limit(opened, SQLITE_LIMIT_SQL_LENGTH, kLongestStatement);
+  int steps = 0;  // counted here: SQLite's own count begins anew with each row
+  sqlite3_progress_handler(opened, 1, stopsOpening, &steps);
   sqlite3_exec(opened, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
+  checkTable("topics", path);
+  checkTable("messages", path);
   readTopics(path);
-  // Only what is read is loaded: a recording may hold gigabytes of pictures.
+  const auto size = query("SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
+  if (size && sqlite3_step(size.get()) == SQLITE_ROW) bytesLeft_ = sqlite3_column_int64(size.get(), 0);
+  // Only what is read is loaded: a recording may hold gigabytes of pictures. Without an index, the rows come
+  // in their order; ORDER BY rowid would sort them in temporary files if a column had that name.
   std::string read = "-1";
   for (const auto& [id, topic] : ids_)
     if (topics_[topic].messageType) read += "," + std::to_string(id);
   messages_ = query("SELECT topic_id, timestamp, CASE WHEN topic_id IN (" + read +
-                    ") THEN data END FROM messages ORDER BY rowid");
+                    ") THEN data END FROM messages NOT INDEXED");
   if (!messages_) throw InputError("not a recording", path, kExpected);
+  sqlite3_progress_handler(opened, 0, nullptr, nullptr);  // a recording may be long
 }
 
 Rosbag2Database::~Rosbag2Database() = default;
@@ -105,12 +122,22 @@ std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> Rosbag2Database::query(con
   return {statement, sqlite3_finalize};
 }
 
+void Rosbag2Database::checkTable(const std::string& name, const std::string& path) {
+  const auto columns = query("SELECT hidden FROM pragma_table_xinfo('" + name + "')");
+  int state = columns ? SQLITE_ROW : SQLITE_ERROR;
+  while (state == SQLITE_ROW && (state = sqlite3_step(columns.get())) == SQLITE_ROW)
+    if (sqlite3_column_int(columns.get(), 0) != 0)
+      throw InputError("computed columns in table " + name, path, kExpected);
+  if (state != SQLITE_DONE) throw InputError("not a recording", path, kExpected);
+}
+
 void Rosbag2Database::readTopics(const std::string& path) {
   const auto rows = query("SELECT id, name, type, serialization_format FROM topics");
   if (!rows) throw InputError("not a recording", path, kExpected);
   int state = SQLITE_ROW;
   try {
-    while ((state = sqlite3_step(rows.get())) == SQLITE_ROW) {
+    for (size_t count = 1; (state = sqlite3_step(rows.get())) == SQLITE_ROW; ++count) {
+      if (count > kMostTopics) throw BrokenBytes("it has over 10,000 topics");
       const std::string format = textAt(rows.get(), 3);
       const std::string type = textAt(rows.get(), 2) + (format == "cdr" ? "" : " (" + format + ")");
       ids_[sqlite3_column_int64(rows.get(), 0)] = topicOf(textAt(rows.get(), 1), type, Encoding::cdr);
@@ -127,11 +154,17 @@ std::optional<StoredMessage> Rosbag2Database::next() {
   while (defect_.empty() && messages_) {
     const int state = sqlite3_step(messages_.get());
     if (state == SQLITE_ROW) {
+      const auto count = static_cast<size_t>(sqlite3_column_bytes(messages_.get(), 2));
+      bytesLeft_ -= 1 + static_cast<int64_t>(count);
+      if (bytesLeft_ < 0) {
+        defect_ = "damaged database (more messages than bytes)";
+        messages_.reset();
+        break;
+      }
       const auto topic = ids_.find(sqlite3_column_int64(messages_.get(), 0));
       if (topic == ids_.end()) continue;
       const double time = 1e-9 * static_cast<double>(sqlite3_column_int64(messages_.get(), 1));
       const auto* const data = static_cast<const char*>(sqlite3_column_blob(messages_.get(), 2));
-      const auto count = static_cast<size_t>(sqlite3_column_bytes(messages_.get(), 2));
       return StoredMessage{topic->second, time, data ? std::string_view(data, count) : std::string_view()};
     }
     if (state != SQLITE_DONE)

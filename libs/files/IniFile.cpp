@@ -56,8 +56,29 @@ std::string readText(const std::string& file) {
   return text;
 }
 
+/// Refuses what MRPT's parser, also in comments, would evaluate without a limit of time or memory.
+void checkMacros(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
+  size_t number = 1, longestDefinition = 0, uses = 0;
+  const auto where = [&] { return file + ", line " + std::to_string(number); };
+  for (std::string line; std::getline(in, line); ++number) {
+    for (const std::string macro : {"$eval{", "$env{"})
+      if (line.find(macro) != std::string::npos)
+        throw InputError("macro " + macro + "...}", where(),
+                         "expected its value; of MRPT's macros, only @define is expanded");
+    if (line.find("@define") != std::string::npos)
+      longestDefinition = std::max(longestDefinition, line.size());
+    for (size_t at = line.find("${"); at != std::string::npos; at = line.find("${", at + 1)) ++uses;
+    if (uses * longestDefinition > kLargestIniFile)
+      throw InputError(
+          "definitions too long", where(),
+          "expected at most " + std::to_string(kLargestIniFile) + " bytes once they are expanded");
+  }
+}
+
 /// The text after MRPT's parser has expanded @define and ${...}.
 std::string parsed(const std::string& text, const std::string& file) {
+  checkMacros(text, file);
   try {
     return mrpt::config::config_parser(text);
   } catch (const std::exception& e) {
@@ -121,7 +142,8 @@ std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, co
   std::vector<std::string> present, ours, warnings;
   for (const auto& [name, options] : sections) ours.push_back(name);
   checkLines(text, file, ours);
-  source.setContent(text);
+  checkMacros(text, file);
+  source.setContent(text);  // expands macros once more
   source.getAllSections(present);
 
   const auto isOurs = [&ours](const std::string& section) { return contains(ours, section); };

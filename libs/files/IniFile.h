@@ -23,8 +23,8 @@ using Sections = std::vector<std::pair<std::string, Options*>>;
 /// @param expected   error text for a file without any of these
 /// @return a line for each section that neither we nor, as far as known, MRPT's programs use
 /// @throws InputError for a missing file, a file without any of our sections, a misspelt section, a malformed
-///         or overlong line, a setting of a section neither ours nor in the file, and as
-///         Options::loadFromConfigFile
+///         or overlong line, $eval{...} or $env{...}, a setting of a section neither ours nor in the file,
+///         and as Options::loadFromConfigFile
 std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const std::string& file,
                                  const std::vector<std::string>& settings, const Sections& sections,
                                  const std::string& otherwise, const std::string& expected);

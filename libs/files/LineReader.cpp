@@ -10,7 +10,6 @@ namespace hybrid_slam::files {
 namespace {
 
 constexpr size_t kBufferSize = 1 << 16;
-constexpr size_t kLongestLine = 1 << 20;
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 /// @brief The lines of a text file, plain or compressed, one at a time.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 namespace hybrid_slam::files {
 
 class CompressedFile;
+
+constexpr size_t kLongestLine = 1 << 20;  ///< bytes; no text log and no table has longer ones
 
 /// Reads a text file as a stream with constant memory. Compression (CompressedFile.h) is detected from
 /// the content, not the name.
@@ -21,9 +24,8 @@ class LineReader {
   LineReader& operator=(const LineReader&) = delete;
 
   /// The next line without its line break; false after the last one. The last line may lack a line break.
-  /// @throws InputError for a truncated or damaged compressed file, a read error, and a line longer than 1
-  /// MiB (no
-  ///         text log has one)
+  /// @throws InputError for a truncated or damaged compressed file, for a read error, and for a line longer
+  ///         than 1 MiB, which no text log has
   bool next(std::string& line);
   /// Number of the last line read, from 1.
   size_t number() const { return number_; }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -26,13 +26,10 @@ std::vector<std::string> readAll(LineReader& lines) {
 }
 
 std::string errorOf(const std::string& path) {
-  try {
+  return test::errorOf([&] {
     LineReader lines(path);
     readAll(lines);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  });
 }
 
 /// Does not compress, so that the first half of the file holds about half of the content.

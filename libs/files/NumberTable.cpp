@@ -2,11 +2,14 @@
 
 #include <zlib.h>
 
+#include <functional>
 #include <memory>
 #include <sstream>
+#include <string_view>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "files/LineReader.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -26,18 +29,30 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 /// zlib also reads plain files.
-std::string readWhole(const std::string& file, const std::string& expected) {
+void forEachLine(const std::string& file, const std::string& expected,
+                 const std::function<void(const std::string& line, size_t number)>& use) {
+  const std::string where = "file `" + file + "`";
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> input(gzopen(file.c_str(), "rb"), gzclose);
-  if (!input) throw InputError("cannot open the file", "file `" + file + "`", expected);
-  std::string text;
+  if (!input) throw InputError("cannot open the file", where, expected);
+  std::string line;
+  size_t number = 1;
   std::vector<char> buffer(1 << 16);
   int count = 0;
   while ((count = gzread(input.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0)
-    text.append(buffer.data(), static_cast<size_t>(count));
+    for (const char c : std::string_view(buffer.data(), static_cast<size_t>(count))) {
+      if (c == '\n') {
+        use(line, number++);
+        line.clear();
+      } else if (line.size() < kLongestLine) {
+        line += c;
+      } else {
+        throw InputError("line too long", where + ", line " + std::to_string(number), expected);
+      }
+    }
   int state = Z_OK;
   gzerror(input.get(), &state);  // gzread reports no error for a truncated gzip file
-  if (count < 0 || state != Z_OK) throw InputError("cannot read the file", "file `" + file + "`", expected);
-  return text;
+  if (count < 0 || state != Z_OK) throw InputError("cannot read the file", where, expected);
+  if (!line.empty()) use(line, number);
 }
 
 }  // namespace
@@ -47,16 +62,14 @@ std::vector<NumberRow> readNumberTable(const std::string& file, const std::strin
   const auto split = isCsv ? cells : words;
   const size_t width = split(columns).size();
   const std::string expected = "expected lines of " + std::to_string(width) + " numbers, `" + columns + "`";
-  std::istringstream text(readWhole(file, expected));
 
   std::vector<NumberRow> rows;
-  std::string line;
-  for (size_t number = 1; std::getline(text, line); ++number) {
+  forEachLine(file, expected, [&](const std::string& line, size_t number) {
     const std::vector<std::string> entries = split(line);
-    if (isCsv && number == 1 && entries == split(columns)) continue;
+    if (isCsv && number == 1 && entries == split(columns)) return;
     if (isCsv && number == 1)
       throw InputError("wrong header", "file `" + file + "`", "expected `" + columns + "`");
-    if (entries.empty() || line.front() == '#') continue;
+    if (entries.empty() || line.front() == '#') return;
     NumberRow row{number, {}};
     for (const std::string& entry : entries) {
       const auto value = parseFinite(entry);
@@ -66,7 +79,7 @@ std::vector<NumberRow> readNumberTable(const std::string& file, const std::strin
     if (entries.size() != width || row.values.size() != width)
       throw InputError("broken line", "file `" + file + "`, line " + std::to_string(number), expected);
     rows.push_back(std::move(row));
-  }
+  });
   if (rows.empty()) throw InputError("the file is empty", "file `" + file + "`", expected);
   return rows;
 }

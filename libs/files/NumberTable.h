@@ -18,7 +18,7 @@ struct NumberRow {
 /// @param columns  column names separated by blanks, "t x y theta", or by commas as in the file, "t,x,y": the
 ///                 first line of the file is then this header
 /// @throws InputError for an unreadable or truncated file, for another header, for a line without exactly one
-/// finite number per column (with its number), and for a file without rows.
+/// finite number per column or of over 1 MiB (with its number), and for a file without rows.
 std::vector<NumberRow> readNumberTable(const std::string& file, const std::string& columns);
 
 }  // namespace hybrid_slam::files

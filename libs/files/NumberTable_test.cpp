@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/Errors.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -28,12 +29,7 @@ struct NumberTable : testing::Test {
     gzclose(out);
   }
   std::string error() const {
-    try {
-      readNumberTable(file, "a b c");
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return test::errorOf([&] { readNumberTable(file, "a b c"); });
   }
 };
 
@@ -78,6 +74,13 @@ TEST_F(NumberTable, CommaSeparatedUnderAHeader) {
                            "a,b\n1,x\n", "a,b\n1 2\n", "a,b\n"}) {
     write(text);
     EXPECT_THROW(readNumberTable(file, "a,b"), InputError) << text;
+  }
+}
+
+TEST_F(NumberTable, OverlongLinesAreNamed) {
+  for (const char* begin : {"1 2 3\n# ", "1 2 3\n1 2 3 "}) {  // neither comments nor numbers may be so long
+    writeGzipped(begin + std::string(1 << 20, ' ') + "\n4 5 6\n");
+    EXPECT_EQ(error(), "line too long: file `" + file + "`, line 2; expected lines of 3 numbers, `a b c`");
   }
 }
 

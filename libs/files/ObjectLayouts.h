@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::files {
 
-/// Of a grid map: MRPT computes its size in 32 bits.
+/// Largest size of a grid map: MRPT computes its size in 32 bits.
 constexpr size_t kMostGridMapCells = size_t{1} << 28;
 
 struct ObjectLayout {

@@ -6,15 +6,16 @@
 
 #include <stdexcept>
 
-#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "testing/CommaLocale.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::files {
 namespace {
 
 namespace fs = std::filesystem;
+using test::errorOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
@@ -23,15 +24,6 @@ std::vector<std::string> namesIn(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
   return names;
-}
-
-std::string errorOf(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
 }
 
 TEST(OutputFolder, IsCreatedEmptyWithItsParents) {
@@ -113,6 +105,36 @@ TEST(GrowingFile, GetsItsNameWhenFinished) {
   file.finish();
   EXPECT_FALSE(fs::exists(root.path(".partial.steps.csv")));
   EXPECT_EQ(test::contentOf(root.path("steps.csv")), "row\n");
+}
+
+TEST(GrowingFile, TwoWritersOfOneNameDoNotMixTheirRows) {
+  const TemporaryFolder root;
+  const std::string path = root.path("steps.csv");
+  {
+    GrowingFile first(path), second(path), unfinished(path);
+    first.stream() << "first\n" << std::flush;
+    second.stream() << "2\n" << std::flush;
+    second.finish();
+    EXPECT_EQ(test::contentOf(path), "2\n");
+    GrowingFile third(path);  // its name is free again
+    third.stream() << "third" << std::flush;
+    first.stream() << "end\n";
+    first.finish();
+    EXPECT_EQ(test::contentOf(path), "first\nend\n");
+    third.finish();
+    EXPECT_EQ(test::contentOf(path), "third");
+  }
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv"));
+}
+
+TEST(GrowingFile, ReplacesWhatAKilledWriterHasLeft) {
+  const TemporaryFolder root;
+  root.write(".partial.steps.csv", "rows of a killed run\n");
+  GrowingFile file(root.path("steps.csv"));
+  file.stream() << "row\n";
+  file.finish();
+  EXPECT_EQ(test::contentOf(root.path("steps.csv")), "row\n");
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv"));
 }
 
 }  // namespace

@@ -1,5 +1,11 @@
 #include "files/PartialFile.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 
@@ -9,25 +15,55 @@ namespace hybrid_slam::files {
 
 namespace fs = std::filesystem;
 
-std::string PartialFile::partialName(const std::string& path) {
-  return (fs::path(path).parent_path() / (".partial." + fs::path(path).filename().string())).string();
+namespace {
+
+std::string nameOf(const fs::path& path, const std::string& number) {
+  return (path.parent_path() / (".partial" + number + "." + path.filename().string())).string();
 }
+
+/// Whether an open file still has this name.
+bool isNamed(int file, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+std::string PartialFile::partialName(const std::string& path) { return nameOf(path, ""); }
 
 PartialFile::PartialFile(const std::string& path) : final_(path), partial_(partialName(path)) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
     throw InputError("cannot write", path, "expected a file name");
+  claim();
+}
+
+/// The lock distinguishes the file of a running writer from that of a killed one. A file that cannot be
+/// opened is left to the writer, who reports it.
+void PartialFile::claim() {
+  for (int number = 1;;) {
+    lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) return;
+    const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (isLocked && isNamed(lock_, partial_)) return;
+    ::close(lock_);
+    if (!isLocked) partial_ = nameOf(final_, "-" + std::to_string(++number));
+  }
 }
 
 PartialFile::~PartialFile() {
   std::error_code ignored;
-  fs::remove(partial_, ignored);
+  if (!partial_.empty()) fs::remove(partial_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void PartialFile::commit() {
   std::error_code error;
   fs::rename(partial_, final_, error);
   if (error) fail(error.value());
+  partial_.clear();  // another writer may have that name now
 }
 
 void PartialFile::fail(int error) const {

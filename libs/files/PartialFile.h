@@ -6,7 +6,9 @@
 
 namespace hybrid_slam::files {
 
-/// Until `commit` the file is `.partial.NAME` in the folder of NAME; without `commit` it is removed.
+/// Until `commit` the file is `.partial.NAME` in the folder of NAME; without `commit` it is removed. While
+/// another writer, in any process, has that file, it is `.partial-2.NAME` and so on. What a killed process
+/// has left is replaced.
 class PartialFile {
  public:
   /// @throws InputError if the name is a folder or device, which must not be replaced
@@ -15,7 +17,7 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  /// The name until then of a file.
+  /// The name until then of a file with one writer.
   static std::string partialName(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then
@@ -26,7 +28,10 @@ class PartialFile {
   [[noreturn]] void fail(int error) const;
 
  private:
+  void claim();
+
   std::string final_, partial_;
+  int lock_ = -1;  ///< held while this object lives
 };
 
 }  // namespace hybrid_slam::files

@@ -34,12 +34,16 @@ bool isRenamable(const fs::path& folder) {
 }
 
 /// To disk, so that a power cut after the renaming leaves no empty files.
+/// @throws InputError if a file does not get there
 void sync(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) continue;
-    ::fsync(file);
-    ::close(file);
+    const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
+    if (file >= 0) ::close(file);
+    if (error)
+      throw InputError(
+          "cannot write", entry.path().string(),
+          std::string("expected a writable folder with free disk space: ") + std::strerror(error));
   }
 }
 
@@ -87,6 +91,11 @@ bool StagedFolder::holdsResults() const {
   });
 }
 
+bool StagedFolder::isOfAnother(const std::string& name) const {
+  std::error_code ignored;
+  return name != own_ && fs::is_regular_file(final_ / name, ignored);
+}
+
 void StagedFolder::takeDatedSubfolder() {
   const fs::path folder = final_;
   const std::string name = claimDatedName([&](const std::string& date) {
@@ -100,7 +109,7 @@ void StagedFolder::takeDatedSubfolder() {
   created_.push_back(final_);
 }
 
-/// The lock tells the folders of running programs from those of killed ones.
+/// The lock distinguishes the folders of running programs from those of killed ones.
 void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   removeDead(place, prefix);
   for (;;) {

@@ -30,6 +30,8 @@ class StagedFolder {
 
   /// A result that this run has written to the final folder already.
   void setOwn(const std::string& name) { own_ = name; }
+  /// Whether another run has written this file to the final folder.
+  bool isOfAnother(const std::string& name) const;
   /// The hidden folder.
   const OutputFolder& files() const { return *files_; }
   /// As the user wrote it, or its dated subfolder.
@@ -40,7 +42,8 @@ class StagedFolder {
   /// One line if the results do not go to the folder asked for; else empty.
   std::string note() const;
 
-  /// @throws InputError if the results cannot be renamed; they then stay in the hidden folder, which it names
+  /// @throws InputError if the results cannot be written to disk, or cannot be renamed; they then stay in the
+  ///         hidden folder, which it names
   void publish();
 
  private:

@@ -128,6 +128,18 @@ TEST_F(StagedFolderTest, ARunThatFinishesFirstIsNotReplaced) {
   EXPECT_THAT(slow.note(), HasSubstr(out + "/20"));
 }
 
+TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {
+  run("1");
+  {
+    StagedFolder staged(out, kNames, true);
+    write(staged, "2");
+    fs::create_symlink("/dev/null", staged.files().path("extra"));  // which cannot be synced
+    EXPECT_THROW(staged.publish(), InputError);
+  }
+  EXPECT_EQ(inOut("map"), "1");
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("out"));
+}
+
 TEST_F(StagedFolderTest, ASymbolicLinkToAFolderStays) {
   fs::create_directory(root.path("target"));
   fs::create_directory_symlink("target", out);

@@ -19,14 +19,15 @@ struct StampedPose {
 using Trajectory = std::vector<StampedPose>;
 
 /// Reads `timestamp x y z qx qy qz qw` (s, m, unit quaternion): keeps x, y and yaw.
-/// @throws InputError for an unreadable or empty file, a broken line or a quaternion not of unit length.
+/// @throws InputError for an unreadable or empty file, a broken line, a coordinate beyond 10,000 km or a
+///         quaternion not of unit length.
 Trajectory loadTum(const std::string& file);
 
 /// Writes the TUM format, rounded to 1e-6 s, 1e-9 m and 1e-9 in the quaternion.
 void saveTum(const Trajectory& trajectory, std::ostream& out);
 
 /// Reads raw odometry, `t x y theta` (s, m, rad).
-/// @throws InputError for an unreadable or empty file or a broken line.
+/// @throws InputError for an unreadable or empty file, a broken line or a coordinate beyond 10,000 km.
 Trajectory loadOdometry(const std::string& file);
 
 }  // namespace hybrid_slam::files

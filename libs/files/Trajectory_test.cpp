@@ -11,6 +11,7 @@
 
 #include "base/Errors.h"
 #include "base/RandomStream.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -55,14 +56,23 @@ TEST_F(TrajectoryFile, TumRoundedQuaternionIsAcceptedAndABrokenOneIsNot) {
   EXPECT_NEAR(loadTum(fileWith("0 0 0 0 0 0 0.71 0.71\n")).at(0).pose.phi, M_PI / 2, 1e-12);
   for (const char* quaternion : {"0 0 0 0", "0 0 1 1", "0 0 0 0.5"}) {
     fileWith("0 0 0 0 0 0 0 1\n1 0 0 0 " + std::string(quaternion) + "\n");
-    try {
-      loadTum(file);
-      ADD_FAILURE() << quaternion;
-    } catch (const InputError& e) {
-      EXPECT_EQ(std::string(e.what()),
-                "broken line: file `" + file + "`, line 2; expected a quaternion `qx qy qz qw` of length 1");
-    }
+    EXPECT_EQ(test::errorOf([&] { loadTum(file); }),
+              "broken line: file `" + file + "`, line 2; expected a quaternion `qx qy qz qw` of length 1")
+        << quaternion;
   }
+}
+
+TEST_F(TrajectoryFile, CoordinatesBeyondTheEarthAreNamed) {
+  const std::string error = "broken line: file `" + file + "`, line 2; expected coordinates in -1e7..1e7 m";
+  for (const char* xyz : {"1e200 0 0", "0 -10000001 0", "0 0 1e8"}) {
+    fileWith("0 0 0 0 0 0 0 1\n1 " + std::string(xyz) + " 0 0 0 1\n");
+    EXPECT_EQ(test::errorOf([&] { loadTum(file); }), error) << xyz;
+  }
+  for (const char* xy : {"-1e200 0", "0 10000001"}) {
+    fileWith("0 0 0 0\n1 " + std::string(xy) + " 0\n");
+    EXPECT_EQ(test::errorOf([&] { loadOdometry(file); }), error) << xy;
+  }
+  EXPECT_EQ(loadTum(fileWith("0 500000 -10000000 0 0 0 0 1\n")).at(0).pose.y, -1e7);
 }
 
 TEST_F(TrajectoryFile, SaveAndLoadRoundTripKeepsTheOrder) {

@@ -38,7 +38,7 @@ struct RunOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// As in `--method`, such as "hybrid".
+/// The method's name on the command line (`--method`), such as "hybrid".
 std::string nameOf(RunOptions::Method method);
 
 /// All settings of a replay. Other sections (MRPT's, a grabber's) are ignored.

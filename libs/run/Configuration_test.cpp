@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -20,13 +20,9 @@ class ConfigurationTest : public testing::Test {
     return {folder.write("run.ini", text), settings};
   }
   std::string errorOf(const std::string& text, const std::vector<std::string>& settings = {}) {
-    try {
-      load(text, settings);
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), Not(HasSubstr("\n")));
-      return e.what();
-    }
-    return "no error";
+    const std::string error = test::errorOf([&] { load(text, settings); });
+    EXPECT_THAT(error, Not(HasSubstr("\n")));
+    return error;
   }
   files::TemporaryFolder folder;
   std::string ini = folder.path("run.ini");
@@ -48,13 +44,8 @@ TEST_F(ConfigurationTest, LoadsEverySection) {
 }
 
 TEST_F(ConfigurationTest, UnreadableFile) {
-  const auto errorOfFile = [](const std::string& path) -> std::string {
-    try {
-      Configuration(path, {});
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+  const auto errorOfFile = [](const std::string& path) {
+    return test::errorOf([&] { Configuration(path, {}); });
   };
   EXPECT_EQ(errorOfFile(folder.path("none.ini")),
             "no such file: " + folder.path("none.ini") + "; expected a readable INI file");
@@ -138,6 +129,33 @@ TEST_F(ConfigurationTest, ExpandsMrptsSubstitutions) {
   EXPECT_EQ(load("@define N 7\n[particle_filter]\nparticles = ${N}\n").filter.filter.particles, 7);
   EXPECT_THAT(errorOf("[particle_filter]\nparticles = ${NUMBER\n"),
               StartsWith("cannot parse: " + ini + "; "));
+}
+
+/// MRPT's parser would repeat for ever, or fill the memory.
+TEST_F(ConfigurationTest, EndlessMacrosAreRefused) {
+  const std::string expected = "; expected its value; of MRPT's macros, only @define is expanded";
+  const std::string loop = "$eval{var a:=0; while (a < 1) {a:=0;}}";
+  EXPECT_EQ(errorOf("[run]\n@define a 1\n# $eval{repeat a:=1; until (a > 2)}\n"),
+            "macro $eval{...}: " + ini + ", line 3" + expected);
+  EXPECT_EQ(errorOf("@define a " + loop + "\n[run]\noutput = ${a}\n"),
+            "macro $eval{...}: " + ini + ", line 1" + expected);
+  EXPECT_EQ(errorOf("[run]\noutput = $env{HOME}\n"), "macro $env{...}: " + ini + ", line 2" + expected);
+  EXPECT_THAT(errorOf("[run]\noutput = $e\\\nval{" + loop.substr(6) + "\n"),  // in two lines
+              StartsWith("macro $eval{...}: " + ini));
+  Configuration ofASession;
+  EXPECT_THAT(test::errorOf([&] { ofASession.load("[run]\noutput = " + loop + "\n", "a.session"); }),
+              StartsWith("macro $eval{...}: a.session, line 2"));
+}
+
+TEST_F(ConfigurationTest, DefinitionsCannotMakeAFileLarge) {
+  const auto withUses = [](int uses) {
+    std::string text = "@define a " + std::string(9900, 'x') + "\n[run]\n[other]\n";
+    for (int i = 0; i < uses; ++i) text += "k" + std::to_string(i) + " = ${a}\n";
+    return text;
+  };
+  EXPECT_EQ(errorOf(withUses(100)), "no error");
+  EXPECT_EQ(errorOf(withUses(101)), "definitions too long: " + ini +
+                                        ", line 104; expected at most 1000000 bytes once they are expanded");
 }
 
 TEST_F(ConfigurationTest, SettingsOverrideTheFile) {

@@ -1,7 +1,10 @@
 #include "run/FilterRun.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
@@ -18,6 +21,7 @@
 namespace hybrid_slam::run {
 namespace {
 
+namespace fs = std::filesystem;
 using Method = RunOptions::Method;
 
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
@@ -35,11 +39,25 @@ std::unique_ptr<PlanSearch> planSearchOf(const Configuration& configuration) {
                                       configuration.run.start);
 }
 
+/// The results, and the checkpoint that they replace.
+std::vector<std::string> allFiles() {
+  std::vector<std::string> all{kCheckpointName};
+  all.insert(all.end(), kResultFiles.begin(), kResultFiles.end());
+  return all;
+}
+
+/// The session that the run goes on from, if it is in the output folder.
+std::string ownFile(const RunOptions& run) {
+  const fs::path name = fs::path(run.resume).filename();
+  std::error_code ignored;
+  return !name.empty() && fs::equivalent(run.resume, run.output / name, ignored) ? name.string() : "";
+}
+
 std::string describe(const LoopClosure& loop, const std::vector<double>& times) {
   return "loop closed at (" + fixedText(loop.place.x, 1) + ", " + fixedText(loop.place.y, 1) +
          ") m between " + fixedText(times.at(loop.earlier), 1) + " s and " +
          fixedText(times.at(loop.later), 1) + " s: path moved by up to " + fixedText(loop.shift, 2) +
-         " m and " + fixedText(loop.turn * 180 / M_PI, 1) + " deg; " + std::to_string(loop.matches) +
+         " m and " + fixedText(mrpt::RAD2DEG(loop.turn), 1) + " deg; " + std::to_string(loop.matches) +
          " matches agree, at least " + fixedText(100 * loop.fit, 0) +
          " % of their walls fit, other places score " + fixedText(100 * loop.second, 0) + " % of theirs";
 }
@@ -49,8 +67,7 @@ std::string describe(const LoopClosure& loop, const std::vector<double>& times) 
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     : configuration_(configuration),
       start_(start),
-      staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
-              configuration.run.resume.empty() ? "" : kSessionName),
+      staged_(configuration.run.output, allFiles(), configuration.run.overwrite, ownFile(configuration.run)),
       folder_(staged_.files()),
       steps_(folder_.path("steps.csv")),
       cell_(configuration.filter.grid.resolution) {
@@ -117,7 +134,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   if (!search_->isLocalized()) return;
   const mrpt::math::TPose2D pose = search_->bestPath().back();
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(pose.x, 2) + ", " +
-                   fixedText(pose.y, 2) + ") m, " + fixedText(pose.phi * 180 / M_PI, 1) +
+                   fixedText(pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(pose.phi), 1) +
                    " deg in the map of " + configuration_.run.continueFrom);
   hybrid_->joinMap(*earlierMap_, pose);
   earlierMap_.reset();
@@ -131,8 +148,9 @@ void FilterRun::searchPlan(const readings::Reading& reading) {
   const auto& found = search->found();
   if (!found) return;
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
-                   ", " + fixedText(found->pose.y, 2) + ") m, " + fixedText(found->pose.phi * 180 / M_PI, 1) +
-                   " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 2));
+                   ", " + fixedText(found->pose.y, 2) + ") m, " +
+                   fixedText(mrpt::RAD2DEG(found->pose.phi), 1) + " deg in " + configuration_.run.priorPlan +
+                   ", scaled by " + fixedText(found->scale, 3));
   hybrid_->joinMap(found->map, found->pose);
 }
 

@@ -33,15 +33,14 @@ class FilterRun {
 
   /// @param configuration  must outlive the run
   /// @param start          start of `wall_s`
-  /// @throws InputError for settings the filter rejects, a wrong map of an earlier run, or an unwritable
-  /// output
-  ///         folder
+  /// @throws InputError for settings the filter rejects, a wrong map of an earlier run, or an output folder
+  ///         that cannot be written
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
-  /// Passes one reading to the filter. While the start in the map of an earlier run is searched for, it
-  /// waits.
-  /// @return true for an update of `view`, false if only the odometry was accumulated
+  /// Passes one reading to the filter. Until the place in the map of an earlier run or in a floor plan is
+  /// found, it also goes to the search for this place, and the filter maps in its own frame.
+  /// @return true for an update of the filter, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
   /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
@@ -66,6 +65,8 @@ class FilterRun {
   void saveMapTo(const std::string& folder);
   /// Called before each session is written. What it was given must be on disk to resume from the session.
   void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
+  /// Whether the filter maps on in a map or with a floor plan, of this run or the one that is resumed.
+  bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
   /// One line if the place in the map of an earlier run has not been found; else empty.
   std::string placeNote() const;
 
@@ -95,7 +96,7 @@ class FilterRun {
   /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
-  /// Of the finished run.
+  /// The verdict on the map of the finished run.
   const Verdict& verdict() const { return verdict_; }
 
  private:

@@ -1,4 +1,5 @@
 // The results of a run, at its end.
+#include <mrpt/core/bits_math.h>
 #include <mrpt/system/os.h>
 
 #include <algorithm>
@@ -39,9 +40,10 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
   return all;
 }
 
-/// Of poses in a fixed map: the spread of the particles, and 1 cm and 0.1 deg for a scan match.
+/// The covariances of poses in a fixed map: the spread of the particles, and 1 cm and 0.1 deg for a scan
+/// match.
 std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances) {
-  const double angle = 0.1 * M_PI / 180;
+  const double angle = mrpt::DEG2RAD(0.1);
   for (PoseCovariance& covariance : covariances)
     covariance.diagonal() += Eigen::Vector3d(1e-4, 1e-4, angle * angle);
   return covariances;

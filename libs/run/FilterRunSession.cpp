@@ -10,6 +10,7 @@
 #include "run/Fingerprint.h"
 #include "run/MapFiles.h"
 #include "run/PlanFiles.h"
+#include "run/ResultFiles.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam::run {
@@ -94,7 +95,8 @@ void FilterRun::restore(const std::string& state) {
   planSearch_.reset();
 }
 
-/// A full disk must not end the run.
+/// A full disk must not end the run. Beside the files of another run, which `finish` may be about to replace,
+/// the checkpoint has a name of its own, so that a kill leaves these as they are.
 void FilterRun::saveIfDue() {
   try {
     if (isSaveRequested_.exchange(false)) saveToDatedFolder();
@@ -104,8 +106,10 @@ void FilterRun::saveIfDue() {
   const double every = configuration_.run.checkpointEvery;
   if (every <= 0 || !hybrid_ || search_ || planSearch_ || secondsSince(lastCheckpoint_) < every) return;
   try {
-    staged_.setOwn(kSessionName);
-    saveSessionTo(staged_.finalPath(kSessionName), hybrid_->bestMap(), hybrid_->bestPath());
+    const bool isBeside = staged_.isOfAnother(kSessionName) || staged_.isOfAnother(kResultFiles.back());
+    const std::string name = isBeside ? kCheckpointName : kSessionName;
+    staged_.setOwn(name);
+    saveSessionTo(staged_.finalPath(name), hybrid_->bestMap(), hybrid_->bestPath());
   } catch (const std::exception& e) {
     notes_.push_back("no checkpoint: " + messageOf(e));
   }
@@ -149,8 +153,7 @@ void FilterRun::resume(SessionReader& session) {
                      "expected method hybrid or general");
   updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
-  std::error_code ignored;  // what a killed run leaves of its next checkpoint
-  std::filesystem::remove(files::PartialFile::partialName(session.file()), ignored);
+  const files::PartialFile left(session.file());  // removes what a killed run leaves of its next checkpoint
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {

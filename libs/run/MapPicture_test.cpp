@@ -59,7 +59,7 @@ class Picture : public testing::Test {
   }
   /// Smooth lines are paler beside their middle.
   static bool isLike(const cv::Vec3b& a, const cv::Vec3b& b) { return cv::norm(a, b) < 120; }
-  /// Of the legend, those of a colour.
+  /// Number of pixels of a colour in the legend.
   int legendPixels(const cv::Vec3b& colour) const {
     const cv::Mat legend = image.rowRange(map.y + map.height + 1, image.rows);
     return static_cast<int>(

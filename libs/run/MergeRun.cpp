@@ -1,5 +1,6 @@
 #include "run/MergeRun.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/system/os.h>
 
@@ -36,7 +37,7 @@ double rounded(double value) { return std::round(1e4 * value) / 1e4; }
 nlohmann::ordered_json json(const MapPlacement& placement, const TPose2D& frame) {
   return {{"x_m", rounded(frame.x)},
           {"y_m", rounded(frame.y)},
-          {"phi_deg", rounded(mrpt::math::wrapToPi(frame.phi) * 180 / M_PI)},
+          {"phi_deg", rounded(mrpt::RAD2DEG(mrpt::math::wrapToPi(frame.phi)))},
           {"fit", rounded(placement.agreement.fit)},
           {"overlap", rounded(placement.agreement.overlap)},
           {"compared_walls_m", rounded(placement.compared)},
@@ -111,9 +112,10 @@ MergeOutcome merge(const MergeOptions& options) {
   staged.publish();
   outcome.isMerged = true;
   outcome.note = staged.note();
-  outcome.summary = "B lies at (" + fixedText(merged.frame.x, 2) + ", " + fixedText(merged.frame.y, 2) +
-                    ") m, " + fixedText(mrpt::math::wrapToPi(merged.frame.phi) * 180 / M_PI, 1) +
-                    " deg in A: " + figures(placement) + ": " + staged.finalPath("map.png");
+  outcome.summary = "B's origin in A: (" + fixedText(merged.frame.x, 2) + ", " +
+                    fixedText(merged.frame.y, 2) + ") m, " +
+                    fixedText(mrpt::RAD2DEG(mrpt::math::wrapToPi(merged.frame.phi)), 1) +
+                    " deg: " + figures(placement) + ": " + staged.finalPath("map.png");
   return outcome;
 }
 

@@ -1,5 +1,6 @@
 #include "run/PathCovariance.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -15,14 +16,13 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double square(double x) { return x * x; }
-constexpr double kDegree = M_PI / 180;
 
-// From simulated logs: doc/verdict.md.
-constexpr double kDrift = 0.01, kDriftAngle = 0.019 * kDegree;           // per sqrt(m), with lines
-constexpr double kOpenDrift = 0.028, kOpenDriftAngle = 0.058 * kDegree;  // without lines
-constexpr double kMatch = 0.01, kMatchAngle = 0.1 * kDegree;             // of a scan match
-constexpr double kBetween = 0.02, kBetweenAngle = 1 * kDegree;           // per sqrt(m), odometry alone
-constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;                // m
+// Tuned on simulated logs: doc/verdict.md.
+constexpr double kDrift = 0.01, kDriftAngle = mrpt::DEG2RAD(0.019);           // per sqrt(m), with lines
+constexpr double kOpenDrift = 0.028, kOpenDriftAngle = mrpt::DEG2RAD(0.058);  // without lines
+constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.1);             // of a scan match
+constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);         // per sqrt(m), odometry alone
+constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;                     // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();

@@ -14,10 +14,10 @@
 
 namespace hybrid_slam::run {
 
-/// Of (x, y, phi), map frame; m, rad.
+/// Covariance of (x, y, phi), map frame; m, rad.
 using PoseCovariance = Eigen::Matrix3d;
 
-/// Of the weighted particles; zero without particles.
+/// Covariance of the weighted particles; zero without particles.
 PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles);
 
 /// Covariance of each pose of the path with respect to the first: a random walk along the path, or along a

@@ -1,6 +1,7 @@
 #include "run/Replay.h"
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,9 @@
 #include "run/Resume.h"
 
 namespace hybrid_slam::run {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 std::string spreadNote(const FilterStep& step) {
@@ -37,6 +41,7 @@ class Pass {
     const std::string& file = configuration_.run.rawlog;
     const std::string cut = process(run, session, stop);
     if (isSecond_ && !cut.empty()) throw std::runtime_error(cut);
+    if (run.scans() == 0 && !cut.empty()) throw std::runtime_error(cut + ", before the first scan");
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
     outcome.warnings = readings::warningsOf(log_, file);
     if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
@@ -84,6 +89,21 @@ class Pass {
   Progress progress_;
 };
 
+/// Whether a file is in a folder.
+bool isIn(const std::string& file, const std::string& folder) {
+  std::error_code ignored;
+  return !file.empty() && fs::equivalent(fs::canonical(file, ignored).parent_path(), folder, ignored);
+}
+
+/// Why a second run cannot start from the map or plan that the first started from; empty if it can.
+std::string missingStart(const FilterRun& run, const RunOptions& options) {
+  for (const std::string& file : {options.continueFrom, options.priorPlan})
+    if (isIn(file, run.folder())) return "these results may have replaced " + file;
+  if (!options.resume.empty() && run.hasEarlierMap())
+    return "the session does not hold the map that the run began with";
+  return {};
+}
+
 /// Whether more particles may map what this run has lost.
 bool isRetryDue(const ReplayOutcome& outcome, const Configuration& c) {
   const auto method = c.run.method;
@@ -110,6 +130,10 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   ReplayOutcome outcome =
       Pass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
   if (!isRetryDue(outcome, configuration)) return outcome;
+  if (const std::string missing = missingStart(*run, configuration.run); !missing.empty()) {
+    outcome.warnings.push_back("no second run: " + missing);
+    return outcome;
+  }
 
   // The results of the first run stay until those of the second replace them.
   const std::string particles = std::to_string(configuration.run.retryParticles);

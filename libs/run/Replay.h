@@ -25,7 +25,8 @@ struct ReplayOutcome {
 /// configuration.run.output. A resumed run takes configuration, log and output from the session (Resume.h).
 /// @param stop  set externally (Ctrl-C): the run ends after the current scan and writes its results
 /// @param wantsProfile  measure stage times
-/// @throws InputError for a wrong log or output folder, std::runtime_error if a result cannot be written
+/// @throws InputError for a wrong log or output folder, or a result that cannot be written;
+///         std::runtime_error if the run ends before its first scan, and so without results
 ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
                      bool wantsProfile = false);
 

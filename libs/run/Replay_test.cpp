@@ -48,6 +48,26 @@ TEST(Replay, TheResultsAreTheSameInEveryLocale) {
   }
 }
 
+TEST(Replay, ARunThatIsStoppedBeforeItsFirstScanReplacesNothing) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(10));
+  const std::vector<std::string> settings{"run.rawlog=" + log, "run.output=" + folder.path("out"),
+                                          "particle_filter.particles=2", "grid.resolution=0.1"};
+  for (const bool stops : {false, true}) {
+    SCOPED_TRACE(stops);
+    Configuration c("", settings);
+    c.run.overwrite = true;
+    const std::atomic<bool> stop{stops};
+    if (stops) {
+      EXPECT_THROW(replay(c, true, stop), std::runtime_error);
+    } else {
+      replay(c, true, stop);
+    }
+    EXPECT_THAT(test::contentOf(folder.path("out/metrics.json")), testing::HasSubstr("\"complete\": true"));
+    EXPECT_GT(test::contentOf(folder.path("out/trajectory.tum")).size(), 100u);
+  }
+}
+
 /// A straight drive to the north-east, with walls 4 m to both sides: steps of 70 m without overlap.
 test::Log straightDrive(double length) {
   test::Log log;

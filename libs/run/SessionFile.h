@@ -14,6 +14,8 @@
 namespace hybrid_slam::run {
 
 inline const char* const kSessionName = "session.hslam";
+/// A checkpoint of a run that is to replace the results in its folder.
+inline const char* const kCheckpointName = "checkpoint.hslam";
 
 /// What every use of a session needs. The state of the run follows in the file (FilterRun), unless the map
 /// was merged of others.

@@ -20,7 +20,7 @@ class TimeLeft {
   std::optional<double> after(size_t done, double elapsed);
 
  private:
-  /// Of half as many scans, interpolated.
+  /// The time (s) at which half as many scans were done, interpolated.
   double timeOfHalf(double done) const;
 
   size_t total_;

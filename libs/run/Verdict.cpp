@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kGap = 2;            // m of path within one doubtful place
 constexpr size_t kFewest = 4;         // contradicted scans of a place, and of a lost map
-constexpr size_t kFewestInDoubt = 2;  // contradicted scans of a doubtful map, or all
+constexpr size_t kFewestInDoubt = 2;  // contradicted scans of a doubtful map; 1 if it is the only scan
 constexpr size_t kMostPlaces = 10;
 
 // Calibrated on seeds from 101 on: doc/verdict.md.
