@@ -162,7 +162,7 @@ TEST_F(Log2Rawlog, ConvertsAnInstalledLog) {
   const test::Outcome outcome =
       test::shell(folder, "'" + installed.path + "' data/robot.clf '" + rawlog + "'");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(entries(), 2u);
+  EXPECT_EQ(entries(), 3u);
 }
 
 TEST_F(Log2Rawlog, HelpAndVersion) {

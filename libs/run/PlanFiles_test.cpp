@@ -98,7 +98,7 @@ TEST_F(PlanFiles, DxfInEveryUnitIsReadInMetres) {
   EXPECT_NEAR(lengthIn("0"), 50, 1e-9);
   EXPECT_NEAR(lengthIn("1"), 1.27, 1e-9);    // inches
   EXPECT_NEAR(lengthIn("10"), 45.72, 1e-9);  // yards
-  EXPECT_NEAR(lengthIn("7"), 5e4, 1e-6);     // km
+  EXPECT_NEAR(lengthIn("16"), 5000, 1e-6);   // hectometres
   EXPECT_THAT(errorOf("light-years.dxf", "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n19\n0\nENDSEC\n0\nEOF\n"),
               HasSubstr("unknown unit, $INSUNITS 19"));
 }
@@ -133,7 +133,7 @@ TEST_F(PlanFiles, CountsAndAnglesOfADxfAreNotBelieved) {
               HasSubstr("without walls"));
   EXPECT_LE(load("a.dxf", head + "0\nARC\n8\n0\n10\n0\n20\n0\n40\n1\n50\n0\n51\n1e300\n" + tail).size(), 36u);
   EXPECT_THAT(errorOf("a.dxf", head + "0\nLINE\n8\n0\n10\nx\n" + tail),
-              HasSubstr("line 7 of the DXF: expected a number"));
+              HasSubstr("line 9 of the DXF: expected a number"));
   std::string circles = head;
   for (int i = 0; i < 30'000; ++i) circles += "0\nCIRCLE\n40\n2e-5\n";
   EXPECT_THAT(errorOf("a.dxf", circles + tail), HasSubstr("over a million walls"));
