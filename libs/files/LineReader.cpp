@@ -9,14 +9,14 @@
 namespace hybrid_slam::files {
 namespace {
 
-constexpr size_t kBufferSize = 1 << 16;
+constexpr size_t kLineBuffer = 1 << 16;
 
 }  // namespace
 
 LineReader::LineReader(const std::string& path)
     : path_(path),
       file_(std::make_unique<CompressedFile>(path, "expected a log, plain or compressed")),
-      buffer_(kBufferSize) {}
+      buffer_(kLineBuffer) {}
 
 LineReader::~LineReader() = default;
 
