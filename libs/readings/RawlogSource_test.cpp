@@ -218,49 +218,6 @@ TEST(RawlogSource, MemoryDoesNotGrowWhereTimeStandsStill) {
   for (size_t i = 0; i < r.entries.size(); ++i) EXPECT_LE(r.entries[i], i + 1010);
 }
 
-TEST(RawlogSource, MemoryDoesNotGrowBeforeTheFirstOdometry) {
-  test::Log log;
-  for (int i = 0; i < 3000; ++i) log.push_back(scan(0.1 * i));
-  log.push_back(test::odometry(300, {7, 0, 0}));
-  log.push_back(scan(300));
-  const files::TemporaryFolder folder;
-  test::writePlain(folder.path("log"), log);
-  RawlogSource source(folder.path("log"), {}, summarise(folder.path("log"), {}));
-  size_t readings = 0;
-  for (; const auto reading = source.next(); ++readings) EXPECT_EQ(reading->motion, mrpt::math::TPose2D());
-  EXPECT_LE(readings, 1001u);
-  EXPECT_GE(readings, 1000u);
-}
-
-/// Odometry that is wrong by steps below the limit of a jump does not place a laser far from its robot.
-TEST(RawlogSource, ScansFarApartAreNoReading) {
-  test::Log log{test::odometry(1, {0, 0, 0}), scan(1, {}, 3, "front"), scan(1, {}, 3, "rear")};
-  for (int i = 1; i <= 40; ++i) {
-    log.push_back(test::odometry(2 + 0.002 * i, {70.0 * i, 0, 0}));
-    if (i == 1) log.push_back(scan(2.002, {}, 3, "front"));
-  }
-  log.push_back(scan(2.08, {}, 3, "rear"));
-  const files::TemporaryFolder folder;
-  test::writePlain(folder.path("log"), log);
-  RawlogSource source(folder.path("log"), {}, summarise(folder.path("log"), {}));
-  mrpt::math::TPose2D pose;
-  while (const auto reading = source.next()) {
-    pose = pose + reading->motion;
-    for (const auto& taken : reading->scans) EXPECT_LE(taken->sensorPose.norm(), 10) << taken->sensorLabel;
-  }
-  EXPECT_NEAR(pose.x, 2800, 1e-6);
-}
-
-/// The reading after a wrong first one begins the path; map coordinates are no error.
-TEST(RawlogSource, AWrongFirstOdometryIsAJump) {
-  const Replayed r = replayed({test::odometry(1, {1e20, 0, 0}), scan(1), test::odometry(2, {5, 0, 0}),
-                               scan(2), test::odometry(3, {6, 0, 0}), scan(3)});
-  EXPECT_THAT(r.x, areNear({0, 0, 1}));
-  const Replayed utm =
-      replayed({test::odometry(1, {5e6, 4e5, 0}), scan(1), test::odometry(2, {5e6 + 1, 4e5, 0}), scan(2)});
-  EXPECT_THAT(utm.x, areNear({0, 1}));
-}
-
 /// Two lasers in sensory frames: by default both are used, otherwise the named ones.
 TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {
   const test::Log log{

@@ -1,0 +1,75 @@
+#include "readings/ReadingAssembler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::readings {
+namespace {
+
+using mrpt::math::TPose2D;
+using test::odometry;
+using test::scan;
+
+/// The readings of single observations.
+std::vector<Reading> assembled(const test::Log& log) {
+  ReadingAssembler assembler({}, true, 1);
+  std::vector<Reading> readings;
+  const auto drain = [&] {
+    while (auto reading = assembler.next()) readings.push_back(*reading);
+  };
+  for (const auto& object : log) {
+    assembler.take(object);
+    drain();
+  }
+  assembler.finish();
+  drain();
+  return readings;
+}
+
+TPose2D endOf(const std::vector<Reading>& readings) {
+  TPose2D pose;
+  for (const Reading& reading : readings) pose = pose + reading.motion;
+  return pose;
+}
+
+TEST(ReadingAssembler, MemoryDoesNotGrowBeforeTheFirstOdometry) {
+  test::Log log;
+  for (int i = 0; i < 3000; ++i) log.push_back(scan(0.1 * i));
+  log.push_back(odometry(300, {7, 0, 0}));
+  log.push_back(scan(300));
+  const std::vector<Reading> readings = assembled(log);
+  EXPECT_LE(readings.size(), 1001u);
+  EXPECT_GE(readings.size(), 1000u);
+  for (const Reading& reading : readings) EXPECT_EQ(reading.motion, TPose2D());
+}
+
+/// Odometry that is wrong by steps below the limit of a jump does not place a laser far from its robot.
+TEST(ReadingAssembler, ScansFarApartAreNoReading) {
+  test::Log log{odometry(1, {0, 0, 0}), scan(1, {}, 3, "front"), scan(1, {}, 3, "rear")};
+  for (int i = 1; i <= 40; ++i) {
+    log.push_back(odometry(2 + 0.002 * i, {70.0 * i, 0, 0}));
+    if (i == 1) log.push_back(scan(2.002, {}, 3, "front"));
+  }
+  log.push_back(scan(2.08, {}, 3, "rear"));
+  const std::vector<Reading> readings = assembled(log);
+  for (const Reading& reading : readings)
+    for (const auto& taken : reading.scans) EXPECT_LE(taken->sensorPose.norm(), 10) << taken->sensorLabel;
+  EXPECT_NEAR(endOf(readings).x, 2800, 1e-6);
+}
+
+/// The reading after a wrong first one begins the path; map coordinates are no error.
+TEST(ReadingAssembler, AWrongFirstOdometryIsAJump) {
+  const auto readings = assembled(
+      {odometry(1, {1e20, 0, 0}), scan(1), odometry(2, {5, 0, 0}), scan(2), odometry(3, {6, 0, 0}), scan(3)});
+  ASSERT_EQ(readings.size(), 3u);
+  EXPECT_EQ(readings[1].motion, TPose2D());
+  EXPECT_NEAR(endOf(readings).x, 1, 1e-6);
+  const auto utm = assembled({odometry(1, {5e6, 4e5, 0}), scan(1), odometry(2, {5e6 + 1, 4e5, 0}), scan(2)});
+  EXPECT_NEAR(endOf(utm).x, 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace hybrid_slam::readings
