@@ -163,9 +163,10 @@ void StagedFolder::publish() {
 
 /// Swaps both folders in one step. Links other files first, so that they are missing at no time.
 bool StagedFolder::exchange() const {
+  std::error_code isMovedLater;
   for (const auto& entry : fs::directory_iterator(final_))
     if (const std::string name = entry.path().filename().string(); !entry.is_directory() && !isResult(name))
-      (void)::linkat(AT_FDCWD, entry.path().c_str(), AT_FDCWD, (stage_ / name).c_str(), 0);
+      fs::create_hard_link(entry.path(), stage_ / name, isMovedLater);
   return ::renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0;
 }
 
