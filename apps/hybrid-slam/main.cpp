@@ -77,7 +77,6 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   const std::string usage = "expected hybrid-slam [config.ini] LOG";
   stopOnSignals();
   run::Configuration configuration(line.files.config, settings);
-  files::findInputFiles({&configuration.run.rawlog});
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   if (configuration.run.rawlog.empty() && line.session.resume.empty())

@@ -70,7 +70,7 @@ class Unpacked {
 
 /// Whether SQLite shall stop: the pages of a schema may refer to each other.
 int stopsOpening(void* steps) {
-  constexpr int kMostSteps = 1'000'000;  // of SQLite's machine; 10,000 topics need 100,000
+  constexpr int kMostSteps = 1'000'000;  // of SQLite's machine; 10,000 topics need fewer than 100,000
   return ++*static_cast<int*>(steps) > kMostSteps;
 }
 
@@ -95,7 +95,7 @@ Rosbag2Database::Rosbag2Database(const std::string& path)
   sqlite3_drop_modules(opened, nullptr);  // of virtual tables
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostChunkBytes));
   sqlite3_limit(opened, SQLITE_LIMIT_SQL_LENGTH, kLongestStatement);
-  int steps = 0;  // counted here: SQLite's own count begins anew with each row
+  int steps = 0;  // counted here, because SQLite restarts its own count at each row
   sqlite3_progress_handler(opened, 1, stopsOpening, &steps);
   sqlite3_exec(opened, "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0", nullptr, nullptr, nullptr);
   checkTable("topics", path);

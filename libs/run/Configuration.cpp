@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "files/InstalledFiles.h"
+
 namespace hybrid_slam::run {
 
 namespace {
@@ -48,6 +50,7 @@ Configuration::Configuration(const std::string& file, const std::vector<std::str
                              const files::Sections& more)
     : more_(more) {
   warnings = files::loadIni(source, file, settings, sections(), kStockSection, kExpected);
+  files::findInputFiles({&run.rawlog});
   setMethod(run.method);
 }
 

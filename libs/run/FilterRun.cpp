@@ -39,13 +39,6 @@ std::unique_ptr<PlanSearch> planSearchOf(const Configuration& configuration) {
                                       configuration.run.start);
 }
 
-/// The results, and the checkpoint that they replace.
-std::vector<std::string> allFiles() {
-  std::vector<std::string> all{kCheckpointName};
-  all.insert(all.end(), kResultFiles.begin(), kResultFiles.end());
-  return all;
-}
-
 /// The session that the run goes on from, if it is in the output folder.
 std::string ownFile(const RunOptions& run) {
   const fs::path name = fs::path(run.resume).filename();
@@ -67,7 +60,8 @@ std::string describe(const LoopClosure& loop, const std::vector<double>& times) 
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     : configuration_(configuration),
       start_(start),
-      staged_(configuration.run.output, allFiles(), configuration.run.overwrite, ownFile(configuration.run)),
+      staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
+              ownFile(configuration.run)),
       folder_(staged_.files()),
       steps_(folder_.path("steps.csv")),
       cell_(configuration.filter.grid.resolution) {

@@ -65,7 +65,8 @@ class FilterRun {
   void saveMapTo(const std::string& folder);
   /// Called before each session is written. What it was given must be on disk to resume from the session.
   void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
-  /// Whether the filter maps on in a map or with a floor plan, of this run or the one that is resumed.
+  /// Whether the filter continues an earlier map or began with a floor plan, of this run or the one that is
+  /// resumed.
   bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
   /// One line if the place in the map of an earlier run has not been found; else empty.
   std::string placeNote() const;

@@ -1,5 +1,6 @@
-// Reads the walls of a DXF. An own reader, because dxflib allocates whatever counts a file states.
+// Reads the walls of a DXF without dxflib, which allocates any number of vertices that a file claims to have.
 #include <mrpt/core/bits_math.h>
+#include <mrpt/system/string_utils.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,6 @@ double metresOf(double unit) {
   return found->second;
 }
 
-std::string trimmed(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
 /// The groups of a DXF: a code on one line, its value on the next (DXF reference, "Group codes").
 class Groups {
  public:
@@ -51,14 +47,14 @@ class Groups {
   bool next() {
     std::string text;
     if (!std::getline(in_, text)) return false;
-    text = trimmed(text);
+    text = withoutBlanks(text);
     const bool hasValue = static_cast<bool>(std::getline(in_, value));
     if (!hasValue && text.empty()) return false;
     line_ += 2;
     const auto number = parseFinite(text);
     if (!hasValue || !number || std::abs(*number) > 10000) fail("expected a group code and its value");
     code = static_cast<int>(*number);
-    value = trimmed(value);
+    value = withoutBlanks(value);
     return true;
   }
   double number() const {
@@ -68,6 +64,9 @@ class Groups {
   }
 
  private:
+  static std::string withoutBlanks(const std::string& line) {
+    return mrpt::system::trim(line.substr(0, line.find('\r')));
+  }
   [[noreturn]] void fail(const std::string& expected) const {
     throw std::runtime_error("line " + std::to_string(line_ - 1) + " of the DXF: " + expected);
   }

@@ -79,7 +79,7 @@ PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>
   // In the plan as drawn, the points shrink as the plan grows: p -> at + R p / scale.
   const TPoint2D start = TPoint2D(first.pose.x, first.pose.y) * (1 / first.scale);
   TPoint2D at = start;
-  double phi = first.pose.phi, scale = first.scale, variance = 0;
+  double phi = first.pose.phi, scale = first.scale;
   const Walls near(walls, start, radius * 1.1 + 2 * kReach);
   for (int i = 0; i < kIterations; ++i) {
     // The kernel narrows from the error of the first pose to that of the plan.
@@ -103,13 +103,11 @@ PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>
       information += weight * slope * slope.transpose();
       gradient -= weight * (n.x * off.x + n.y * off.y) * slope;
     }
-    const auto solver = information.ldlt();
-    const Eigen::Vector4d step = solver.solve(gradient);
+    const Eigen::Vector4d step = information.ldlt().solve(gradient);
     at += TPoint2D(step[0], step[1]), phi += step[2], scale += step[3];
-    variance = solver.solve(Eigen::Vector4d::UnitW())[3];
     if (!(std::abs(scale - 1) < kMostStretched && (at - start).norm() < kFarthest)) return first;
   }
-  return {{at.x * scale, at.y * scale, std::remainder(phi, 2 * M_PI)}, scale, std::sqrt(variance)};
+  return {{at.x * scale, at.y * scale, std::remainder(phi, 2 * M_PI)}, scale};
 }
 
 }  // namespace hybrid_slam

@@ -13,7 +13,6 @@ namespace hybrid_slam {
 struct PlanFit {
   mrpt::math::TPose2D pose;  ///< of the points' frame in the scaled plan (m, rad)
   double scale = 1;          ///< by which the coordinates of the plan are multiplied
-  double scaleStd = 0;       ///< standard deviation of the scale
 };
 
 /// The pose and the scale at which the points lie on the walls: maximum a posteriori by Gauss-Newton from a

@@ -48,7 +48,6 @@ TEST(PlanFit, FindsPoseAndScale) {
                   truth.phi + mrpt::DEG2RAD(test::uniform(random, -2, 2))};
     const PlanFit fit = fitPlan(seen(test::room(), robot, random), drawn(test::room(), frame, scale), first);
     EXPECT_NEAR(fit.scale, scale, 0.005) << i;
-    EXPECT_LT(fit.scaleStd, 0.01);
     EXPECT_NEAR(
         std::hypot(fit.pose.x - truth.x * fit.scale / scale, fit.pose.y - truth.y * fit.scale / scale), 0,
         0.03);
@@ -64,7 +63,6 @@ TEST(PlanFit, KeepsWhatNoPointShows) {
   first.pose = {3, 0.1, 0};
   const PlanFit fit = fitPlan(seen(wall, {0, 0, 0}, random), drawn(wall, {}, 1), first);
   EXPECT_NEAR(fit.scale, 1, 0.002);
-  EXPECT_GT(fit.scaleStd, 0.015);
   EXPECT_NEAR(fit.pose.x, 3, 0.1);
   EXPECT_NEAR(fit.pose.y, 0, 0.01);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/Errors.h"
-#include "files/InstalledFiles.h"
 #include "files/TemporaryFolder.h"
 
 namespace hybrid_slam::window {
@@ -40,7 +39,6 @@ std::shared_ptr<Settings> Settings::fromFile(const std::string& file,
 
 Settings::Settings(const std::string& file, const std::vector<std::string>& changes, const Settings* before)
     : configuration(file, changes, {{"live", &live}}) {
-  files::findInputFiles({&configuration.run.rawlog});
   if (!before) return;
   const run::RunOptions& of = before->configuration.run;
   configuration.run.continueFrom = of.continueFrom;
