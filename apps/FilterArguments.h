@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "Settings.h"
+#include "SettingArguments.h"
 
 namespace hybrid_slam {
 
-/// Each program adds these groups in the order of its --help. Values become settings and are checked with
-/// them.
+/// Groups of options, which each program adds in the order of its --help. Their values become settings and
+/// are checked as such.
 struct FilterArguments {
   std::string method, proposal;
   int particles = 0, seed = -1, threads = -1;
 
-  /// -m, -p
+  /// Adds -m and -p.
   void addMethod(CLI::App& app) {
     app.add_option("-m,--method", method,
                    "hybrid, general (without lines), linemap (lines alone), ortho (lines at right angles) or "
@@ -24,7 +24,7 @@ struct FilterArguments {
     app.add_option("-p,--proposal", proposal,
                    "improved (default), standard (the paper's), auxiliary_standard or auxiliary_optimal");
   }
-  /// -n, -s, -j
+  /// Adds -n, -s and -j.
   void addParticles(CLI::App& app,
                     const std::string& seedMeans = "random seed; same seed: identical results") {
     app.add_option("-n,--particles", particles, "number of particles")->type_name("N");

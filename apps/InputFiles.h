@@ -11,16 +11,16 @@
 
 namespace hybrid_slam {
 
-/// An INI file, a log, or both in this order. A single one is an INI file if its name or its content says so.
-/// Installed ones are found as well.
+/// An INI file, a log, or both in this order. A single file is an INI file if its name or content says so.
+/// Installed files are found too.
 struct InputFiles {
   std::string config, log;  ///< empty: not given
 
   void add(CLI::App& app, const std::string& logMeans) {
-    app.add_option("config", config, "INI file (doc/configuration.md); without one, the defaults hold");
+    app.add_option("config", config, "INI file (doc/configuration.md); without one, the defaults apply");
     app.add_option("log", log, logMeans);
   }
-  /// After parsing.
+  /// Assigns the files to `config` and `log`; call it after parsing.
   void sort() {
     files::findInputFiles({&config, &log});
     if (log.empty() && !config.empty() && !files::isIni(config)) log.swap(config);

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -18,6 +17,7 @@
 
 #include "base/Errors.h"
 #include "base/Options.h"
+#include "base/Terminal.h"
 #include "files/InstalledFiles.h"
 
 namespace hybrid_slam {
@@ -25,16 +25,15 @@ namespace hybrid_slam {
 /// Prints the error on one line of standard error, even if it quotes text with line breaks. CMake defines
 /// HYBRID_SLAM_PROGRAM, the program's name.
 /// @return the exit code
-inline int fail(int code, std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << HYBRID_SLAM_PROGRAM ": error: " << files::withInstalledPages(message) << "\n";
+inline int fail(int code, const std::string& message) {
+  std::cerr << HYBRID_SLAM_PROGRAM ": error: " << files::withInstalledPages(onOneLine(message)) << "\n";
   return code;
 }
 
-/// Prints warnings on standard error, a line each.
+/// Prints warnings on standard error, one per line.
 inline void warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings)
-    std::cerr << HYBRID_SLAM_PROGRAM ": warning: " << files::withInstalledPages(warning) << "\n";
+    std::cerr << HYBRID_SLAM_PROGRAM ": warning: " << files::withInstalledPages(onOneLine(warning)) << "\n";
 }
 
 /// Opens closed standard descriptors on /dev/null: otherwise a result file would get their number, and
@@ -44,16 +43,17 @@ inline void openStandardDescriptors() {
     if (::fcntl(descriptor, F_GETFD) < 0) (void)!::open("/dev/null", O_RDWR);  // the lowest number free
 }
 
-/// Whether a person reads standard output.
+/// Returns whether standard output is a terminal.
 inline bool isTerminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
-/// Whether everything printed has reached standard output.
+/// Returns whether everything printed has reached standard output.
 inline bool isPrinted() {
   std::cout.flush();
   return std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
 }
 
-/// "the nearest option is `--particles`; ..." for the first unknown option that is nearly one.
+/// Returns "the nearest option is `--particles`; ..." for the first unknown option that resembles a known
+/// one.
 inline std::string nearestOption(const CLI::App& app) {
   std::vector<std::string> names;
   const auto addNames = [&names](const CLI::App& of) {
@@ -94,7 +94,7 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Runs a program's work. Exit code 2: wrong input; 1: any other exception, or standard output is full.
+/// Runs a program's work. Returns 2 for wrong input, 1 for any other exception or a full standard output.
 /// @param words  message for any other exception
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {

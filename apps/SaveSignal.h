@@ -14,13 +14,14 @@ inline sigset_t saveSignal() {
   return set;
 }
 
-/// Call before threads are started: they inherit it, and the signal interrupts no driver.
+/// Blocks the signal. Call before threads are started: they inherit the mask, so the signal interrupts no
+/// driver.
 inline void holdSaveSignal() {
   const sigset_t set = saveSignal();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-/// Whether the signal has come since the last call.
+/// Returns whether the signal has come since the last call.
 inline bool takeSaveSignal() {
   const sigset_t set = saveSignal();
   const timespec now{};

@@ -1,5 +1,5 @@
 /// @file SensorProgram.h
-/// @brief For programs with sensors or sockets: survive device faults.
+/// @brief Lets programs with sensors or sockets survive device faults.
 #pragma once
 
 #include <csignal>
@@ -10,10 +10,10 @@
 
 namespace hybrid_slam {
 
-/// Without this, SIGPIPE from MRPT's sockets ends the program when a device hangs up.
+/// Ignores SIGPIPE, by which MRPT's sockets would end the program when a device hangs up.
 inline void ignoreHangUps() { std::signal(SIGPIPE, SIG_IGN); }
 
-/// Call last: exits immediately if a driver thread is still running. @return `code`
+/// Exits immediately if a driver thread is still running. Call last. @return `code`
 inline int leaveDrivers(int code) {
   std::cout.flush();
   if (sensors::SensorThread::leftBehind() > 0) std::_Exit(code);

@@ -26,27 +26,26 @@ struct SessionArguments {
         ->type_name("SECONDS")
         ->check(CLI::Range(0.001, 1e9));
   }
-  /// --checkpoint-every, --resume
+  /// Adds --checkpoint-every and --resume.
   void addResume(CLI::App& app) {
     addCheckpoints(app);
-    app.add_option(
-           "--resume", resume,
-           "go on with the run that saved this session, with its configuration, log and output folder")
+    app.add_option("--resume", resume,
+                   "resume the run that saved this session, with its configuration, log and output folder")
         ->type_name("FILE");
   }
-  /// --continue, --localize, --prior-plan, --start
+  /// Adds --continue, --localize, --prior-plan and --start.
   void addMap(CLI::App& app) {
     const std::string maps = " this session, map.yaml or gridmap";
     app.add_option("--continue", continueFrom, "continue mapping in" + maps)->type_name("FILE");
-    app.add_option("--localize", localizeIn, "localise in" + maps + ", which stays as it is")
+    app.add_option("--localize", localizeIn, "localise in" + maps + ", which does not change")
         ->type_name("FILE");
     app.add_option(
            "--prior-plan", priorPlan,
-           "begin with the lines of this floor plan (.geojson, .dxf or .svg); the place in it and its "
-           "scale are searched for")
+           "begin with the lines of this floor plan (.geojson, .dxf or .svg); pose and scale are found from "
+           "the scans")
         ->type_name("FILE");
     app.add_option("--start", start,
-                   "pose in this map or plan at the start of the log (m, deg); else it is searched for")
+                   "pose in this map or plan at the start of the log (m, deg; default: found from the scans)")
         ->type_name("X,Y,DEG")
         ->delimiter(',')
         ->expected(3);

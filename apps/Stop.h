@@ -10,13 +10,13 @@ namespace hybrid_slam {
 /// True once the user has asked to stop. Global because a signal handler can reach nothing else.
 inline std::atomic<bool> stop{false};
 
-/// Calls `handle` at SIGINT, SIGTERM and SIGHUP (a terminal that closes; not under nohup).
+/// Calls `handle` on SIGINT, SIGTERM and SIGHUP (the terminal closes; not under nohup).
 inline void onStopSignals(void (*handle)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(signal, handle) == SIG_IGN && signal == SIGHUP) std::signal(signal, SIG_IGN);
 }
 
-/// A stop signal sets `stop`, then has its default action again.
+/// Makes the first stop signal set `stop`. The next one has its default action.
 inline void stopOnSignals() {
   onStopSignals([](int signal) {
     stop = true;

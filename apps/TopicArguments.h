@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "base/Errors.h"
 #include "readings/BagPlan.h"
 
@@ -17,7 +17,7 @@ struct TopicArguments {
   readings::BagOptions bag;
   bool wantsList = false;
 
-  /// --topic, --odometry-topic, --list
+  /// Adds --topic, --odometry-topic and --list.
   void add(CLI::App& app) {
     app.add_option("--topic", bag.topics,
                    "bag: topic of a laser's scans, repeatable (default: all topics with scans)")
@@ -38,7 +38,7 @@ struct TopicArguments {
   }
 };
 
-/// Prints the topics of a bag, and on standard error why they are incomplete.
+/// Prints the topics of a bag; if they are incomplete, prints the reason on standard error.
 inline void printTopics(const std::string& file) {
   const readings::BagContents contents = readings::contentsOf(file);
   std::cout << contents.table();

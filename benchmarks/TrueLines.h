@@ -18,8 +18,8 @@ namespace hybrid_slam::bench {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-/// A visible piece of a straight wall, in the frame of the plan: consecutive beams that hit it, with at most
-/// two others in a row between them.
+/// A visible piece of a straight wall, in the frame of the plan: consecutive beams that hit it, with gaps of
+/// at most two other beams.
 struct TrueLine {
   LineSegment segment;
   size_t beams = 0;

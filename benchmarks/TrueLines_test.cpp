@@ -10,7 +10,7 @@ using mrpt::DEG2RAD;
 using simulation::FloorPlan;
 using simulation::Wall;
 
-/// A beam each degree, over 180 deg.
+/// A scan of 181 beams over 180 deg.
 LaserScan scan(double maxRange = 20) {
   LaserScan scan;
   scan.maxRange = maxRange;
@@ -18,10 +18,10 @@ LaserScan scan(double maxRange = 20) {
   return scan;
 }
 
-/// Ahead at 4 m, as seen from the robot at (0, 0).
+/// A wall 4 m ahead of the robot at (0, 0).
 const Wall kWall = Wall::straight({4, -3}, {4, 3});
 
-/// A box that hides `beams` beams of the wall from a robot at the origin, around the heading of 0.
+/// A box that hides the `beams` beams around heading 0 from a robot at the origin.
 Wall post(double beams) {
   const double half = 2 * std::tan(DEG2RAD(beams / 2));
   return Wall::straight({2, -half}, {2, half});

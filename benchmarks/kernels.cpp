@@ -56,7 +56,7 @@ void forEachStep(const Scene& s, const ScanBeams& beams, double beyond, const Vi
   }
 }
 
-/// Number of columns (rows for steep beams) that the beams cross. Insertion counts one or two cells in each.
+/// Number of columns (rows for steep beams) that the beams cross. Insertion updates one or two cells in each.
 double crossedColumns(const Scene& s) {
   double count = 0;
   const GridPose frame(s.pose, s.scan.beams, s.particle.grid.resolution());
@@ -150,7 +150,8 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   return all;
 }
 
-/// Prints like Google Benchmark's own reporter, and records the shortest time (ns on one core) by name.
+/// Google Benchmark's console reporter, which also keeps the shortest time of each benchmark (ns on one
+/// core).
 class Keeper : public benchmark::ConsoleReporter {
  public:
   Keeper() : ConsoleReporter(OO_Tabular) {}

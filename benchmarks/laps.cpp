@@ -1,8 +1,8 @@
 /// @file laps.cpp
-/// @brief A longer log made of one: driven forwards, backwards, forwards ... in turn (scripts/long-runs.sh).
+/// @brief Makes a longer log from one by driving it forwards and backwards in turn (scripts/long-runs.sh).
 ///
-/// Backwards, the readings come in reverse order with their times mirrored: odometry and scans remain those
-/// of a robot that drives back the way it came.
+/// On the way back, the readings come in reverse order with mirrored times: odometry and scans are those of a
+/// robot that reverses along its path.
 
 #include <mrpt/obs/CObservation.h>
 

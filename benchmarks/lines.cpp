@@ -34,7 +34,7 @@ double threadSeconds() {
 
 using Lines = std::vector<LineSegment>;
 
-/// The lines of all scans, and scans per second.
+/// Returns the lines of all scans, and the scans per second.
 std::pair<std::vector<Lines>, double> extractAll(const std::vector<LaserScan>& scans,
                                                  const LineExtractionOptions& options) {
   std::vector<Lines> lines;
@@ -82,7 +82,7 @@ void comparePlan(const std::string& planFile, const std::string& seed,
   }
 }
 
-/// Differences in direction (rad) of the lines of two scans that are the same wall.
+/// Differences in direction (rad) between the lines of two scans that show the same wall.
 /// @param motion  pose of the second scan's robot in the frame of the first's
 std::vector<double> turns(const Lines& first, const Lines& second, const TPose2D& motion) {
   const AssociationOptions options;

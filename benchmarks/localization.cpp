@@ -1,5 +1,5 @@
 /// @file localization.cpp
-/// @brief How well Localizer tracks, finds and finds again a robot, on logs with reference poses
+/// @brief Measures how well Localizer tracks, finds and relocates a robot on logs with reference poses
 /// (scripts/localization.sh).
 ///
 ///     hybrid-slam-localization track|find|carry MAP LOG REFERENCE MAP_REFERENCE [key=value...]
@@ -80,7 +80,8 @@ struct Study {
   double operator[](const char* key) const { return numbers.at(key); }
 };
 
-/// The pose of a scan that has none, by odometry from those before and after it; empty for one that has.
+/// The pose of a scan without a reference pose, by odometry from its neighbours; empty for a scan that has
+/// one.
 std::optional<TPose2D> between(const std::vector<std::optional<TPose2D>>& known,
                                const std::vector<TPose2D>& odometry, size_t i) {
   if (known[i] || i == 0 || i + 1 >= known.size() || !known[i - 1] || !known[i + 1]) return std::nullopt;
@@ -89,7 +90,7 @@ std::optional<TPose2D> between(const std::vector<std::optional<TPose2D>>& known,
   return TPose2D(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), a.phi + 0.5 * mrpt::math::wrapToPi(b.phi - a.phi));
 }
 
-/// @param heldOut  only the scans without a reference pose of their own: those the mapping run left out
+/// @param heldOut  uses only the scans without a reference pose: those that the mapping run left out
 Log readLog(const std::string& file, const std::string& folder, const std::string& referenceFile,
             const std::string& mapReferenceFile, bool heldOut, run::Configuration& configuration) {
   const auto summary = readings::summarise(file, configuration.input);
@@ -143,7 +144,7 @@ Error errorOf(const TPose2D& pose, const TPose2D& reference) {
           std::abs(mrpt::math::wrapToPi(pose.phi - reference.phi))};
 }
 
-/// What happened from one place of the log on.
+/// The outcome of a trial that starts at one place of the log.
 struct Trial {
   size_t start = 0;
   bool isFound = false, isRight = false, isRightAtEnd = false, wasLost = false;
@@ -151,13 +152,12 @@ struct Trial {
   double lost = -1;               ///< until lost, m
   double error = 0, angle = 0;    ///< when found
   size_t updates = 0;
-  size_t wrong =
-      0;  ///< updates with a small spread but far off; not before it was noticed that it was carried
+  size_t wrong = 0;   ///< updates with a small spread but far off, after the carrying was noticed
   size_t claims = 0;  ///< wrong places declared
   double seconds = 0, slowest = 0;
 };
 
-/// Follows the log from `start` for `most` metres, at least 5 after the robot was found.
+/// Follows the log from `start` for `most` metres, and for at least 5 m after the robot was found.
 Trial follow(Localizer& localizer, const Log& log, size_t start, double most, bool mustLose) {
   Trial trial;
   trial.start = start;
@@ -219,7 +219,7 @@ std::vector<Trial> study(const Study& s, bool isCarried) {
   return trials;
 }
 
-/// Whether the map shows what the robot sees at a reading.
+/// Returns whether the map shows what the robot sees at a reading.
 bool isMapped(const Study& s, size_t reading) {
   const ScanBeams beams(toLaserScans(s.log.readings[reading].scans, s.configuration.filter.grid.maxRange));
   return isExplained(beamShares(beams, s.log.reference[reading], s.map.grid));
@@ -259,7 +259,7 @@ void report(const Study& s, const std::vector<Trial>& trials) {
               upperQuantile(times, 0.95), 1000 * seconds / static_cast<double>(updates), 1000 * slowest);
 }
 
-/// From the start of the log, or from a share of it on.
+/// Tracks from the start of the log, or from a given fraction of it.
 void track(const Study& s) {
   const Log& log = s.log;
   const auto first = static_cast<size_t>(s["from"] * static_cast<double>(log.readings.size()));

@@ -27,6 +27,6 @@ experiment line-methods scripts/line-methods.sh "$out/line-methods"
 experiment line-extraction scripts/line-extraction.sh "$out/line-extraction"
 experiment floor-plan scripts/floor-plan.sh 10 build/release/bin "$out/floor-plan"
 mkdir -p "$out/prior-plan"
-experiment prior-plan scripts/prior-plan.py 5 build/release/bin "$out/prior-plan"
+experiment prior-plan scripts/prior-plan.py 10 build/release/bin "$out/prior-plan"
 experiment deskew scripts/deskew.sh "$out/deskew"
 exit $failed

@@ -48,9 +48,9 @@ def is_complete(folder, files=RESULTS):
     if not folder.exists() or not any(folder.iterdir()):
         return True
     try:
-        return json.loads((folder / "metrics.json").read_text())["complete"] in (True, False) and all(
-            (folder / name).exists() for name in files)
-    except (OSError, ValueError, KeyError):
+        json.loads((folder / "metrics.json").read_text())
+        return all((folder / name).exists() for name in files)
+    except (OSError, ValueError):
         return False
 
 
@@ -62,9 +62,6 @@ class Campaign:
         shutil.rmtree(self.out, ignore_errors=True)
         self.out.mkdir(parents=True)
         self.short = self.out / "short.rawlog"  # a log of a second's work
-        self.short_log()
-
-    def short_log(self):
         self.text = self.write_log(self.short, lambda i: 0)
 
     def write_log(self, rawlog, clock_error):
@@ -283,9 +280,14 @@ class Campaign:
             self.row("clocks of both machines step by +-1 h in a live run", count,
                      "the path of a run with steady clocks, no time-out, exit 0")
 
+    def limit(self, largest):
+        return int(largest * self.rng.random() ** 3)
+
     def fill_disks(self, count):
         config = self.out / "simulation.ini"
         config.write_text((ROOT / "config-ini/simul-csie-loop.ini").read_text().replace("../", f"{ROOT}/"))
+        for part in (parts := [self.out / "part-1", self.out / "part-2"]):
+            self.expect(run(self.bin / "hybrid-slam", LOG, "-q", "-s", part.name[-1], "-o", part)[0] == 0, "replay fails")
         programs = {
             "hybrid-slam": (["hybrid-slam", self.short, "-q", "-n", "5", "--overwrite", "-o"], "folder"),
             "log2rawlog": (["log2rawlog", self.text], "rawlog"),
@@ -293,6 +295,7 @@ class Campaign:
             "motion-model-learn": (["motion-model-learn", ROOT / "config-ini/paper.ini", self.short, "-o"], "ini"),
             "slam-compare": (["slam-compare", ROOT / "config-ini/paper.ini", self.short, "--seeds", "1", "--methods",
                               "hybrid", "-n", "5", "-q", "-o"], "folder"),
+            "slam-merge": (["slam-merge", *parts, "-q", "-o"], "folder"),
         }
         for name, (command, kind) in programs.items():
             target, failed = self.out / f"full-{name}{'' if kind == 'folder' else '.' + kind}", 0
@@ -305,7 +308,7 @@ class Campaign:
             for i in range(count):
                 for file in self.out.glob(f"full-{name}*"):
                     shutil.rmtree(file) if file.is_dir() else file.unlink()
-                limit = int(largest * self.rng.random() ** 3)
+                limit = self.limit(largest)
                 code, err = run(*command, limit=limit)
                 failed += code != 0
                 self.expect(code in (0, 1, 2) and (code == 0 or "error: " in err), f"{name} at {limit} bytes: {code} {err}")
@@ -316,10 +319,45 @@ class Campaign:
                         has_failed = code == 1 and [p.name for p in done.iterdir()] == ["error.txt"]
                         self.expect(has_failed or is_complete(done, ("trajectory.tum",)),
                                     f"{name} at {limit} bytes: {done} is a part")
-                elif name == "hybrid-slam":
-                    self.expect(code != 0 or is_complete(target), f"{name} at {limit} bytes: results of a part")
+                else:
+                    files = RESULTS if name == "hybrid-slam" else ("map.png", "session.hslam", "config.ini")
+                    self.expect(code != 0 or is_complete(target, files), f"{name} at {limit} bytes: results of a part")
                     self.expect(code == 0 or not (target / "metrics.json").exists(), f"{name} at {limit} bytes: results")
             self.row(f"{name}, disk full", count, f"{failed} ended with an error line, none left a part under a final name")
+
+    def fill_disk_live(self, count):
+        """The recording ends where the disk is full and keeps its name; the run has all results or none."""
+        folder, again, failed, recorded, mapped = self.out / "full-live", self.out / "again", 0, 0, 0
+        for _ in range(count):
+            limit = self.limit(self.short.stat().st_size)  # the recording has the same observations
+            server, port = self.server(log=self.short, rate=400)
+            live = self.live(port, folder, limit=limit)
+            err = live.communicate(timeout=120)[1]
+            self.end(server)
+            what, code = f"hybrid-slam-live at {limit} bytes", live.returncode
+            failed += code != 0
+            self.expect(code in (0, 1, 2) and (code == 0 or "error: " in err), f"{what}: {code} {err}")
+            self.expect(is_complete(folder) if code == 0 else not (folder / "metrics.json").exists(), f"{what}: a part")
+            for recording in folder.glob("recording-*"):
+                recorded += 1
+                code, err = run(self.bin / "hybrid-slam", recording, "-q", "-n", "5", "--overwrite", "-o", again)
+                mapped += code in (0, 1) and (again / "trajectory.tum").exists()
+                self.expect(code == 0 or "error: " in err, f"{what}: the replay of its recording: {code} {err}")
+                shutil.rmtree(again, ignore_errors=True)
+            shutil.rmtree(folder, ignore_errors=True)
+        self.row("hybrid-slam-live, disk full", count, f"{failed} ended with an error line and without results, the "
+                 f"others with all; {mapped} of {recorded} recordings could be mapped up to the cut")
+
+    def fill_disk_eval(self, count):
+        """slam-eval writes to standard output, here a file."""
+        folder, path = self.out / "evaluated", self.out / "evaluated/trajectory.tum"
+        self.expect(run(self.bin / "hybrid-slam", self.short, "-q", "-n", "5", "-o", folder)[0] == 0, "replay fails")
+        command = [self.bin / "slam-eval", "ate", "--trajectory", path, "--reference", path]
+        for limit in [None] + [self.limit(300) for _ in range(count)]:
+            with (self.out / "eval.json").open("w") as file:
+                code, err = run(*command, limit=limit, stdout=file)
+            self.expect(code == 0 if limit is None else code == 1 and "error: " in err, f"slam-eval at {limit} bytes: {code} {err}")
+        self.row("slam-eval, disk full", count, "one error line each")
 
     def write_nowhere(self):
         for command in (["hybrid-slam", self.short, "-q", "-o"], ["log2rawlog", self.text],
@@ -330,9 +368,9 @@ class Campaign:
 
 
 # Method of Campaign, and the option with its number of times.
-FAULTS = {"write_nowhere": None, "fill_disks": "limits", "kill_sessions": "kills", "kill_replays": "kills",
-          "kill_comparisons": "kills", "kill_lives": "kills", "restart_server": "restarts", "unplug": "steps",
-          "step_stamps": "steps", "step_clocks": "steps"}
+FAULTS = {"write_nowhere": None, "fill_disks": "limits", "fill_disk_live": "limits", "fill_disk_eval": "limits",
+          "kill_sessions": "kills", "kill_replays": "kills", "kill_comparisons": "kills", "kill_lives": "kills",
+          "restart_server": "restarts", "unplug": "steps", "step_stamps": "steps", "step_clocks": "steps"}
 
 
 def main():

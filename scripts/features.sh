@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The default with and without corners and arcs as features: the chapter "Corners and arcs" of doc/experiments.md.
+# The default with and without corners, wall ends and arcs as features: the chapter "Corners and arcs" of doc/experiments.md.
 #   scripts/features.sh [OUT]     OUT defaults to out/features
 # SEEDS=20 runs per group of the simulated worlds, REAL_SEEDS=10 of the public logs, from FIRST_SEED=1 on; JOBS=0 (one
 # per core) at a time. WORLDS="csie intel" and PROPOSALS="standard" select groups. Resumes after an interruption. The
@@ -18,7 +18,8 @@ read -ra worlds <<<"${WORLDS:-csie-corridor ${simulated_worlds[*]} ${public_worl
 
 options=(--methods hybrid -q -j "${JOBS:-0}" --first-seed "${FIRST_SEED:-1}" --variant hybrid/features:features.enabled=true)
 # What each kind brings; too slow for the logs.
-ablation=(--variant hybrid/corners:features.enabled=true,features.max_radius=0
+ablation=(--variant hybrid/corners:features.enabled=true,features.max_radius=0,features.wall_ends=false
+  --variant hybrid/corners+ends:features.enabled=true,features.max_radius=0
   --variant hybrid/arcs:features.enabled=true,features.min_wall=100)
 for world in "${worlds[@]}"; do
   seeds=${SEEDS:-20}

@@ -2,12 +2,12 @@
 # The default line weight and no lines in buildings of several directions and without straight walls: the chapter
 # "Worlds that are not orthogonal" of doc/experiments.md.
 #   scripts/frames.sh [OUT]     OUT defaults to out/frames
-# SEEDS=30 runs per group from FIRST_SEED=1 on. Resumes after an interruption. Takes 40 minutes of one core.
+# SEEDS=30 runs per group from FIRST_SEED=1 on. Resumes after an interruption. Takes 50 minutes of one core.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/frames}
 bin=build/release/bin
 source scripts/worlds.sh
-simulated_worlds=(csie wing octagon round clutter) public_worlds=()
+simulated_worlds=(csie rectangle wing octagon round clutter) public_worlds=()
 install_packages "${packages[@]}"
 build release simul-floorplan slam-compare hybrid-slam
 make_worlds "$out/worlds"

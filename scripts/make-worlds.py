@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Floor plan and route of a building without right angles, or without walls that give lines: invented, for experiments.
-usage: make-worlds.py octagon|round|clutter|corridor FOLDER     writes FOLDER/WORLD.plan and FOLDER/WORLD.route
+usage: make-worlds.py rectangle|octagon|round|clutter|corridor FOLDER    writes FOLDER/WORLD.plan and FOLDER/WORLD.route
 
+rectangle the loop of datasets/csie/wing.plan with right angles: the same corridors, pillars and doors, in the same order
+          and as long in all, around a rectangle instead of one half turned by 30 deg
 octagon   a loop of corridors, 2.5 m wide, around an octagon: walls at 0 and 45 deg, modulo 90 deg
 round     a ring hall, 4 m wide, with columns along both walls: no straight wall
 clutter   a warehouse: pallets at any angle inside a ragged wall, no straight piece longer than 1.2 m
@@ -10,6 +12,9 @@ corridor  45 m long and 2.5 m wide, door frames 0.15 m deep and pillars at both 
 import math
 import random
 import sys
+from pathlib import Path
+
+WING = Path(__file__).resolve().parent.parent / "datasets/csie/wing.plan"
 
 
 def polar(radius, degrees):
@@ -27,6 +32,37 @@ def closed(points):
 def square(x, y, side, degrees):
     """A square about (x, y)."""
     return closed([(x + dx, y + dy) for dx, dy in (polar(side / math.sqrt(2), degrees + 90 * k) for k in range(4))])
+
+
+def rectangle(_):
+    words = [line.split() for line in WING.read_text().splitlines()]
+    shapes = [(word, [float(n) for n in numbers]) for word, *numbers in filter(None, words) if word[0] != "#"]
+    outer = [complex(x, y) for x, y in zip(shapes[0][1][::2], shapes[0][1][1::2])]
+    legs = [(a, (b - a) / abs(b - a), abs(b - a)) for a, b in zip(outer, outer[1:])]
+    # Legs 0 and 1, and 3 and 4, meet at 30 deg: each pair becomes one side, opposite sides are made equally long.
+    side_of, before = (0, 0, 1, 2, 2, 3), (0, legs[0][2], 0, 0, legs[3][2], 0)
+    lengths = [sum(leg[2] for leg, s in zip(legs, side_of) if s == side) for side in range(4)]
+    width, height = (lengths[0] + lengths[2]) / 2, (lengths[1] + lengths[3]) / 2
+    sides = [(0, 1, width), (width, 1j, height), (complex(width, height), -1, width), (1j * height, -1j, height)]
+
+    def moved(points):
+        """A pillar or door, moved along its corridor as that grows or shrinks, without changing its size."""
+        middle = sum(points) / len(points)
+        for (start, along, length), s, offset in zip(legs, side_of, before):
+            at = (middle - start) / along  # along the wall, and across it to the left
+            if 0 < at.real < length and abs(at.imag) < 2.6:
+                to, direction, new = sides[s]
+                scaled = complex((offset + at.real) * new / lengths[s], at.imag)
+                return [to + direction * (scaled + (p - middle) / along) for p in points]
+        raise ValueError("neither at the outer nor at the inner wall")
+
+    plan = [row("rectangle", 0, 0, width, height), row("rectangle", 2.5, 2.5, width - 2.5, height - 2.5)]
+    for word, numbers in shapes[2:]:
+        count = len(numbers) // 2 * 2
+        points = moved([complex(x, y) for x, y in zip(numbers[:count:2], numbers[1:count:2])])
+        plan.append(row(word, *(c for p in points for c in (p.real, p.imag)), *numbers[count:]))
+    corners = [(width - 1.25, 1.25), (width - 1.25, height - 1.25), (1.25, height - 1.25), (1.25, 1.25)]
+    return plan, [row("start", 6, 1.25, 0)] + [row("via", *c, 0.8) for c in corners], (20, 1.25), corners
 
 
 def octagon(draw):
@@ -102,7 +138,7 @@ def corridor(draw):
     return plan, route, (3, 1.25), ring
 
 
-WORLDS = {"octagon": octagon, "round": round_hall, "clutter": clutter, "corridor": corridor}
+WORLDS = {"rectangle": rectangle, "octagon": octagon, "round": round_hall, "clutter": clutter, "corridor": corridor}
 
 
 def main():

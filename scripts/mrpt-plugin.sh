@@ -45,7 +45,14 @@ for log in csie intel-lab; do
         cd "$folder"
         sed "s/^logOutput_dir.*/logOutput_dir = log/; s/^RANDOM_SEED.*/RANDOM_SEED = $seed/
              s/^hybridLineMap_count.*/hybridLineMap_count = $lines/; ${edits[$proposal]}" "$ini" >rbpf-slam.ini
-        LD_PRELOAD=$plugin rbpf-slam rbpf-slam.ini "$out/$log.rawlog" </dev/null >rbpf-slam.log 2>&1
+        # The map of a lost filter may grow until the memory is full.
+        (
+          ulimit -v $((12 << 20))
+          LD_PRELOAD=$plugin rbpf-slam rbpf-slam.ini "$out/$log.rawlog" </dev/null >rbpf-slam.log 2>&1
+        ) || {
+          echo '{"trans_rmse_m": 1e999, "trans_mean_m": 1e999, "rot_mean_deg": 1e999}' >errors.json
+          continue
+        }
         trajectory >trajectory.tum
         errors $log >part.json
         mv part.json errors.json

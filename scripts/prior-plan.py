@@ -3,7 +3,7 @@
 Markdown tables.
 
   scripts/prior-plan.py [SEEDS [BIN [FOLDER]]]
-  SEEDS   runs of each cell (default: 10; the page: 5)
+  SEEDS   runs of each cell (default: 10), from seed FIRST_SEED=1 on
   BIN     folder of the programs (default: build/release/bin)
   FOLDER  for the runs (default: a temporary one)
 
@@ -15,6 +15,7 @@ scale by which the plan is multiplied; `shrunk`: by 2.5 %."""
 
 import json
 import math
+import os
 import re
 import subprocess
 import sys
@@ -26,7 +27,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LOG = ROOT / "datasets/csie/csie-loop.rawlog"
 LOGS = ("csie-loop", "csie-doorways", "csie-corridor")
 TRUTH = ROOT / "datasets/csie/csie-loop.tum"
-PARTICLES = (2, 5, 10, 20)
+PARTICLES = (2, 3, 4, 5, 10, 20)
 CLOSED = 0.5  # m
 
 
@@ -47,6 +48,7 @@ def changed(plan, scale=1.0, is_wrong=False):
 
 def main():
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
+    first_seed = int(os.environ.get("FIRST_SEED", 1))
     bin_folder = Path(sys.argv[2] if len(sys.argv) > 2 else ROOT / "build/release/bin")
     temporary = tempfile.TemporaryDirectory()
     folder = Path(sys.argv[3] if len(sys.argv) > 3 else temporary.name)
@@ -73,7 +75,7 @@ def main():
         for n in PARTICLES:
             errors = [
                 run(f"{name}-{n}-{seed}", ROOT / "config-ini/csie-lms100.ini", LOG, "-n", n, "-s", seed, *options)
-                for seed in range(1, seeds + 1)
+                for seed in range(first_seed, first_seed + seeds)
             ]
             cells.append(f"{sum(e < CLOSED for e in errors)} of {seeds}, {median(errors):.2f} m")
         print(f"| {name} | " + " | ".join(cells) + " |", flush=True)

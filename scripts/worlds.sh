@@ -19,7 +19,7 @@ make_worlds() {
     case $world in
       csie) cp $csie/csie.plan "$folder/csie.plan"; cp $csie/csie-loop.route "$folder/csie.route" ;;
       wing) cp $csie/wing.plan $csie/wing.route "$folder" ;;
-      octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
+      rectangle | octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
       *)
         scripts/shear-world.py "${world#*-}" <$csie/csie.plan >"$folder/$world.plan"
         scripts/shear-world.py "${world#*-}" <$csie/csie-loop.route >"$folder/$world.route"

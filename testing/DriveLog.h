@@ -7,7 +7,7 @@
 
 namespace hybrid_slam::test {
 
-/// An odometry reading and a scan at the same time, 5 per second from 1000 s on.
+/// Makes a log with an odometry reading and a scan at the same time, 5 per second from 1000 s on.
 inline Log logOf(const std::vector<DriveStep>& steps) {
   Log log;
   TPose2D pose;

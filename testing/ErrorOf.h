@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::test {
 
-/// Calls; returns the message of the error, or "no error".
+/// Calls a function; returns the message of its error, or "no error".
 template <class Error = InputError>
 std::string errorOf(const std::function<void()>& call) {
   try {

@@ -14,7 +14,7 @@ namespace hybrid_slam::test {
 
 struct DrivenPose {
   TPose2D truth;
-  TPose2D motion;  ///< since the pose before, as estimated
+  TPose2D motion;  ///< since the previous pose, as estimated
   LaserScans scans;
 };
 
@@ -63,12 +63,12 @@ inline std::vector<DrivenPose> driveAlong(const Walls& walls, const std::vector<
   return drive;
 }
 
-/// Once around the ring and on to the next corner.
+/// Drives once around the ring and on to the next corner.
 inline std::vector<DrivenPose> ringDrive(double turnPerMetre) {
   return driveAlong(ring(), {{0, 0}, {31.5, 0}, {31.5, 21}, {-1.5, 21}, {-1.5, 0}, {31.5, 0}}, turnPerMetre);
 }
 
-/// The scan as a log holds it.
+/// Returns the scan as it would be in a log.
 inline Scans observed(const LaserScan& seen) {
   auto scan = std::make_shared<mrpt::obs::CObservation2DRangeScan>();
   scan->aperture = static_cast<float>(M_PI);

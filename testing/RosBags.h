@@ -12,7 +12,7 @@
 
 #include "testing/TestBags.h"
 
-/// ROS's library takes any class with these traits for a message.
+/// Traits that make ROS's library accept a class as a message.
 namespace ros {
 namespace message_traits {
 template <>

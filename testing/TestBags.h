@@ -110,7 +110,7 @@ struct TestMessage {
   std::string bytes;
 };
 
-/// The objects of a rawlog as messages: laser on /scan, base and laser of the same pose.
+/// Converts the objects of a rawlog to messages: laser on /scan, at the pose of the base.
 /// @param timeStep  s, from beam to beam
 inline std::vector<TestMessage> messagesOf(const Log& log, Encoding encoding, float timeStep = 0) {
   const MessageBytes empty(encoding);
@@ -156,7 +156,7 @@ inline std::string write(const std::string& path, const std::string& bytes) {
   return path;
 }
 
-/// An MCAP file.
+/// Makes the bytes of an MCAP file.
 class McapBytes {
  public:
   explicit McapBytes(Encoding encoding) : encoding_(encoding) {
@@ -229,7 +229,7 @@ class McapBytes {
   std::string bytes_;
 };
 
-/// In chunks of 10 messages.
+/// Writes an MCAP file with chunks of 10 messages.
 inline std::string writeMcap(const std::string& path, const std::vector<TestMessage>& messages,
                              const std::string& compression = "zstd", Encoding encoding = Encoding::cdr) {
   McapBytes file(encoding);
@@ -240,7 +240,7 @@ inline std::string writeMcap(const std::string& path, const std::vector<TestMess
   return write(path, file.finished());
 }
 
-/// A ROS 2 database.
+/// Writes a ROS 2 database.
 inline std::string writeDatabase(const std::string& path, const std::vector<TestMessage>& messages) {
   std::remove(path.c_str());
   sqlite3* database = nullptr;

@@ -12,7 +12,7 @@
 
 namespace hybrid_slam::test {
 
-/// An EventLog's lines.
+/// Captures the lines of an EventLog.
 class Events {
  public:
   live::EventLog& log() { return *log_; }

@@ -109,7 +109,7 @@ inline Log laps(size_t steps, size_t stepsPerLap = 80, size_t beams = 181) {
   return log;
 }
 
-/// The same with the odometry of laps the other way round: no filter maps them.
+/// The same with the odometry of laps in the other direction, which no filter can map.
 inline Log lapsWithMirroredOdometry(size_t steps) {
   Log log = laps(steps);
   for (size_t i = 0; i < steps; ++i) {
@@ -125,7 +125,7 @@ inline std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Paths of what is in a folder with a name that begins so, in alphabetical order; empty if there is no
+/// Paths of a folder's entries whose names begin with a text, in alphabetical order; empty if there is no
 /// folder.
 inline std::vector<std::string> filesIn(const std::string& folder, const std::string& beginning) {
   std::vector<std::string> paths;

@@ -15,12 +15,12 @@
 
 namespace hybrid_slam::test {
 
-/// 11 m x 8.5 m with a recess, so that no two places look alike; the robot starts at the origin.
+/// A room of 11 m x 8.5 m with a recess, so that no two places look alike; the robot starts at the origin.
 inline Walls room() {
   return polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {3, 6}, {3, 5}, {1, 5}, {1, 6}, {-3, 6}});
 }
 
-/// 181 beams over 180 deg, 80 m, 1 cm of noise, 0.2 m ahead of the robot's centre.
+/// A scan of 181 beams over 180 deg, 80 m, with 1 cm of noise, 0.2 m ahead of the robot's centre.
 inline mrpt::obs::CObservation2DRangeScan observationOf(const Walls& walls, const TPose2D& robot,
                                                         RandomStream& random) {
   const TPose2D sensor(0.2, 0, 0);
@@ -47,8 +47,8 @@ struct DriveStep {
   mrpt::obs::CObservation2DRangeScan scan;
 };
 
-/// `sides` sides of a square of 4 m in steps of 0.25 m and 15 deg; odometry distances are 3 % too long and
-/// turns 4 % too small, with noise of 1 cm and 0.3 deg per step.
+/// Drives `sides` sides of a square of 4 m in steps of 0.25 m and 15 deg. Odometry distances are 3 % too long
+/// and turns 4 % too small, with noise of 1 cm and 0.3 deg per step.
 inline std::vector<DriveStep> drive(int sides, uint64_t seed = 1) {
   RandomStream random(seed, 0, 0);
   std::vector<DriveStep> steps = {{{}, {}, roomScan({}, random)}};
@@ -106,7 +106,7 @@ inline double rms(const std::vector<TPose2D>& path, const std::vector<TPose2D>& 
   return std::sqrt(sum / static_cast<double>(path.size()));
 }
 
-/// The motion model that fits the drive's odometry, 20 particles.
+/// A configuration with 20 particles and the motion model that fits the drive's odometry.
 inline FilterConfiguration roomConfiguration() {
   FilterConfiguration c;
   c.filter.particles = 20;

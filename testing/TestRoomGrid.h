@@ -40,7 +40,7 @@ inline double castRay(const Box& room, double x, double y, double heading) {
   return range;
 }
 
-/// 181 beams over 180 deg, 1 cm of noise, 20 m, 0.2 m ahead of the robot's centre.
+/// A scan of 181 beams over 180 deg, 20 m, with 1 cm of noise, 0.2 m ahead of the robot's centre.
 inline LaserScan scanAt(const Box& room, const mrpt::math::TPose2D& robot, RandomStream& random) {
   LaserScan scan;
   scan.sensorPose = {0.2, 0, 0};

@@ -17,7 +17,7 @@
 
 namespace hybrid_slam::test {
 
-/// Started without a shell; does not outlive the object.
+/// A program started without a shell. It does not outlive the object.
 class ChildProgram {
  public:
   /// @param name  name of its output files in the folder: NAME.out and NAME.err
@@ -50,7 +50,7 @@ class ChildProgram {
     if (!hasEnded_) hasEnded_ = ::waitpid(child_, &status_, WNOHANG) == child_;
     return hasEnded_;
   }
-  /// Exit code; -1 if a signal ended the program or it does not end.
+  /// Waits for the exit code; -1 if a signal ended the program or it does not end.
   int wait() {
     return test::happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
   }

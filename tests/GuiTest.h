@@ -98,7 +98,7 @@ class GuiTest : public testing::Test {
   bool stands(State state, size_t scans) {
     return happens([&] { return now().state == state && now().scans == scans; });
   }
-  /// The screen; also a PNG in the folder that HYBRID_SLAM_SCREENSHOTS names.
+  /// Returns the screen; also writes a PNG to the folder named by HYBRID_SLAM_SCREENSHOTS.
   wxImage screenshot(const std::string& name) {
     settle(0.4);
     const test::Screen screen = test::grabScreen();
@@ -110,7 +110,7 @@ class GuiTest : public testing::Test {
     }
     return image;
   }
-  /// Screen pixels, which are smaller than window units on a high-DPI screen.
+  /// Converts to screen pixels, which are smaller than window units on a high-DPI screen.
   wxRect onScreen(const wxRect& r) const {
     const int scale = wxRound(frame->GetContentScaleFactor());
     return {scale * r.x, scale * r.y, scale * r.width, scale * r.height};
@@ -136,7 +136,7 @@ class GuiTest : public testing::Test {
     return screen.GetRed(p.x, p.y);
   }
 
-  /// 60 scans of laps.
+  /// Publishes 60 scans of laps.
   void publishLaps(
       live::ObservationServer& server, const std::function<void(size_t)>& after = [](size_t) {}) {
     const test::Log all = test::laps(60);

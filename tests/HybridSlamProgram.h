@@ -1,5 +1,5 @@
 /// @file HybridSlamProgram.h
-/// @brief For the tests: runs hybrid-slam; exit code, messages, files.
+/// @brief For the tests: runs hybrid-slam and checks exit code, messages and files.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -36,12 +36,12 @@ class HybridSlam : public testing::Test {
   }
   std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
   std::vector<std::string> results() const { return test::namesIn(output); }
-  /// Exit 2, one error line, no file.
+  /// Expects exit code 2, one error line and no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "hybrid-slam", text);
     EXPECT_THAT(results(), testing::IsEmpty());
   }
-  /// Exit 0 with all results and nothing on standard error but `warning`.
+  /// Expects exit code 0, all results, and nothing on standard error but `warning`.
   void expectDone(int exitCode, const std::string& warning = "") {
     EXPECT_EQ(exitCode, 0) << err;
     std::vector<std::string> expected = test::kResults;

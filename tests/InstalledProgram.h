@@ -1,5 +1,5 @@
 /// @file InstalledProgram.h
-/// @brief For the tests: a program as `cmake --install` leaves it.
+/// @brief For the tests: a program as installed by `cmake --install`.
 #pragma once
 
 #include <filesystem>

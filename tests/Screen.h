@@ -13,7 +13,7 @@ struct Screen {
 
 Screen grabScreen();
 
-/// Whether a window manager runs, which gives windows the keyboard.
+/// Returns whether a window manager runs, which gives windows the keyboard.
 bool hasWindowManager();
 
 }  // namespace hybrid_slam::test

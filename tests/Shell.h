@@ -33,7 +33,7 @@ inline std::string errorLineOf(const std::string& program) {
   return program + ": error: [^\n]*: [^\n]*; [^\n]*\n";
 }
 
-/// Exit 2, nothing on standard output, and one line on standard error. @param part  of that line
+/// Expects exit code 2, nothing on standard output, and one line on standard error. @param part  of that line
 inline void expectInputError(const Outcome& outcome, const std::string& program, const std::string& part) {
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   // Nothing but what was read off the log before.
@@ -42,7 +42,7 @@ inline void expectInputError(const Outcome& outcome, const std::string& program,
   EXPECT_THAT(outcome.err, testing::HasSubstr(part));
 }
 
-/// On a busy machine, a run of more than ten seconds prints progress.
+/// Removes progress lines, which a run of more than ten seconds prints on a busy machine.
 inline std::string withoutProgress(const std::string& err) {
   return std::regex_replace(err, std::regex("[0-9]+ of [0-9]+ scans [^\n]*\n"), "");
 }

@@ -31,7 +31,7 @@ struct SlamCompare : testing::Test {
     return std::string("'") + SLAM_COMPARE + "' " + config + " " + kLog + " -o out " + arguments;
   }
   test::Outcome run(const std::string& arguments) const { return shell(call(arguments)); }
-  /// Exit 2, nothing on standard output, no run started; the one line on standard error.
+  /// Expects exit code 2, nothing on standard output and no run; returns the one line on standard error.
   std::string errorLine(const test::Outcome& o) const {
     test::expectInputError(o, "slam-compare", "");
     return o.err;
@@ -48,14 +48,14 @@ struct SlamCompare : testing::Test {
     }
     return rows;
   }
-  /// report.html, which is well-formed XML.
+  /// Returns report.html, which must be well-formed XML.
   std::string report() const {
     const test::Outcome parsed =
         shell("python3 -c 'import xml.dom.minidom as xml; xml.parse(\"out/report.html\")'");
     EXPECT_EQ(parsed.status, 0) << parsed.err;
     return test::contentOf(folder.path("out/report.html"));
   }
-  /// results.csv without the measured times.
+  /// Returns results.csv without the measured times.
   std::string untimedTable() const {
     std::string text;
     for (auto& row : table("results.csv"))

@@ -27,7 +27,7 @@ struct SlamEval : testing::Test {
     EXPECT_THAT(o.err, testing::AnyOf("", testing::StartsWith("slam-eval: warning: ")));
     return o.status == 0 ? nlohmann::json::parse(o.out) : nlohmann::json();
   }
-  /// Exit 2, nothing on standard output, and one line on standard error, which is returned.
+  /// Expects exit code 2, nothing on standard output, and one line on standard error, which it returns.
   std::string errorLine(const std::string& arguments) const {
     const test::Outcome o = run(arguments);
     test::expectInputError(o, "slam-eval", "");

@@ -70,14 +70,14 @@ TEST_F(Bags, TellTheTimeFromBeamToBeam) {
   EXPECT_THAT(outcome.out, HasSubstr("corrected for motion during its scans of 64.0 ms"));
 }
 
-/// Broken drivers, or a step back in time.
+/// Broken drivers or a clock set back cause such times.
 TEST_F(Bags, AnImpossibleTimeFromBeamToBeamIsNotUsedWithAWarning) {
   for (const float timeStep : {-5e-4F, 1e7F}) {
     const std::string bag =
         test::writeRosBag(folder.path("odd.bag"), test::messagesOf(drive, Encoding::ros1, timeStep));
     const test::Outcome converted = run(LOG2RAWLOG, "'" + bag + "' '" + folder.path("odd.rawlog") + "'");
     EXPECT_EQ(converted.status, 0);
-    EXPECT_THAT(converted.err, HasSubstr("60 scans with a time from beam to beam that cannot be true"));
+    EXPECT_THAT(converted.err, HasSubstr("60 scans with an impossible time from beam to beam"));
     const test::Outcome outcome =
         run(HYBRID_SLAM, "'" + bag + "' --overwrite -o '" + folder.path("odd") + "'");
     EXPECT_EQ(outcome.status, 0);
@@ -86,7 +86,7 @@ TEST_F(Bags, AnImpossibleTimeFromBeamToBeamIsNotUsedWithAWarning) {
   }
 }
 
-/// With 181 beams, whose angles round: what a bag gives is what the rawlog holds.
+/// The angles of 181 beams round. The objects of the bag still equal those of the rawlog.
 TEST_F(Bags, GiveTheObjectsOfTheRawlog) {
   const test::Log log = test::laps(20);
   readings::LogReader reader(

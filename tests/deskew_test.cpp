@@ -26,7 +26,7 @@ class Deskew : public HybridSlam {
         test::shell(folder, "'" SIMUL_FLOORPLAN "' '" + config + "' -q -o '" + log + "' " + settings);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
-  /// Error of the headings since the start, deg rms.
+  /// RMS error (deg) of the headings since the start.
   double headingError() const {
     const files::Trajectory path = files::loadTum(output + "/trajectory.tum"),
                             truth = files::loadTum(truthFile);

@@ -9,7 +9,7 @@
 namespace hybrid_slam {
 namespace {
 
-/// Clicks in a while, in the loop that waits for the click.
+/// Clicks a little later, in the loop that waits for the click.
 class LaterClick : public wxTimer {
  public:
   explicit LaterClick(wxWindow* at) : at_(at) { StartOnce(500); }
@@ -62,24 +62,57 @@ TEST_F(HelpTest, EveryControlHasAText) {
     }
 }
 
-TEST_F(HelpTest, F1OpensThePageOfTheWindow) {
-  press(WXK_F1);
-  ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
-  EXPECT_THAT(dialogs.messages[0], HasSubstr("page not installed: doc/gui.md"));
+/// A desktop whose program for pages writes the name of the page to a file.
+class PagesTest : public HelpTest {
+ protected:
+  void SetUp() override {
+    HelpTest::SetUp();
+    std::filesystem::create_directories(folder.path("bin"));
+    const std::string opener =
+        folder.write("bin/xdg-open", "#!/bin/sh\nprintf %s \"$1\" > " + folder.path("opened") + "\n");
+    std::filesystem::permissions(opener, std::filesystem::perms::owner_all);
+    setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
+    std::filesystem::current_path(folder.path(""));
+  }
+  void TearDown() override {
+    std::filesystem::current_path(before);
+    setenv("PATH", path.c_str(), 1);
+    HelpTest::TearDown();
+  }
+  bool opens(const std::string& page) {
+    return happens([&] {
+      return std::filesystem::exists(folder.path("opened")) && test::contentOf(folder.path("opened")) == page;
+    });
+  }
 
-  // An installation, and a desktop.
-  for (const char* made : {"bin", "share/doc/hybrid-slam/doc"})
-    std::filesystem::create_directories(folder.path(made));
-  const std::string page = folder.write("share/doc/hybrid-slam/doc/gui.md", "# Window\n");
-  const std::string opened = folder.path("opened");
-  const std::string desktop = folder.write("bin/xdg-open", "#!/bin/sh\nprintf %s \"$1\" > " + opened + "\n");
-  std::filesystem::permissions(desktop, std::filesystem::perms::owner_all);
+ private:
   const std::string path = std::getenv("PATH");
-  setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
+  const std::filesystem::path before = std::filesystem::current_path();
+};
+
+/// As after a build without packages, whose folder may be elsewhere.
+TEST_F(PagesTest, F1OpensThePageOfTheWindow) {
+  std::filesystem::current_path(SOURCE_DIR);
+  press(WXK_F1);
+  EXPECT_TRUE(opens(SOURCE_DIR "/doc/gui.md"));
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
+TEST_F(PagesTest, ThoseAroundTheBuildFolderAreOpenedIfNoneIsInstalled) {
+  for (const char* made : {"build/bin", "doc", "share/doc/hybrid-slam/doc"})
+    std::filesystem::create_directories(folder.path(made));
+  const std::string source = folder.write("doc/gui.md", "# Window\n");
+  std::filesystem::current_path("/");
+  window::openPage("doc/gui.md", folder.path("build/bin"));
+  EXPECT_TRUE(opens(source));
+  const std::string installed = folder.write("share/doc/hybrid-slam/doc/gui.md", "# Window\n");
   window::openPage("doc/gui.md", folder.path("bin"));
-  EXPECT_TRUE(happens([&] { return std::filesystem::exists(opened) && test::contentOf(opened) == page; }));
-  setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(opens(installed));
+}
+
+TEST_F(PagesTest, APageThatIsNowhereIsAnError) {
   EXPECT_THROW(window::openPage("doc/none.md", folder.path("bin")), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("opened")));
 }
 
 TEST_F(HelpTest, MessagesNameTheInstalledPages) {

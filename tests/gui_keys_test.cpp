@@ -1,4 +1,4 @@
-/// The window as a user drives it: with real keys and the mouse, under a window manager.
+/// The window driven like a user does: with real keys and the mouse, under a window manager.
 #include <wx/display.h>
 
 #include "KeysTest.h"
@@ -90,7 +90,17 @@ TEST_F(KeysTest, ControlAndRAskForALogOfAnyFormat) {
 }
 
 TEST_F(KeysTest, WithoutALogThereIsNothingToPlay) {
-  EXPECT_FALSE(frame->replay()->stepButton()->IsEnabled());
+  size_t controls = 0;
+  for (wxWindow* control : frame->replay()->GetChildren())
+    if (dynamic_cast<wxButton*>(control) || dynamic_cast<wxChoice*>(control) ||
+        dynamic_cast<wxSlider*>(control)) {
+      EXPECT_FALSE(control->IsEnabled()) << control->GetLabel();
+      ++controls;
+    }
+  EXPECT_EQ(controls, 6u);
+  for (const int command : {window::kPlay, window::kStep, window::kStepBack, window::kRestart, window::kSeek,
+                            window::kExportResults, window::kSaveMap, window::kExportPicture})
+    EXPECT_FALSE(frame->GetMenuBar()->IsEnabled(command)) << command;
   EXPECT_THAT(frame->replay()->canvas(0)->title(), HasSubstr("Open log"));
   press(WXK_SPACE);
   press(WXK_F6);

@@ -62,7 +62,7 @@ TEST_F(GuiTest, ShowsTheSearchForTheStartInTheMapOfAnEarlierRun) {
   EXPECT_GT(count(found, canvas, 80, 180, 255), 20u) << "robot";
 }
 
-/// As `--prior-plan` does.
+/// The window begins with a floor plan, like `--prior-plan`.
 TEST_F(GuiTest, BeginsWithAFloorPlan) {
   using window::MapChoice;
   run::RunOptions options;

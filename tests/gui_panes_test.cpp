@@ -1,5 +1,4 @@
-/// What the panes show beside the map: legend, scale bar, the cell under the mouse pointer; the smallest
-/// window.
+/// The panes besides the map: legend, scale bar, the cell under the mouse pointer; the smallest window.
 #include "KeysTest.h"
 #include "window/view/SceneLegend.h"
 
@@ -78,6 +77,21 @@ TEST_F(PanesTest, TheStatusBarSaysWhatIsUnderTheMousePointer) {
   EXPECT_TRUE(happens([this] { return status(2).find(": unknown") != std::string::npos; })) << status(2);
   pointAt(frame->replay()->stepButton(), {5, 5});
   EXPECT_TRUE(happens([this] { return status(2).empty(); })) << status(2);
+}
+
+TEST_F(PanesTest, TheTooltipOfTheEventListIsTheWholeLineUnderTheMousePointer) {
+  openAt(40);
+  const window::EventList* const list = frame->replay()->events();
+  ASSERT_GT(list->GetCount(), 1u);
+  for (const int y : {4, 30}) {
+    const int line = list->HitTest(wxPoint(20, y));
+    ASSERT_NE(line, wxNOT_FOUND);
+    pointAt(const_cast<window::EventList*>(list), {20, y});
+    EXPECT_TRUE(happens([&] {
+      return list->GetToolTipText() == list->GetString(static_cast<unsigned>(line));
+    })) << list->GetToolTipText();
+  }
+  EXPECT_NE(list->HitTest(wxPoint(20, 4)), list->HitTest(wxPoint(20, 30)));
 }
 
 /// The pages' own controls: inside the page, beside each other, and large enough for their texts.

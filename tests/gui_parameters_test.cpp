@@ -23,7 +23,7 @@ class ParametersTest : public KeysTest {
     wxUIActionSimulator().Text(text.c_str());
     wxYield();
   }
-  /// A click on its name.
+  /// Clicks on the name of a key.
   void select(const char* name) {
     wxPropertyGrid* const grid = dialog->grid();
     const wxPGProperty* const key = grid->GetProperty(name);

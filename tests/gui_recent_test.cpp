@@ -4,7 +4,7 @@
 namespace hybrid_slam {
 namespace {
 
-/// Fills in the dialog of Ctrl+M with real keys and a click, each step once the one before has worked.
+/// Fills in the dialog of Ctrl+M with real keys and a click; each step waits for the previous one.
 class MapTypist : public wxTimer {
  public:
   MapTypist(const std::string& file, const std::string& start) : file_(file), start_(start) { Start(200); }
@@ -61,7 +61,7 @@ class MapTypist : public wxTimer {
 
 class RecentFilesTest : public KeysTest {
  protected:
-  /// As if the program were started again.
+  /// Makes a new window, as after a restart of the program.
   void startAgain() {
     delete frame;
     frame = new window::MainFrame;
@@ -69,7 +69,7 @@ class RecentFilesTest : public KeysTest {
     frame->Show();
     ASSERT_TRUE(happens([this] { return frame->IsActive(); }));
   }
-  /// File, Recent files, the entry with this number.
+  /// Opens File, Recent files, and the entry with this number.
   void openRecent(char number) {
     press('F', wxMOD_ALT);
     settle(0.3);
@@ -111,7 +111,7 @@ TEST_F(RecentFilesTest, AFileThatIsGoneIsSaidAndForgotten) {
   EXPECT_EQ(entries()->GetSubMenu()->GetMenuItemCount(), 0u);
 }
 
-/// A recording of ROS 2 is one.
+/// A recording of ROS 2 is a folder.
 TEST_F(RecentFilesTest, AFolderIsOpened) {
   const std::string recording = folder.path("recording");
   std::filesystem::create_directory(recording);

@@ -39,7 +39,7 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   EXPECT_EQ(count(screenshot("room-without-scan-lines"), *frame->replay()->canvas(0), 0, 70, 230), 0u);
 }
 
-/// What is read off the log comes with a later event of the window.
+/// The settings from the log arrive with a later event of the window.
 TEST_F(GuiTest, OpeningALogReturnsBeforeItIsRead) {
   const std::string sparse = test::writeGzipped(folder.path("sparse.rawlog"), test::laps(30, 12));
   const auto step = [this] { return frame->settings()->configuration.filter.improved.updateDistance; };
@@ -67,6 +67,40 @@ TEST_F(GuiTest, ShowsTheLasersAndTheWarningsOnTheLog) {
   for (const wxString& line : frame->replay()->events()->GetStrings()) lines.push_back(line.utf8_string());
   EXPECT_THAT(lines, testing::Contains(HasSubstr("laser LASER: 181 beams")));
   EXPECT_EQ(lines.back(), status(0));
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
+/// As the other programs print them.
+TEST_F(GuiTest, ShowsTheWarningsOnTheSettings) {
+  const std::string other = folder.write("other.ini", "[particle_filter]\nparticles = 8\n[motion_by_hand]\n");
+  const std::string warning = "warning: unknown section [motion_by_hand]: " + other +
+                              "; ignored, the nearest known section is [motion_model]";
+  const auto lines = [this] {
+    std::vector<std::string> shown;
+    for (const wxString& line : frame->replay()->events()->GetStrings()) shown.push_back(line.utf8_string());
+    return shown;
+  };
+  frame->open(other, "");
+  EXPECT_THAT(lines(), testing::ElementsAre(warning));
+  frame->open("", "", {}, {"particle_filter.particles=8"});
+  EXPECT_THAT(lines(), testing::IsEmpty());
+
+  frame->open(other, log);
+  ASSERT_TRUE(stands(State::paused, 0));
+  EXPECT_TRUE(happens([&] { return status(0) == warning; })) << status(0);
+  EXPECT_THAT(lines(), testing::Contains(warning));
+  frame->applyChanges({"particle_filter.seed=7"});
+  EXPECT_TRUE(happens([&] { return frame->settings()->configuration.filter.filter.seed == 7; }));
+  ASSERT_TRUE(stands(State::paused, 0));
+  EXPECT_THAT(now().events, testing::Contains(warning)) << "the same settings, the same warning";
+
+  frame->live()->setServer("127.0.0.1:1");
+  frame->live()->setOutput(folder.path("live"));
+  frame->live()->connectOrStop();
+  EXPECT_TRUE(happens([&] {
+    const auto events = frame->live()->session()->snapshot()->events;
+    return !events.empty() && events[0] == "live: " + warning;
+  }));
   EXPECT_TRUE(dialogs.messages.empty());
 }
 
@@ -203,6 +237,24 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   EXPECT_EQ(run::Configuration(folder.path("live/config.ini"), {}).filter.improved.updateDistance, 0.1)
       << "as hybrid-slam-live, not what follows from the other log";
   EXPECT_TRUE(stands(State::ended, 60));
+}
+
+TEST_F(GuiTest, ALiveRunThatEndsWithTheProgramHasItsResults) {
+  EXPECT_EQ(frame->live()->end(), "") << "there is none";
+  test::Events events;
+  live::ObservationServer server("127.0.0.1", 0, {}, events.log());
+  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
+  frame->live()->setOutput(folder.path("live"));
+  frame->live()->connectOrStop();
+  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  publishLaps(server);
+  ASSERT_TRUE(happens([&] { return frame->live()->session()->snapshot()->scans == 60; }));
+  EXPECT_EQ(frame->live()->end(), "");
+  EXPECT_TRUE(std::filesystem::exists(folder.path("live/metrics.json")));
+
+  frame->live()->setOutput(folder.path("empty"));
+  frame->live()->connectOrStop();
+  EXPECT_THAT(frame->live()->end(), HasSubstr("no scan"));
 }
 
 }  // namespace

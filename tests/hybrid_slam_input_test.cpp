@@ -107,7 +107,7 @@ TEST_F(HybridSlam, UnreadableLog) {
   expectError(replay(log), "cannot open: " + log);
 }
 
-/// The room's corners tell where the robot is; it moves by 0.13 m and 4.5 deg a scan.
+/// The room's corners determine the pose; the robot moves by 0.13 m and 4.5 deg per scan.
 TEST_F(HybridSlam, ScansAreMatchedWhereThereIsNoOdometry) {
   const auto expectMapped = [&](const std::optional<test::TPose2D>& odometry) {
     Log log;
@@ -218,7 +218,7 @@ TEST_F(HybridSlam, AnotherNumberOfBeamsInMidLog) {
   }
 }
 
-/// 10 scans, the last five with the odometry `jump` m farther on.
+/// A log of 10 scans whose odometry jumps by `jump` m before the last five.
 test::Log withJump(double jump) {
   test::Log log = test::laps(10);
   for (size_t i = 10; i < 20; i += 2)
@@ -241,7 +241,7 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   }
 }
 
-/// One scan of 40 that cannot be true.
+/// One of 40 scans is impossible.
 TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
   const auto with = [](const mrpt::poses::CPose3D& sensor) {
     test::Log log = test::laps(40);
@@ -261,7 +261,7 @@ TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
 }
 
-/// One reading, with any content, leaves results and bounded memory.
+/// One reading of any content prevents neither results nor bounded memory.
 TEST_F(HybridSlam, OneReadingOfAnyContentEndsNoRun) {
   using Scan = test::CObservation2DRangeScan;
   const std::vector<std::function<void(Scan&, mrpt::obs::CObservationOdometry&)>> changes{

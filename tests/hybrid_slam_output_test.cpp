@@ -122,7 +122,7 @@ TEST_F(HybridSlam, AFullStandardOutputIsAnError) {
   }
 }
 
-/// A result file must not get the number of standard error, and its messages.
+/// A result file must not get the descriptor of standard error, and with it the messages.
 TEST_F(HybridSlam, ClosedStandardDescriptorsHarmNoResult) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(10));
   ASSERT_EQ(run("'" + ini + "' '" + log + "' -o '" + output + "'"), 0);

@@ -90,7 +90,7 @@ TEST_F(LostRun, TheSecondRunReplacesTheSessionOfTheFirst) {
   EXPECT_EQ(metrics()["particles_min"], 20);
 }
 
-/// A run that maps on in the map of a run just as bad.
+/// The run continues the map of an equally bad run.
 TEST_F(LostRun, IsKeptWhereASecondRunCouldNotStartFromTheSameMap) {
   const std::string session = output + "/session.hslam", options = retrying(20) + " -s 2 --start 0,0,0";
   ASSERT_EQ(replay(kLog, retrying(0) + " -s 2"), 0) << err;

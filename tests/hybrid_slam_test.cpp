@@ -296,8 +296,8 @@ TEST_F(HybridSlam, TheIniFileIsOptional) {
   expectError(run("'" + log + "' '" + log + "' -o '" + output + "'"), "not a text file");
 }
 
-/// A CARMEN log of 10 m along a corridor, one line of it broken; 180 beams lie around -0.5 deg, and the laser
-/// is ahead of the robot's centre: both have to come out the same.
+/// A CARMEN log of 10 m along a corridor, one line of it broken; The fan of 180 beams is centred at -0.5 deg,
+/// and the laser is ahead of the robot's centre; the results must respect both.
 std::string carmenLog() {
   std::ostringstream log;
   log << "# made for a test\nPARAM robot_frontlaser_offset 0.1\nFLASER 180 broken\n";

@@ -70,7 +70,7 @@ class LivePrograms : public testing::Test {
     replay(test::writeGzipped(folder.path("earlier.rawlog"), recorded), "earlier");
     return folder.path("earlier/session.hslam");
   }
-  /// Waits for the first cycles in the recording: they come in one block, within 5 s.
+  /// Waits for the first cycles in the recording, which are written in one block within 5 s.
   bool isRecording() const {
     return test::happens([&] {
       std::error_code none;
@@ -79,7 +79,7 @@ class LivePrograms : public testing::Test {
     });
   }
   std::string result(const std::string& name) const { return test::contentOf(output + "/" + name); }
-  /// All that a replay writes, and the recording.
+  /// Expects all results of a replay, and the recording.
   void expectAllResults() const {
     std::vector<std::string> all = test::kResults;
     all.push_back(std::filesystem::path(recording()).filename().string());

@@ -44,7 +44,7 @@ class Log2Rawlog : public testing::Test {
   int convert(const std::string& input, const std::string& options = "", const std::string& before = "") {
     return run(options + " '" + input + "' '" + rawlog + "'", before);
   }
-  /// Exit 2, one error line, no file.
+  /// Expects exit code 2, one error line and no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "log2rawlog", text);
     EXPECT_FALSE(fs::exists(rawlog));
@@ -100,6 +100,16 @@ TEST_F(Log2Rawlog, BrokenLinesAreReportedAndSkipped) {
                      "logger_time\n");
   EXPECT_THAT(out, HasSubstr("2 scans"));
   EXPECT_THAT(out, HasSubstr("1 broken lines"));
+}
+
+TEST_F(Log2Rawlog, NamesOfFilesAndLinesCannotActOnTheTerminal) {
+  EXPECT_EQ(run("\"$(printf 'no\\033[2Jlog')\" out.rawlog"), 2);
+  EXPECT_THAT(err, HasSubstr(R"(no\x1b[2Jlog)"));
+  EXPECT_EQ(err.find('\x1b'), std::string::npos);
+  const std::string log = folder.write("names.log", scanRow("1") + scanRow("2") + "NAME\x1b[2J a\n");
+  EXPECT_EQ(convert(log), 0) << err;
+  EXPECT_THAT(err, HasSubstr("[2J` is not a record's name"));
+  EXPECT_EQ(err.find('\x1b'), std::string::npos);
 }
 
 TEST_F(Log2Rawlog, OnlyTheFirstBrokenLinesArePrinted) {

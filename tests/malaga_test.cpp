@@ -33,7 +33,7 @@ class Malaga : public testing::Test {
     return files::loadTum((folder_ / "trajectory.tum").string());
   }
 
-  /// Mean of a column of steps.csv over the updates that have it, the first (no map yet) left out.
+  /// Mean of a column of steps.csv over the updates that have it, except the first (no map yet).
   double meanOf(const std::string& column) const {
     const auto rows = test::csv(test::contentOf(folder_ / "steps.csv"));
     const auto& header = rows.at(0);

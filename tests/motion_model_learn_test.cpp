@@ -42,13 +42,13 @@ class MotionModelLearn : public testing::Test {
   }
   int learn(const std::string& log, const std::string& options = "") { return run(arguments(log, options)); }
   std::string logOf(size_t steps) { return test::writeGzipped(folder.path("log.rawlog"), test::laps(steps)); }
-  /// Exit 2, one error line, no file.
+  /// Expects exit code 2, one error line and no file.
   void expectError(int exitCode, const std::string& text) {
     test::expectInputError({exitCode, out, err}, "motion-model-learn", text);
     EXPECT_FALSE(fs::exists(output));
     EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
   }
-  /// As hybrid-slam reads `cat config.ini motion.ini`.
+  /// Returns the learnt model as hybrid-slam reads it from `cat config.ini motion.ini`.
   MotionModelOptions learnt() const {
     const std::string both = folder.write("both.ini", test::contentOf(ini) + test::contentOf(output));
     return run::Configuration(both, {}).filter.motion;
@@ -76,7 +76,7 @@ class MotionModelLearn : public testing::Test {
   std::string out, err;
 };
 
-/// From the true poses, as EM's M-step would learn without hidden variables.
+/// Returns the motions between the true poses, from which EM's M-step would learn without hidden variables.
 std::vector<MotionSample> trueMotions(const std::string& log, const std::string& truth) {
   constexpr double kUpdateDistance = 0.3, kUpdateAngle = 15 * M_PI / 180;  // as in the INI file
   const files::Trajectory poses = files::loadTum(truth);

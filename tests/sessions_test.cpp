@@ -28,7 +28,7 @@ class Sessions : public HybridSlam {
   std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(120));
   std::string session = output + "/session.hslam";
 
-  /// Everything that a run writes but times and memory.
+  /// All results of a run except times and memory.
   std::map<std::string, std::string> resultsIn(const std::string& where) const {
     std::map<std::string, std::string> all;
     for (const char* name : {"trajectory.tum", "covariance.csv", "map.pgm", "map.gridmap.gz", "lines.csv"})

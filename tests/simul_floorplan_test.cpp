@@ -40,7 +40,7 @@ class SimulFloorplan : public testing::Test {
   Outcome call(const std::string& command) const { return test::shell(folder, command); }
   Outcome simulate(const std::string& arguments) const { return call("'" SIMUL_FLOORPLAN "' " + arguments); }
 
-  /// One clear line, exit 2, no file.
+  /// Expects one clear line, exit code 2 and no file.
   void expectInputError(const std::string& arguments, const std::string& part) const {
     test::expectInputError(simulate(arguments), "simul-floorplan", part);
     EXPECT_FALSE(fs::exists(folder.path("out.rawlog")));
@@ -203,7 +203,7 @@ TEST_F(SimulFloorplan, WrongThingsAndSessions) {
   expectInputError(run, "path hits a wall at (3.7");
 }
 
-/// Each of these would take all memory, or hours.
+/// Each of these inputs would take all memory, or hours.
 TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
   write("room.route", "start 1 1 0\nwait 1e300\n");
   expectInputError(kRun, "`1e300` is too large: file room.route, line 2");
@@ -246,7 +246,7 @@ TEST_F(SimulFloorplan, AFullDiskIsAFailureThatLeavesNoFile) {
     EXPECT_NE(entry.path().stem().string().substr(0, 3), "out") << entry.path();
 }
 
-/// For different bytes: file, sizes, and whether only the compression differs.
+/// Describes files with different bytes: file, sizes, and whether only the compression differs.
 std::string differenceOf(const fs::path& made, const fs::path& committed) {
   const std::string a = test::contentOf(made), b = test::contentOf(committed);
   if (a == b) return "none";
@@ -302,7 +302,7 @@ TEST_F(SimulFloorplan, TheCorridorLogHas378Steps) {
   EXPECT_EQ(rawlog.size(), 2 * 378u);
 }
 
-/// The rows of doc/simulation.md, from the options themselves.
+/// Returns the rows of doc/simulation.md for the options.
 std::string rowsOf(const Options& options) {
   std::string rows;
   for (const auto& option : options.table()) {

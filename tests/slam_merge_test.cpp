@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using testing::HasSubstr;
 
-/// Some sides of a square in a room of which no part looks like another.
+/// A drive along some sides of a square in a room without similar parts.
 test::Log tour(int sides) {
   test::Log log;
   double time = 1000;

@@ -5,25 +5,46 @@
 #include <wx/glcanvas.h>
 #include <wx/image.h>
 #include <wx/log.h>
+#include <wx/timer.h>
+#include <wx/weakref.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 
 #include "FilterArguments.h"
 #include "InputFiles.h"
 #include "Program.h"
 #include "SessionArguments.h"
-#include "Settings.h"
+#include "SettingArguments.h"
+#include "Stop.h"
 #include "window/gui/MainFrame.h"
 
 namespace {
 
+using hybrid_slam::window::MainFrame;
 using hybrid_slam::window::MapChoice;
 
 hybrid_slam::InputFiles files;
 MapChoice map;
 std::vector<std::string> settings;
+
+/// Ends the program after a stop signal, with the results of a live run.
+class StopTimer : public wxTimer {
+ public:
+  explicit StopTimer(MainFrame* frame) : frame_(frame) { Start(100); }
+  void Notify() override {
+    if (!hybrid_slam::stop || !frame_) return;
+    frame_->replay()->end();
+    const std::string failure = frame_->live()->end();
+    // Not by closing the window: an open dialog still needs it.
+    std::_Exit(failure.empty() ? 0 : hybrid_slam::fail(1, "live run failed: " + failure));
+  }
+
+ private:
+  wxWeakRef<MainFrame> frame_;
+};
 
 class GuiApp : public wxApp {
  public:
@@ -37,12 +58,16 @@ class GuiApp : public wxApp {
       return false;
     }
     wxInitAllImageHandlers();
-    auto* const frame = new hybrid_slam::window::MainFrame;
+    auto* const frame = new MainFrame;
     frame->Show();
+    stopTimer_ = std::make_unique<StopTimer>(frame);
     if (!files.main().empty() || !map.file.empty() || !settings.empty())
       frame->CallAfter([frame] { frame->open(files.config, files.log, map, settings); });
     return true;
   }
+
+ private:
+  std::unique_ptr<StopTimer> stopTimer_;
 };
 
 }  // namespace
@@ -63,8 +88,8 @@ int main(int argc, char** argv) {
     session.addMap(app);
     hybrid_slam::addSettings(app, settings);
     app.footer(
-        "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, 2 "
-        "wrong command line.");
+        "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display or no OpenGL, or "
+        "a signal ended a live run that failed, 2 wrong command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
     files.sort();
     filter.addTo(settings, app);
@@ -77,7 +102,8 @@ int main(int argc, char** argv) {
           1, "no display: DISPLAY is unset; expected an X11 or XWayland desktop, or xvfb-run");
     setenv("GDK_BACKEND", "x11", 0);
     std::signal(SIGPIPE, SIG_IGN);  // the live page handles a server that hangs up
-    int none = 1;                   // wxWidgets gets no arguments
+    hybrid_slam::stopOnSignals();
+    int none = 1;  // wxWidgets gets no arguments
     return wxEntry(none, argv) == 0 ? 0 : 1;
   };
   return hybrid_slam::exitCodeOf(parseAndShow);

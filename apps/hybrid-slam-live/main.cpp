@@ -9,7 +9,7 @@
 #include "SaveSignal.h"
 #include "SensorProgram.h"
 #include "SessionArguments.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "Stop.h"
 #include "files/InstalledFiles.h"
 #include "live/ObservationClient.h"
@@ -37,8 +37,8 @@ void describe(CLI::App& app, CommandLine& line) {
       ->type_name("HOST:PORT");
   app.add_option("-o,--output", line.output, "folder for results and recording")->type_name("DIR");
   app.add_flag("--overwrite", line.overwrites,
-               "replace the results of an earlier run in DIR, but no recording; else they go to a dated "
-               "subfolder");
+               "replace the results of an earlier run in DIR, but never a recording (default: write to a "
+               "dated subfolder)");
   line.filter.addMethod(app);
   line.filter.addParticles(app, "random seed; same seed and recording: identical results");
   line.session.addCheckpoints(app);
@@ -50,7 +50,7 @@ void describe(CLI::App& app, CommandLine& line) {
       "Results: those of hybrid-slam (doc/results.md) and recording-DATE.rawlog, which hybrid-slam "
       "replays.\n"
       "Ctrl-C ends the run and writes the results. SIGUSR1 saves map and session to saved-DATE in DIR; the "
-      "run goes on.\n"
+      "run continues.\n"
       "Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
 }
 

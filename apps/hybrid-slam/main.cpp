@@ -8,7 +8,7 @@
 #include "InputFiles.h"
 #include "Program.h"
 #include "SessionArguments.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "Stop.h"
 #include "TopicArguments.h"
 #include "run/Replay.h"
@@ -33,7 +33,7 @@ void describe(CLI::App& app, CommandLine& line) {
   line.files.add(app, kLogMeans + " (default: [run] rawlog)");
   app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
   app.add_flag("--overwrite", line.overwrites,
-               "replace the results of an earlier run in DIR; else they go to a dated subfolder");
+               "replace the results of an earlier run in DIR (default: write to a dated subfolder)");
   line.filter.addMethod(app);
   line.filter.addParticles(app);
   app.add_option("--refine", line.refine,
@@ -48,13 +48,11 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_flag("--profile", line.wantsProfile, "print time and call count of each stage");
   app.add_flag("--help-config", line.wantsManual, "print every section and key of the INI file");
   app.footer(
-      "Settings that follow from the sensor are read off the log and printed; the INI file and --set "
-      "override "
-      "them.\n"
+      "Settings that depend on the sensor are derived from the log and printed; the INI file and --set\n"
+      "override them.\n"
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
-      "plan.svg, plan.dxf, plan.geojson, steps.csv, metrics.json, config.ini, session.hslam "
-      "(doc/results.md). Ctrl-C ends the run and writes "
-      "the results.\n"
+      "plan.svg, plan.dxf, plan.geojson, steps.csv, metrics.json, config.ini, session.hslam\n"
+      "(doc/results.md). Ctrl-C ends the run and writes the results.\n"
       "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost, 2 wrong command "
       "line or input.");
 }

@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief log2rawlog: text logs and bags to rawlogs, with their own timestamps.
+/// @brief log2rawlog: converts text logs and bags to rawlogs and keeps their timestamps.
 #include <mrpt/core/bits_math.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace hybrid_slam;
 
-/// CLI::Range accepts `nan`.
+/// A range check that rejects `nan`, which CLI::Range accepts.
 CLI::Validator within(double low, double high) {
   const std::string range = numberText(low) + ".." + numberText(high);
   return {[low, high, range](const std::string& given) -> std::string {
@@ -48,7 +48,7 @@ void printSummary(const std::string& output, const readings::LogSummary& s, bool
 void warnOfNoReturns(const std::string& input, float longestRange) {
   const auto warnOf = [&](const char* mode, const char* limit) {
     std::cerr << "log2rawlog: warning: the longest readings are " << longestRange
-              << " m, which a SICK laser in " << mode << " mode reports for no return: " << input
+              << " m, which a SICK laser in " << mode << " mode reports for no return: " << onOneLine(input)
               << "; --max-range " << limit << " drops them\n";
   };
   if (longestRange > 8.1829f && longestRange < 8.1911f) warnOf("8 m", "8.18");
@@ -73,8 +73,8 @@ void warnOfJumps(const std::string& input, const readings::LogSummary& s, const 
 
 void warnOfWrongSweeps(const std::string& input, const readings::LogSummary& s) {
   if (s.wrongSweeps > 0)
-    warn({std::to_string(s.wrongSweeps) + " scans with a time from beam to beam that cannot be true: " +
-          input + "; they will not be corrected for the robot's motion"});
+    warn({std::to_string(s.wrongSweeps) + " scans with an impossible time from beam to beam: " + input +
+          "; they will not be corrected for the robot's motion"});
 }
 
 int convert(int argc, char** argv) {
@@ -120,7 +120,7 @@ int convert(int argc, char** argv) {
   app.add_flag("--action-observation", options.actionObservation,
                "write (action, sensory frame) pairs instead of one observation per row");
   app.add_flag("--strict", options.strict,
-               "stop at the first broken line or message, and at the cut of a bag");
+               "fail at the first broken line or message, or where a bag is cut off");
 
   if (const auto code = parse(app, argc, argv)) return *code;
   options.format = readings::formatNamed(format);  // null: detected

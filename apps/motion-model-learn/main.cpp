@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief motion-model-learn: a robot's motion model from a log (doc/motion-model.md).
+/// @brief motion-model-learn: learns a robot's motion model from a log (doc/motion-model.md).
 
 #include <mrpt/core/bits_math.h>
 
@@ -12,7 +12,7 @@
 #include "FilterArguments.h"
 #include "InputFiles.h"
 #include "Program.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "Stop.h"
 #include "files/OutputFolder.h"
 #include "readings/LogWarnings.h"
@@ -62,7 +62,7 @@ run::Configuration configurationOf(const CommandLine& line, const CLI::App& app)
   return run::Configuration(line.files.config, settings);
 }
 
-/// Comments on the origin of the learnt section.
+/// INI comments on the origin of the learnt section.
 std::vector<std::string> comments(const CommandLine& line, const run::Configuration& configuration,
                                   const EmIteration& prior, const LearntMotionModel& learnt) {
   const auto text = [](const auto&... parts) {

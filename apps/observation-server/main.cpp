@@ -6,7 +6,7 @@
 
 #include "Program.h"
 #include "SensorProgram.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "Stop.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"

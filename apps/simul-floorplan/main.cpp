@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "Program.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
 #include "study/simulation/FloorPlan.h"

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@
 
 #include "InputFiles.h"
 #include "Program.h"
-#include "Settings.h"
+#include "SettingArguments.h"
 #include "Stop.h"
 #include "files/InstalledFiles.h"
 #include "files/OutputFolder.h"
@@ -49,7 +50,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->required()
       ->type_name("DIR");
   app.add_option("-m,--methods", line.methods,
-                 "list of hybrid, general, linemap, ortho, stock; the others are tested against the first")
+                 "list of hybrid, general, linemap, ortho, stock; the first is the baseline of the tests")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
@@ -162,7 +163,7 @@ Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed)
   return setup;
 }
 
-/// MRPT's sections, which config.ini does not hold.
+/// The sections for MRPT, which config.ini does not hold.
 std::string otherSections(run::Configuration& configuration) {
   std::vector<std::string> sections, keys;
   configuration.source.getAllSections(sections);
@@ -305,7 +306,8 @@ int execute(const CommandLine& line, const std::string& command) {
     const auto left =
         static_cast<int>(elapsed.count() / static_cast<double>(ended) * static_cast<double>(todo - ended));
     if (!error.empty())
-      std::cerr << "slam-compare: run failed: " << r.folder.path().string() << ": " << error << std::endl;
+      std::cerr << "slam-compare: run failed: " << onOneLine(r.folder.path().string() + ": " + error)
+                << std::endl;
     if (!line.isQuiet)
       std::cerr << ended << " of " << todo << ": " << r.folder.path().filename().string() << ", about "
                 << left / 60 << ":" << (left % 60 < 10 ? "0" : "") << left % 60 << " left" << std::endl;

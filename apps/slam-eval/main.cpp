@@ -45,7 +45,7 @@ struct CommandLine {
   double maxRange = std::numeric_limits<double>::infinity();  // m
 };
 
-/// "1.5s" or "0.5m".
+/// Parses "1.5s" or "0.5m".
 evaluation::RpeDelta parseDelta(const std::string& text) {
   evaluation::RpeDelta delta;
   const char* const end = text.data() + text.size();
@@ -80,7 +80,7 @@ Json relationsJson(const CommandLine& line) {
           {"rot_std_deg", errors.rotation.std * kRadToDeg}};
 }
 
-/// Fields PREFIX_rmse_UNIT, PREFIX_mean_UNIT, ...
+/// Adds the fields PREFIX_rmse_UNIT, PREFIX_mean_UNIT, ...
 void addStatistics(Json& json, const std::string& prefix, const std::string& unit,
                    const evaluation::ErrorStatistics& errors, double scale) {
   json[prefix + "_rmse_" + unit] = errors.rmse * scale;
@@ -136,7 +136,7 @@ Json revisitsJson(const CommandLine& line) {
           {"apart", errors.apart}};
 }
 
-/// The walls of a drawing, or of a floor plan of simul-floorplan with its arcs in pieces of at most 0.1 m.
+/// The walls of a drawing or of a floor plan for simul-floorplan, whose arcs become pieces of at most 0.1 m.
 std::vector<PlanLine> loadWalls(const std::string& file) {
   const std::string end = std::filesystem::path(file).extension();
   if (end == ".geojson" || end == ".json" || end == ".dxf" || end == ".svg") return run::loadPlan(file);

@@ -20,12 +20,12 @@ void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-merge " HYBRID_SLAM_VERSION);
   const std::string files = "session.hslam, map.yaml, gridmap, or a folder of results with its session";
   app.add_option("A", line.merge.older, files + "; the merged map has its frame and its cells")->required();
-  app.add_option("B", line.merge.newer, "the same of an area that overlaps")->required();
+  app.add_option("B", line.merge.newer, "the same for an overlapping area")->required();
   app.add_option("-o,--output", line.merge.output, "folder for the results, created if missing")
       ->required()
       ->type_name("DIR");
   app.add_flag("--overwrite", line.merge.overwrite,
-               "replace earlier results in DIR; else they go to a dated subfolder");
+               "replace earlier results in DIR (default: write to a dated subfolder)");
   app.add_option("-j,--threads", line.merge.threads, "number of threads; 0: all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()

@@ -1,5 +1,5 @@
 /// @file Bag.h
-/// @brief The recordings of ROS: messages by topic, in the order in which they were recorded.
+/// @brief ROS recordings: messages by topic, in the order of recording.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Topic {
 
 struct StoredMessage {
   size_t topic = 0;        ///< index in topics()
-  double time = 0;         ///< s, when it was recorded
+  double time = 0;         ///< s; time of recording
   std::string_view bytes;  ///< until the next call; may be empty if the topic's messages are not read
 };
 
@@ -32,7 +32,7 @@ struct StoredMessage {
 class Bag {
  public:
   virtual ~Bag() = default;
-  /// The next message; empty at the end, or where the file is cut or damaged (see `defect`).
+  /// Returns the next message; empty at the end, or where the file is cut or damaged (see `defect`).
   virtual std::optional<StoredMessage> next() = 0;
 
   const std::vector<Topic>& topics() const { return topics_; }  ///< found so far
@@ -40,7 +40,7 @@ class Bag {
   virtual const char* format() const = 0;                       ///< for the user: "ROS 1 bag"
 
  protected:
-  /// The index of a topic, which is added if it is new.
+  /// Returns the index of a topic; adds a new one.
   /// @throws BrokenBytes if there are too many
   size_t topicOf(std::string_view name, std::string_view type, Encoding encoding);
 
@@ -51,7 +51,7 @@ class Bag {
   std::map<std::pair<std::string, std::string>, size_t> indices_;
 };
 
-/// Whether a file or folder begins like a recording of ROS.
+/// Returns whether a file or folder begins like a ROS recording.
 bool isBag(const std::string& path);
 
 /// Opens a ROS 1 bag, a ROS 2 database or MCAP file, or the folder of a ROS 2 recording. A file may be

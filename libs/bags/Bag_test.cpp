@@ -69,14 +69,14 @@ void execute(const std::string& path, const std::string& sql) {
   sqlite3_close(database);
 }
 
-/// Adds topics with the numbers `from` to `to` and the same or different names.
+/// Adds topics numbered `from` to `to`, with equal or different names.
 void addTopics(const std::string& path, int from, int to, const std::string& name = "'/t' || i") {
   execute(path, "WITH RECURSIVE n(i) AS (VALUES(" + std::to_string(from) +
                     ") UNION ALL SELECT i + 1 FROM n WHERE i < " + std::to_string(to) +
                     ") INSERT INTO topics SELECT i, " + name + ", 'a/B', 'cdr', '' FROM n");
 }
 
-/// A start of the file gives the messages that it has.
+/// Expects that each truncated file gives the messages it holds.
 void expectCutsAreFound(const std::string& path, const std::vector<TestMessage>& whole) {
   const std::string bytes = test::contentOf(path);
   for (const double share : {0.1, 0.5, 0.9}) {
@@ -115,7 +115,8 @@ TEST(Ros1Bag, CutBagsAreReadUpToTheCut) {
   }
 }
 
-/// One bit in a hundred places: read to the end, or a defect, never a crash.
+/// Flips one bit in each of a hundred places: the bag is read to the end or has a defect, but nothing
+/// crashes.
 TEST(Ros1Bag, DamagedBagsDoNoHarm) {
   const files::TemporaryFolder folder;
   const auto written = messages(20);
@@ -130,7 +131,7 @@ TEST(Ros1Bag, DamagedBagsDoNoHarm) {
   }
 }
 
-/// As in the bags of scan_tools, recorded in 2010: 20 bytes for each entry of the index, where there are 12.
+/// The bags of scan_tools, recorded in 2010, state 20 bytes for each index entry, which has 12.
 TEST(Ros1Bag, WrongLengthsOfTheIndexDoNotMatter) {
   const files::TemporaryFolder folder;
   const auto written = messages(100);
@@ -271,7 +272,8 @@ TEST(Rosbag2Database, AFileGivesNoMoreThanItsBytes) {
   EXPECT_LT(content.messages.size() * 10000, std::filesystem::file_size(path));
 }
 
-/// A page of 512 bytes within the tree of a table, behind `start`: the pages `first` and 50 times `other`.
+/// An inner page of 512 bytes in a table's tree: `start`, then pointers to the page `first` and 50 times to
+/// `other`.
 std::string innerPage(const std::string& start, char first, char other) {
   constexpr int kCells = 50, kCellsBegin = 512 - 5 * kCells;
   const auto number = [](int value) {
@@ -285,7 +287,7 @@ std::string innerPage(const std::string& start, char first, char other) {
   return page;
 }
 
-/// One row a million times, in 5 kB.
+/// A file of 5 kB that claims one row a million times.
 TEST(Rosbag2Database, ASchemaOfTheSamePageManyTimesIsRefused) {
   const files::TemporaryFolder folder;
   const std::string path = folder.path("a.db3");

@@ -11,12 +11,12 @@
 
 namespace hybrid_slam::bags {
 
-/// Bytes that do not have the layout they should have; what() says how.
+/// Thrown for bytes without the expected layout; what() says what is wrong.
 struct BrokenBytes : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A name of unknown origin that shall not control a terminal.
+/// A name of unknown origin without characters that control a terminal.
 inline std::string printable(std::string_view name) {
   std::string text(name);
   for (char& c : text)
@@ -37,7 +37,7 @@ class ByteCursor {
     at_ += count;
     return bytes_.substr(at_ - count, count);
   }
-  /// An integer or floating-point number, stored without padding.
+  /// Reads an integer or floating-point number, stored without padding.
   template <class Number>
   Number number() {
     char bytes[sizeof(Number)];
@@ -47,7 +47,7 @@ class ByteCursor {
     std::memcpy(&value, bytes, sizeof(Number));
     return value;
   }
-  /// A length of 32 bits, and as many bytes.
+  /// Reads a 32-bit length and that many bytes.
   std::string_view block() { return take(number<uint32_t>()); }
 
  private:

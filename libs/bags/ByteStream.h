@@ -1,5 +1,5 @@
 /// @file ByteStream.h
-/// @brief The bytes of a file as records, whose lengths may be wrong.
+/// @brief Reads a file in pieces whose stated lengths may be wrong.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class ByteStream {
   explicit ByteStream(const std::string& path);
 
   bool isAtEnd();
-  /// Memory grows with the bytes that the file has, not with `count`.
+  /// Reads `count` bytes. Memory grows with the bytes in the file, not with `count`.
   /// @throws BrokenBytes if it has fewer
   std::string take(uint64_t count);
   /// @throws BrokenBytes if the file has fewer bytes

@@ -1,6 +1,5 @@
 /// @file ChunkedFile.h
-/// @brief What bags of records have in common: records in sequence, some of them compressed chunks of
-/// records.
+/// @brief Base of the bags that consist of records, some of which are compressed chunks of records.
 #pragma once
 
 #include <string>
@@ -8,12 +7,12 @@
 #include "bags/Bag.h"
 #include "bags/ByteCursor.h"
 #include "bags/ByteStream.h"
-#include "files/Decoder.h"
+#include "files/Decompressor.h"
 
 namespace hybrid_slam::bags {
 
-/// Reads the records in sequence, not through the index at the end: a file whose recording was killed, which
-/// has no index, is read as far as it goes.
+/// Reads the records in sequence and ignores the index at the end, so that a killed recording, which has no
+/// index, can be read up to its end.
 class ChunkedFile : public Bag {
  public:
   std::optional<StoredMessage> next() final;
@@ -21,13 +20,13 @@ class ChunkedFile : public Bag {
  protected:
   ChunkedFile(const std::string& path, size_t magicBytes) : stream_(path) { stream_.skip(magicBytes); }
 
-  /// The next record of the file, if it is a message. Sets isAtEnd_ behind the last message, and inChunk_ if
-  /// the record is a chunk. @throws BrokenBytes, files::Damaged
+  /// Reads the next record of the file; returns it if it is a message. Sets isAtEnd_ behind the last message,
+  /// and inChunk_ if the record is a chunk. @throws BrokenBytes, files::Damaged
   virtual std::optional<StoredMessage> nextRecord() = 0;
-  /// The same within the chunk.
+  /// Reads the next record of the chunk; returns it if it is a message.
   virtual std::optional<StoredMessage> nextInChunk() = 0;
   /// @param compression  empty: none
-  /// @param size         of the chunk, decompressed
+  /// @param size         of the decompressed chunk
   void openChunk(std::optional<files::Compression> compression, std::string_view bytes, uint64_t size);
 
   ByteStream stream_;

@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::bags {
 
-/// The checksums of chunks and of the data section are checked where there are any.
+/// Checks the checksums of chunks and of the data section where they exist.
 class McapFile : public ChunkedFile {
  public:
   explicit McapFile(const std::string& path);

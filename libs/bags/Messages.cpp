@@ -7,7 +7,7 @@
 namespace hybrid_slam::bags {
 namespace {
 
-/// Fields of a message, in sequence.
+/// Reads the fields of a message in sequence.
 class Fields {
  public:
   Fields(Encoding encoding, std::string_view bytes)
@@ -31,7 +31,7 @@ class Fields {
     if (text.size() > 256) throw BrokenBytes("a name is too long");
     return printable(text);
   }
-  /// Number of elements of a sequence, each at least so large.
+  /// Reads the length of a sequence. Each element takes at least `elementBytes`.
   size_t count(size_t elementBytes) {
     const auto claimed = number<uint32_t>();
     if (claimed > cursor_.left() / elementBytes) throw BrokenBytes("it ends too early");
@@ -84,7 +84,7 @@ class Fields {
   ByteCursor cursor_;
 };
 
-/// Whether the quaternion is one of a rotation, then of unit length.
+/// Normalises the quaternion; returns false if it is not a rotation.
 bool normalise(FramePose& p) {
   const double norm = std::sqrt(p.qx * p.qx + p.qy * p.qy + p.qz * p.qz + p.qw * p.qw);
   if (!(std::abs(norm - 1) < 0.1)) return false;
@@ -98,7 +98,7 @@ std::vector<float> floats(Fields& in) {
   return values;
 }
 
-/// The first of each sequence; NaN where it is empty.
+/// Reads the first echo of each beam; NaN where there is none.
 std::vector<float> firstEchoes(Fields& in) {
   std::vector<float> values(in.count(sizeof(uint32_t)));
   for (float& value : values) {

@@ -10,10 +10,10 @@
 
 namespace hybrid_slam::bags {
 
-/// How a message is stored: ROS 1 without padding; ROS 2 as CDR, numbers aligned to their size.
+/// Encoding of a message: ROS 1 (no padding), or CDR (ROS 2; numbers are aligned to their size).
 enum class Encoding { ros1, cdr };
 
-/// A message over this size is not decoded: a scan of a million beams with intensities has 8 MB.
+/// Larger messages are not decoded. A scan of a million beams with intensities has 8 MB.
 constexpr size_t kMostMessageBytes = size_t{16} << 20;
 
 struct MessageHeader {
@@ -21,7 +21,7 @@ struct MessageHeader {
   std::string frame;  ///< without the leading slash of old ROS versions
 };
 
-/// Of sensor_msgs/LaserScan, or the first echoes of sensor_msgs/MultiEchoLaserScan.
+/// A sensor_msgs/LaserScan, or the first echoes of a sensor_msgs/MultiEchoLaserScan.
 struct ScanMessage {
   MessageHeader header;                ///< time: of the first beam
   double angleMin = 0, angleStep = 0;  ///< rad, counter-clockwise about the frame's z axis
@@ -36,14 +36,14 @@ struct FramePose {
   double qx = 0, qy = 0, qz = 0, qw = 1;
 };
 
-/// Of nav_msgs/Odometry.
+/// A nav_msgs/Odometry.
 struct OdometryMessage {
   MessageHeader header;
   std::string childFrame;
   FramePose pose;
 };
 
-/// Of tf2_msgs/TFMessage and tf/tfMessage, which hold several; those without a rotation are left out.
+/// A transform of a tf2_msgs/TFMessage or tf/tfMessage, which hold several. Invalid rotations are left out.
 struct TransformMessage {
   MessageHeader header;  ///< frame: the parent
   std::string childFrame;
@@ -54,11 +54,11 @@ using Message = std::variant<ScanMessage, OdometryMessage, std::vector<Transform
 
 enum class MessageType { laserScan, multiEchoLaserScan, odometry, transforms };
 
-/// The type of this name in ROS 1 (`sensor_msgs/LaserScan`) or 2 (`sensor_msgs/msg/LaserScan`); empty: not
-/// read.
+/// Returns the type with this name in ROS 1 (`sensor_msgs/LaserScan`) or 2 (`sensor_msgs/msg/LaserScan`);
+/// empty for a type that is not read.
 std::optional<MessageType> messageTypeOf(std::string_view name);
 
-/// @throws BrokenBytes for bytes that are not a message of this type, and values that no message can have
+/// @throws BrokenBytes for bytes that are not a message of this type, or impossible values
 Message decodeMessage(MessageType type, Encoding encoding, std::string_view bytes);
 
 }  // namespace hybrid_slam::bags

@@ -28,7 +28,7 @@ Content decode(MessageType type, Encoding encoding, const std::string& bytes) {
   return std::get<Content>(decodeMessage(type, encoding, bytes));
 }
 
-/// By the code that ROS generates from the definitions.
+/// Serialises with the code that ROS generates from the definitions.
 template <class Message>
 std::string bytesOfRos(const Message& message) {
   std::string bytes(ros::serialization::serializationLength(message), '\0');

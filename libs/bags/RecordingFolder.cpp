@@ -16,7 +16,7 @@ bool isOfRecording(fs::path path) {
   return path.extension() == ".db3" || path.extension() == ".mcap";
 }
 
-/// `drive_2.db3` comes before `drive_10.db3`.
+/// Compares names by their numbers: `drive_2.db3` comes before `drive_10.db3`.
 bool comesBefore(const std::string& a, const std::string& b) {
   const auto numberAt = [](const std::string& name) {
     const size_t end = name.find_last_of("0123456789", name.find('.'));

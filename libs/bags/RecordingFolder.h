@@ -10,11 +10,10 @@
 
 namespace hybrid_slam::bags {
 
-/// The databases and MCAP files in a folder, also compressed ones, in the order of the numbers in their
-/// names.
+/// The databases and MCAP files in a folder, plain or compressed, in the order of the numbers in their names.
 std::vector<std::string> filesOfRecording(const std::string& folder);
 
-/// A file that cannot be opened is a defect, behind which nothing is read.
+/// Reads the files one after another. A file that cannot be opened is a defect, after which nothing is read.
 class RecordingFolder : public Bag {
  public:
   /// @throws InputError if there is no file

@@ -20,7 +20,7 @@ constexpr const char* kExpected = "expected a ROS 2 recording with the tables to
 constexpr uint64_t kMostUnpackedBytes = uint64_t{16} << 30;
 constexpr int kLongestStatement = 1 << 20;  // bytes, in the file or ours with the numbers of all topics
 
-/// A database in a compressed file as a file of its own, which exists as long as this object.
+/// Decompresses a database to a temporary file, which is removed with the object.
 class Unpacked {
  public:
   explicit Unpacked(const std::string& path) {
@@ -68,7 +68,7 @@ class Unpacked {
   int descriptor_ = -1;
 };
 
-/// Whether SQLite shall stop: the pages of a schema may refer to each other.
+/// Returns whether SQLite should stop: the pages of a schema may refer to each other.
 int stopsOpening(void* steps) {
   constexpr int kMostSteps = 1'000'000;  // of SQLite's machine; 10,000 topics need fewer than 100,000
   return ++*static_cast<int*>(steps) > kMostSteps;

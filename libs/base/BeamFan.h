@@ -1,5 +1,5 @@
 /// @file BeamFan.h
-/// @brief Where the beams of an MRPT scan point, as seen from above.
+/// @brief Directions of an MRPT scan's beams, as seen from above.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -12,7 +12,7 @@ class CObservation2DRangeScan;
 
 namespace hybrid_slam {
 
-/// The sensor is upright or upside down. Must not outlive the scan.
+/// The fan of a sensor that is upright or upside down. It must not outlive the scan.
 class BeamFan {
  public:
   explicit BeamFan(const mrpt::obs::CObservation2DRangeScan& scan);
@@ -21,7 +21,7 @@ class BeamFan {
   /// Pose of the sensor in the robot frame (m, rad). The heading is that of the sensor's x axis, which stays
   /// in the plane even if the sensor is upside down.
   const mrpt::math::TPose2D& sensorPose() const { return sensorPose_; }
-  /// Whether angles decrease with the beam's index.
+  /// Returns whether angles decrease with the beam's index.
   bool isReversed() const { return isReversed_; }
   /// Angle (rad) of the beam with this index, relative to the sensor's heading, counter-clockwise.
   double angle(size_t beam) const {

@@ -11,7 +11,7 @@
 namespace hybrid_slam {
 
 /// A scan as it would have been if all beams had been measured at its timestamp: the beams end where they
-/// did, seen from the sensor at that time. Free space is seen from there too, not from where the sensor was
+/// did, seen from the sensor at that time. Free space is taken to start there too, not where the sensor was
 /// at the beam's time.
 ///
 /// The angles are exact only in `angles`. For MRPT's code, and in files, it is a CObservation2DRangeScan with
@@ -21,10 +21,10 @@ class DeskewedScan : public mrpt::obs::CObservation2DRangeScan {
   DeskewedScan() = default;
   explicit DeskewedScan(const mrpt::obs::CObservation2DRangeScan& scan) : CObservation2DRangeScan(scan) {}
 
-  /// rad, of each beam by its index, as Beam::angle; empty: equal steps.
+  /// Angle of each beam (rad, as Beam::angle) by its index; empty: equal steps.
   std::vector<double> angles;
-  /// The ranges as measured, m. They identify the log of a session, because the correction of a log's last
-  /// scans depends on odometry that may come later. Not kept in sessions.
+  /// The ranges as measured, m. They identify the log of a session; the corrected ranges of a log's last
+  /// scans may still change with later odometry. Not kept in sessions.
   std::vector<float> measured;
 };
 

@@ -22,7 +22,7 @@ struct Beam {
 };
 
 /// The beams of one planar scan by ascending angle, and the sensor pose on the robot. The beams of a deskewed
-/// scan keep the order of the sweep: where they moved, neighbours may have changed places by a little.
+/// scan keep the order of the sweep, so the angles of neighbours may be swapped.
 ///
 /// Scans of a laser mounted upside down, or with clockwise beams (`rightToLeft == false`), are already
 /// mirrored.
@@ -36,23 +36,23 @@ struct LaserScan {
 /// The scans of a robot's lasers at one time.
 using LaserScans = std::vector<LaserScan>;
 constexpr size_t kMaxLasers = 8;
-/// Largest number of beams of a scan: more than lasers have, few enough for line extraction.
+/// Largest number of beams of a scan: more than any laser has, few enough for line extraction.
 constexpr size_t kMostScanBeams = 10000;
-/// m; a sensor pose farther from the robot's centre is taken for an error.
+/// Largest distance (m) of a sensor from the robot's centre; a larger one is taken for an error.
 constexpr double kMaxSensorDistance = 100;
 
-/// The same as MRPT's observations, as logs and robots provide them. The sensor pose is relative to the robot
-/// pose of the latest scan.
+/// The scans of a robot's lasers as MRPT observations, as logs and robots provide them. Sensor poses are
+/// relative to the robot pose of the latest scan.
 using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
 
 /// Keeps every n-th beam of a scan with more than kMostScanBeams beams, with the smallest n that suffices.
 /// @param maxRange  m; the smaller of this and the observation's own limit applies (<= 0: no limit)
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
-/// @throws InputError likewise, and for more than kMaxLasers scans
+/// Converts each scan. @throws InputError likewise, and for more than kMaxLasers scans
 LaserScans toLaserScans(const Scans& scans, double maxRange);
 
-/// Whether a laser is mounted in the plane of the map, upright or upside down, within 5 deg.
+/// Returns whether a laser is mounted in the plane of the map, upright or upside down, within 5 deg.
 bool isHorizontal(const mrpt::obs::CObservation2DRangeScan& observation);
 
 }  // namespace hybrid_slam

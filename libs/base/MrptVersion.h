@@ -1,5 +1,5 @@
 /// @file MrptVersion.h
-/// @brief Where the interfaces of MRPT 2.5.8 (Debian 12) and 2.14.7 (Debian 13) differ.
+/// @brief Differences between MRPT 2.5.8 (Debian 12) and 2.14.7 (Debian 13).
 #pragma once
 
 #include <mrpt/version.h>  // MRPT_VERSION: 0x258 for 2.5.8, 0x20e07 for 2.14.7

@@ -16,9 +16,9 @@ std::optional<double> parseNumber(std::string_view text);
 /// Likewise, but rejects `nan` and `inf`.
 std::optional<double> parseFinite(std::string_view text);
 
-/// printf's %.Nf, %.Ne or %.Ng.
+/// Formats like printf's %.Nf, %.Ne or %.Ng.
 std::string numberText(double value, std::chars_format format, int precision);
-/// printf's %.Nf.
+/// Formats like printf's %.Nf.
 std::string fixedText(double value, int decimals);
 /// Decimal text with at least 6 significant digits that parses back to the same number.
 std::string numberText(double value);

@@ -17,15 +17,15 @@
 
 namespace hybrid_slam {
 
-/// Any scan is read as one that can have angles for each beam.
+/// Reads any scan as a DeskewedScan, which can have an angle for each beam.
 template <>
 inline std::shared_ptr<mrpt::obs::CObservation2DRangeScan> newShared() {
   return std::make_shared<DeskewedScan>();
 }
 
-/// What toLaserScan uses, to the bit: ranges that are not numbers too, and the sensor's rotation as a matrix.
-/// A flag of the first beam says whether the scan has an angle for each beam. Scans without angles have the
-/// same bytes as in sessions of versions that did not know them.
+/// Writes or reads what toLaserScan uses, bit by bit: also ranges that are not numbers, and the sensor's
+/// rotation as a matrix. A flag of the first beam says whether the scan has an angle for each beam. Scans
+/// without angles have the same bytes as in sessions of older versions.
 template <class State>
 void visit(State& state, mrpt::obs::CObservation2DRangeScan& scan) {
   auto time = static_cast<int64_t>(scan.timestamp.time_since_epoch().count());

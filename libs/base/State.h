@@ -1,5 +1,5 @@
 /// @file State.h
-/// @brief Objects as bytes: one description of a class's members serves writing and reading.
+/// @brief Serialisation: one description of a class's members serves writing and reading.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -28,7 +28,7 @@ struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// m; a pose farther from the origin of a map is an error.
+/// Largest distance (m) of a pose from the origin of its map.
 constexpr double kFarthest = 1e6;
 
 template <class T>
@@ -46,10 +46,10 @@ struct HasVisit<T, State, std::void_t<decltype(std::declval<T&>().visit(std::dec
 ///
 /// in MRPT's format of numbers (little-endian). Other classes have a free function `visit(state, value)`. A
 /// value that several shared_ptrs own is written once. Reading trusts nothing: memory grows with the bytes
-/// that are there, a pose is within kFarthest, NaN is an error. What else must hold, `visit` checks by
+/// that are there, a pose is within kFarthest, NaN is an error. `visit` checks other conditions with
 /// `state.check`.
 ///
-/// This is what writer and reader have in common: `Derived::number` and `Derived::bytes` do the work.
+/// Common base of writer and reader, which define `number` and `bytes`.
 template <class Derived>
 class State {
  public:
@@ -57,7 +57,7 @@ class State {
   void operator()(T&... values) {
     (one(values), ...);
   }
-  /// What must hold of values that were read. @throws StateError
+  /// Checks a condition on values that were read. @throws StateError
   static void check(bool holds, const char* what) {
     if (Derived::kIsReading && !holds) throw StateError(what);
   }
@@ -147,7 +147,7 @@ class StateWriter : public State<StateWriter> {
   void bytes(const void* from, size_t count) { sink_.Write(from, count); }
   static size_t available(size_t count) { return count; }
 
-  /// The number of a shared value, from 1; 0 if it has not been written.
+  /// Returns the number of a shared value, from 1; 0 if it has not been written.
   template <class T>
   uint32_t numberOf(const T* value) {
     const auto& known = numbers_[typeid(T)];
@@ -185,7 +185,7 @@ class StateWriter : public State<StateWriter> {
   std::map<std::type_index, std::map<const void*, uint32_t>> numbers_;
 };
 
-/// A shared value to read into; specialised where that is an object of a derived class.
+/// Creates a shared value to read into; specialised where it is of a derived class.
 template <class T>
 std::shared_ptr<T> newShared() {
   return std::make_shared<T>();

@@ -41,7 +41,7 @@ void CompressedFile::rewind() {
   reason_.clear();
   refill();
   compression_ = compressionOf(unread_);
-  decoder_ = compression_ ? makeDecoder(*compression_) : nullptr;
+  decompressor_ = compression_ ? makeDecompressor(*compression_) : nullptr;
   isBetweenStreams_ = false;
 }
 
@@ -54,7 +54,7 @@ void CompressedFile::refill() {
 
 size_t CompressedFile::read(char* to, size_t count) {
   refill();
-  if (!decoder_) {
+  if (!decompressor_) {
     const size_t taken = std::min(count, unread_.size());
     std::memcpy(to, unread_.data(), taken);
     unread_.remove_prefix(taken);
@@ -67,7 +67,7 @@ size_t CompressedFile::read(char* to, size_t count) {
     if (isBetweenStreams_ && (unread_.empty() || unread_.front() == 0)) return 0;
     const size_t left = unread_.size();
     try {
-      isBetweenStreams_ = decoder_->decode(unread_, to, room);
+      isBetweenStreams_ = decompressor_->decode(unread_, to, room);
     } catch (const Damaged& damage) {
       if (isBetweenStreams_) return 0;
       fail(std::string("damaged ") + nameOf(*compression_) + " file", damage.what());

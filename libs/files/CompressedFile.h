@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/Decoder.h"
+#include "files/Decompressor.h"
 
 namespace hybrid_slam::files {
 
@@ -22,8 +22,8 @@ class CompressedFile {
   CompressedFile(const std::string& path, const std::string& expected);
   ~CompressedFile();
 
-  /// At most `count` bytes.
-  /// @return how many; 0: the content has ended, or the file is defective from here on
+  /// Reads at most `count` bytes.
+  /// @return the number read; 0 at the end of the content, or where the file is defective
   size_t read(char* to, size_t count);
   /// "gzip file cut off", "damaged gzip file", "cannot read"; empty while the file is intact.
   const std::string& defect() const { return defect_; }
@@ -39,7 +39,7 @@ class CompressedFile {
   std::vector<char> buffer_;
   std::string_view unread_;  ///< part of the buffer
   std::optional<Compression> compression_;
-  std::unique_ptr<Decoder> decoder_;
+  std::unique_ptr<Decompressor> decompressor_;
   bool isBetweenStreams_ = false;
   std::string defect_, reason_;
 };

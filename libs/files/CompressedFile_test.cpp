@@ -39,7 +39,7 @@ std::string compressed(Compression compression, const std::string& text) {
   return out.substr(0, length);
 }
 
-/// Does not compress well.
+/// Text that does not compress well.
 std::string noise(size_t length) {
   std::string text;
   for (uint64_t state = 1; text.size() < length;

@@ -1,5 +1,5 @@
 /// @file DatedName.h
-/// @brief Names that no other run has: the date and time.
+/// @brief Unique names from the date and time.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,9 @@
 
 namespace hybrid_slam::files {
 
-/// The first of DATE, DATE-2, DATE-3, ..., with DATE the local time as YYYY-MM-DDTHH-MM-SS, that `claim`
-/// accepts. It must create what it accepts, so that another process of the same second gets the next.
+/// Returns the first of DATE, DATE-2, DATE-3, ... that `claim` accepts, where DATE is the local time as
+/// YYYY-MM-DDTHH-MM-SS. `claim` must create what it accepts, so that another process in the same second gets
+/// the next name.
 std::string claimDatedName(const std::function<bool(const std::string& name)>& claim);
 
 }  // namespace hybrid_slam::files

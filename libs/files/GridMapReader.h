@@ -8,9 +8,9 @@
 
 namespace hybrid_slam::files {
 
-/// A serialised COccupancyGridMap2D (`.gridmap`), plain or gzipped, of at most 2^28 cells. It is checked
+/// Reads a serialised COccupancyGridMap2D (`.gridmap`), plain or gzipped, of at most 2^28 cells. Checks it
 /// before MRPT builds it: MRPT believes its size, and does not notice a damaged gzip file.
-/// @throws InputError for a missing file and for one that is no grid map, cut off or damaged
+/// @throws InputError for a file that is missing, not a grid map, cut off or damaged
 mrpt::maps::COccupancyGridMap2D readGridMap(const std::string& file);
 
 }  // namespace hybrid_slam::files

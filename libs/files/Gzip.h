@@ -1,5 +1,5 @@
 /// @file Gzip.h
-/// @brief Whole files compressed with gzip, whose format has a checksum.
+/// @brief Reads whole gzip files, which have a checksum.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace hybrid_slam::files {
 
 std::string gzipped(std::string_view bytes);
 
-/// The content of a compressed file.
-/// @param what  that the file should be, for errors: "session file"
+/// Returns the content of a gzip file.
+/// @param what  kind of file, for errors: "session file"
 /// @throws InputError for a file that is missing, not compressed, cut, damaged, or holds over `mostBytes`
 std::string readGzip(const std::string& path, const std::string& what, size_t mostBytes);
 

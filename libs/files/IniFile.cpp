@@ -15,7 +15,7 @@
 namespace hybrid_slam::files {
 namespace {
 
-/// Like MRPT's INI files, which ignore the case of sections.
+/// Compares section names as MRPT does, ignoring case.
 bool isSame(const std::string& a, const std::string& b) {
   return mrpt::system::lowerCase(a) == mrpt::system::lowerCase(b);
 }
@@ -56,7 +56,7 @@ std::string readText(const std::string& file) {
   return text;
 }
 
-/// Refuses what MRPT's parser, also in comments, would evaluate without a limit of time or memory.
+/// Rejects macros, also in comments, that MRPT's parser would evaluate without a limit of time or memory.
 void checkMacros(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   size_t number = 1, longestDefinition = 0, uses = 0;
@@ -102,14 +102,14 @@ void checkLines(const std::string& text, const std::string& file, const std::vec
   }
 }
 
-/// Whether another of our programs, a sensor driver or MRPT's rbpf-slam uses a section.
+/// Returns whether another of our programs, a sensor driver or MRPT's rbpf-slam uses a section.
 bool isOfOthers(const mrpt::config::CConfigFileBase& source, const std::string& section) {
   for (const char* name : {"live", "server", "PIONEER", "global"})
     if (section == name) return true;
   return source.keyExists(section, "driver") || section.rfind("MappingApplication", 0) == 0;
 }
 
-/// An InputError about a section, with its origin.
+/// Rethrows an error about a section with its origin.
 [[noreturn]] void rethrowIn(const std::string& where, const InputError& error) {
   const std::string text = error.what();
   const auto section = text.find(": section ["), end = text.rfind("; ");

@@ -20,7 +20,7 @@ using Sections = std::vector<std::pair<std::string, Options*>>;
 /// @param file       empty: none, the settings alone
 /// @param settings   `SECTION.KEY=VALUE` each; override the file
 /// @param otherwise  a section that suffices if the file has none of ours; empty: none
-/// @param expected   error text for a file without any of these
+/// @param expected   end of the error for a file without any of these
 /// @return a line for each section that neither we nor, as far as known, MRPT's programs use
 /// @throws InputError for a missing file, a file without any of our sections, a misspelt section, a malformed
 ///         or overlong line, $eval{...} or $env{...}, a setting of a section neither ours nor in the file,
@@ -29,21 +29,20 @@ std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const 
                                  const std::vector<std::string>& settings, const Sections& sections,
                                  const std::string& otherwise, const std::string& expected);
 
-/// The same for the text of a file, as MRPT's parser leaves it.
+/// Likewise for the text of a file, as MRPT's parser leaves it.
 std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, const std::string& text,
                                      const std::string& file, const std::vector<std::string>& settings,
                                      const Sections& sections, const std::string& otherwise,
                                      const std::string& expected);
 
-/// Whether a file is an INI file rather than a log: its name ends in .ini, or its first line that is not
-/// blank or a comment is a section's.
+/// Returns whether a file is an INI file rather than a log: its name ends in .ini, or its first line other
+/// than blanks and comments is a section header.
 bool isIni(const std::string& path);
 
-/// Every key with default, unit, range and meaning: a Markdown table per section.
+/// Writes every key with default, unit, range and meaning, as a Markdown table per section.
 void writeManual(const Sections& sections, std::ostream& out);
 
-/// The same for a terminal: keys and defaults as in an INI file, their meaning in lines of at most 80
-/// characters.
+/// Likewise for a terminal: keys and defaults as in an INI file, meanings in lines of at most 80 characters.
 void writePlainManual(const Sections& sections, std::ostream& out);
 
 }  // namespace hybrid_slam::files

@@ -8,7 +8,7 @@
 namespace hybrid_slam::files {
 namespace {
 
-/// Indented lines of at most 80 characters.
+/// Writes indented lines of at most 80 characters.
 void writeWrapped(const std::string& text, std::ostream& out) {
   constexpr size_t kWidth = 80;
   const std::string indent(6, ' ');

@@ -11,17 +11,17 @@ namespace hybrid_slam::files {
 /// The folder of the running program: PREFIX/bin once it is installed.
 std::filesystem::path programFolder();
 
-/// A file the user names, such as `config-ini/malaga.ini`. One that is not in the working folder is looked
-/// for in PREFIX/share/hybrid_slam.
-/// @return the name as given if it is found in neither
+/// Finds a file that the user names, such as `config-ini/malaga.ini`, in the working folder or else in
+/// PREFIX/share/hybrid_slam.
+/// @return its path; the given name if it is in neither
 std::string inputFile(const std::string& name, const std::filesystem::path& bin = programFolder());
 
 /// Replaces each name as `inputFile` does.
 void findInputFiles(std::initializer_list<std::string*> names,
                     const std::filesystem::path& bin = programFolder());
 
-/// A text with each `doc/PAGE.md` replaced by the path of the installed page. Unchanged where none is
-/// installed.
+/// Replaces each `doc/PAGE.md` in a text with the path of the installed page. Leaves names of pages that are
+/// not installed.
 std::string withInstalledPages(std::string text, const std::filesystem::path& bin = programFolder());
 
 }  // namespace hybrid_slam::files

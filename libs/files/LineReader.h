@@ -23,11 +23,12 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The next line without its line break; false after the last one. The last line may lack a line break.
+  /// Reads the next line, without its line break; returns false after the last one. The last line may lack a
+  /// line break.
   /// @throws InputError for a truncated or damaged compressed file, for a read error, and for a line longer
   ///         than 1 MiB, which no text log has
   bool next(std::string& line);
-  /// Number of the last line read, from 1.
+  /// Returns the number of the last line read, from 1.
   size_t number() const { return number_; }
   const std::string& path() const { return path_; }
   void rewind();
@@ -42,8 +43,8 @@ class LineReader {
   size_t number_ = 0;
 };
 
-/// Whether a file, plain or compressed, starts with text: no byte of its first 512 is zero. A rawlog has
-/// zeros there. False for an empty or unreadable file.
+/// Returns whether a file, plain or compressed, starts with text: no byte of its first 512 is zero. A rawlog
+/// has zeros there. False for an empty or unreadable file.
 bool isText(const std::string& path);
 
 }  // namespace hybrid_slam::files

@@ -32,7 +32,7 @@ std::string errorOf(const std::string& path) {
   });
 }
 
-/// Does not compress, so that the first half of the file holds about half of the content.
+/// Lines that do not compress, so that half of the file holds about half of the content.
 std::string noise(size_t lines) {
   std::string text;
   uint64_t state = 1;

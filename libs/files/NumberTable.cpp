@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -28,7 +29,7 @@ std::vector<std::string> cells(const std::string& line) {
   return result;
 }
 
-/// zlib also reads plain files.
+/// Calls `use` for each line. zlib also reads plain files.
 void forEachLine(const std::string& file, const std::string& expected,
                  const std::function<void(const std::string& line, size_t number)>& use) {
   const std::string where = "file `" + file + "`";
@@ -82,6 +83,18 @@ std::vector<NumberRow> readNumberTable(const std::string& file, const std::strin
   });
   if (rows.empty()) throw InputError("the file is empty", "file `" + file + "`", expected);
   return rows;
+}
+
+void checkPose(const NumberRow& row, const std::string& file, std::initializer_list<size_t> coordinates,
+               std::initializer_list<size_t> angles) {
+  constexpr double kLargest = 1e7;  // m: from the equator to a pole, which UTM's northings reach; rad
+  const auto check = [&](std::initializer_list<size_t> columns, const char* expected) {
+    for (const size_t column : columns)
+      if (!(std::abs(row.values[column]) <= kLargest))
+        throw InputError("broken line", "file `" + file + "`, line " + std::to_string(row.line), expected);
+  };
+  check(coordinates, "expected coordinates in -1e7..1e7 m");
+  check(angles, "expected angles in -1e7..1e7 rad");
 }
 
 }  // namespace hybrid_slam::files

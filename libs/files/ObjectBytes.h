@@ -1,5 +1,5 @@
 /// @file ObjectBytes.h
-/// @brief The bytes of a stream of serialised objects, read only as far as they are needed.
+/// @brief The bytes of a stream of serialised objects, read only as far as needed.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace hybrid_slam::files {
 
-/// A window on a stream, from the start of the current object. Memory grows with the bytes that the stream
-/// has, not with lengths that they claim.
+/// A window on a stream, from the start of the current object. Memory grows with the bytes in the stream, not
+/// with the lengths that they claim.
 class ObjectBytes {
  public:
   /// Writes at most `count` bytes to `to` and returns how many; 0: the stream has ended.
@@ -22,7 +22,7 @@ class ObjectBytes {
   explicit ObjectBytes(Source source) : source_(std::move(source)) {}
   explicit ObjectBytes(std::string whole) : bytes_(std::move(whole)), last_(bytes_.size()) {}
 
-  /// Whether the bytes [0, end) exist.
+  /// Reads on as needed; returns whether the bytes [0, end) exist.
   bool has(size_t end) {
     while (last_ - first_ < end)
       if (!readMore()) return false;
@@ -31,7 +31,7 @@ class ObjectBytes {
   /// @param i  less than an `end` that exists
   uint8_t operator[](size_t i) const { return static_cast<uint8_t>(bytes_[first_ + i]); }
   char& at(size_t i) { return bytes_[first_ + i]; }
-  /// `has` makes it invalid.
+  /// Valid until the next `has`.
   std::string_view view(size_t at, size_t count) const { return {bytes_.data() + first_ + at, count}; }
   /// Moves the start of the window.
   void drop(size_t count) { first_ += count; }

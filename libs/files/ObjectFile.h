@@ -18,8 +18,8 @@ class ObjectFile {
   ObjectFile& operator=(const ObjectFile&) = delete;
 
   ObjectBytes& bytes() { return bytes_; }
-  /// "gzip file damaged or cut off", as far as it was read; else empty. MRPT's own gzip stream does not
-  /// distinguish this from its end.
+  /// Returns "gzip file damaged or cut off" if the part read so far is; else empty. MRPT's own gzip stream
+  /// cannot tell this from the end.
   std::string damage() const;
 
  private:

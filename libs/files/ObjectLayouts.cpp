@@ -15,7 +15,7 @@ constexpr size_t kTime = 8;
 constexpr size_t kMostThrunParticles = 10000;  // MRPT draws them while it reads
 constexpr float kFarthestCell = 1 << 20;       // from the origin: floats are exact to a cell far beyond
 
-/// An enumerator: any other value would be undefined behaviour.
+/// Reads an enumerator, 0 or 1: any other value would be undefined behaviour.
 uint32_t zeroOrOne(Walk& in, const char* what) {
   const uint32_t value = in.number();
   if (value > 1) throw ObjectError(std::string("unknown ") + what);
@@ -51,7 +51,7 @@ void gaussian2D(Walk& in, int v) {
 
 void gaussianInf2D(Walk& in, int) { in.skip(9 * 8); }
 
-/// @param least  bytes of an element
+/// @param least  smallest size of an element, bytes
 size_t someElements(Walk& in, size_t least) {
   const size_t n = in.count(least);
   if (n == 0) throw ObjectError("a pose distribution without elements");
@@ -214,7 +214,7 @@ void frame(Walk& in, int v) {
 
 void mapParameters(Walk& in, int) { in.flag(), in.flag(), in.flag(); }
 
-/// Cells of a grid map from `min` to `max` (m), as COccupancyGridMap2D::setSize computes them.
+/// Number of cells from `min` to `max` (m), as COccupancyGridMap2D::setSize computes it.
 size_t cellsAcross(float min, float max, float resolution) {
   const auto inCells = [resolution](float at) {
     const float cells = std::round(at / resolution);

@@ -1,5 +1,5 @@
 /// @file ObjectLayouts.h
-/// @brief The classes of logs and maps that are read, and their fields in MRPT's format.
+/// @brief The classes that are read from logs and maps, and their fields in MRPT's format.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::files {
 
-/// Largest size of a grid map: MRPT computes its size in 32 bits.
+/// Largest number of cells of a grid map: MRPT computes it in 32 bits.
 constexpr size_t kMostGridMapCells = size_t{1} << 28;
 
 struct ObjectLayout {
@@ -18,10 +18,10 @@ struct ObjectLayout {
   void (*fields)(ObjectWalk& in, int version);  ///< steps over them
 };
 
-/// Null for a class that is not listed. @param name  with or without namespace
+/// Returns the layout of a class; null if it is not listed. @param name  with or without namespace
 const ObjectLayout* layoutOf(std::string_view name);
 
-/// The class name without namespaces.
+/// Returns the class name without namespaces.
 std::string_view baseName(std::string_view name);
 
 }  // namespace hybrid_slam::files

@@ -13,7 +13,7 @@ namespace hybrid_slam::files {
 /// @throws std::exception if MRPT does not accept the contents
 mrpt::serialization::CSerializable::Ptr buildObject(std::string_view bytes);
 
-/// Whether RawlogReader and observation-server's clients read observations of this class.
+/// Returns whether RawlogReader and observation-server's clients read observations of this class.
 bool isReadable(const mrpt::serialization::CSerializable& object);
 
 }  // namespace hybrid_slam::files

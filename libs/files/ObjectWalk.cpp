@@ -17,7 +17,7 @@ bool startsWith(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
 }
 
-/// Whether it is the name of a class that logs, or their frames, consist of.
+/// Returns whether logs, or their frames, consist of objects of this class.
 bool isOfLogs(std::string_view name, bool isInFrame) {
   const std::string_view base = baseName(name);
   return startsWith(base, "CObservation") ||
@@ -171,7 +171,7 @@ void ObjectWalk::passOver(const Header& head, MayFollow mayFollow) {
     if (byte() == kEndFlag && mayFollow(at_)) return;
 }
 
-/// Whether an object that may be an entry of a log, or of a frame, starts here.
+/// Returns whether an object that may be an entry of a log, or of a frame, starts here.
 bool ObjectWalk::isStart(size_t at, bool isInFrame) {
   if (isEnd(at) || (bytes_[at] & 0x80) == 0) return false;
   const size_t length = bytes_[at] & 0x7f;

@@ -13,7 +13,7 @@
 
 namespace hybrid_slam::files {
 
-/// Where an object may stand. Kinds bound the nesting: no object may hold one of its own kind.
+/// Kinds of objects by where they may occur. They bound the nesting: no object may hold one of the same kind.
 enum class ObjectKind {
   frame,
   actions,
@@ -31,12 +31,12 @@ enum class ObjectKind {
 
 struct ObjectLayout;
 
-/// Bytes that are not an object which MRPT may read.
+/// Thrown for bytes that are not an object MRPT may read.
 struct ObjectError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The bytes end within an object.
+/// Thrown if the bytes end within an object.
 struct ObjectCut : ObjectError {
   using ObjectError::ObjectError;
 };
@@ -45,7 +45,7 @@ class ObjectWalk {
  public:
   static constexpr size_t kMostBytes = size_t{1} << 26;  ///< of an object of a log
 
-  /// @param passesOver  whether observations of classes that are not listed are passed over, or errors
+  /// @param passesOver  skip observations of unlisted classes instead of throwing
   /// @param mostBytes   of the object
   ObjectWalk(ObjectBytes& bytes, bool passesOver, size_t mostBytes = kMostBytes)
       : bytes_(bytes), passesOver_(passesOver), mostBytes_(mostBytes) {}
@@ -54,7 +54,7 @@ class ObjectWalk {
   void entry();
   /// Steps over one object.
   void object(ObjectKind kind);
-  /// Steps over a count and as many observations.
+  /// Steps over a count and that many observations.
   void observations();
 
   /// @name Fields
@@ -63,11 +63,12 @@ class ObjectWalk {
   uint8_t byte();
   uint32_t number();
   float real();
-  /// A bool. Old logs have other bytes than 0 and 1, whose use in MRPT would be undefined: they become 1.
+  /// Reads a bool. Old logs hold other bytes than 0 and 1, which would be undefined behaviour in MRPT; they
+  /// become 1.
   bool flag();
-  /// A number of elements that take at least `size` bytes each; these bytes exist.
+  /// Reads a number of elements of at least `size` bytes each, and checks that these bytes exist.
   size_t count(size_t size);
-  /// Steps over a count and as many elements of `size` bytes.
+  /// Steps over a count and that many elements of `size` bytes.
   void array(size_t size) { skip(size * count(size)); }
   void text() { array(1); }
   void flags();
@@ -76,8 +77,8 @@ class ObjectWalk {
   size_t at() const { return at_; }
   /// Classes of the observations that were passed over.
   const std::vector<std::string>& passedOver() const { return passedOver_; }
-  /// The object without the observations that were passed over; empty if it was itself. Valid until the bytes
-  /// or the walk change.
+  /// Returns the object without the observations passed over; empty if the object itself was. Valid until the
+  /// bytes or the walk change.
   std::string_view rest();
 
  private:

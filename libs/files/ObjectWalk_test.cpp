@@ -32,7 +32,7 @@ std::string bytesOf(const CSerializable::Ptr& object) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Random objects of the listed classes.
+/// Makes random objects of the listed classes.
 class Objects {
  public:
   explicit Objects(uint64_t seed) : random_(seed, 0, 0) {}
@@ -162,7 +162,7 @@ class Objects {
   RandomStream random_;
 };
 
-/// Why the bytes are refused, or "" and their length.
+/// Returns why the bytes are rejected, or "" and their length.
 std::string walked(const std::string& bytes, size_t* length = nullptr) {
   ObjectBytes in(bytes);
   ObjectWalk walk(in, false);
@@ -255,7 +255,7 @@ TEST(ObjectWalk, NestingIsBounded) {
   EXPECT_THAT(walked(actions), HasSubstr("CActionCollection instead of an action"));
 }
 
-/// As RawlogReader reads it.
+/// Builds the scan as RawlogReader does.
 CObservation2DRangeScan::Ptr built(const std::string& bytes) {
   ObjectBytes in(bytes);
   ObjectWalk walk(in, false);

@@ -18,8 +18,8 @@ class OutputFolder {
   /// @throws InputError if it cannot be created or written to
   explicit OutputFolder(const std::string& folder);
 
-  /// Writes a file with `fill`.
-  /// @throws InputError if it cannot be written completely (a full disk); no file is then left
+  /// Lets `fill` write a file.
+  /// @throws InputError if it cannot be written completely (full disk); no file is left then
   void write(const std::string& name, const std::function<void(std::ostream&)>& fill) const;
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -35,9 +35,9 @@ class GrowingFile {
   explicit GrowingFile(const std::string& path);
 
   std::ostream& stream() { return out_; }
-  /// What it holds so far.
+  /// Returns its content so far.
   std::string content();
-  /// Replaces it.
+  /// Replaces the content.
   void restart(const std::string& content);
   /// @throws InputError if it could not be written completely
   void finish();

@@ -21,7 +21,7 @@ std::string nameOf(const fs::path& path, const std::string& number) {
   return (path.parent_path() / (".partial" + number + "." + path.filename().string())).string();
 }
 
-/// Whether an open file still has this name.
+/// Returns whether an open file still has this name.
 bool isNamed(int file, const std::string& path) {
   struct stat opened {
   }, named{};

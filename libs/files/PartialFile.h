@@ -6,9 +6,9 @@
 
 namespace hybrid_slam::files {
 
-/// Until `commit` the file is `.partial.NAME` in the folder of NAME; without `commit` it is removed. While
-/// another writer, in any process, has that file, it is `.partial-2.NAME` and so on. What a killed process
-/// has left is replaced.
+/// Until `commit`, the file is called `.partial.NAME`, in the folder of NAME; without `commit` it is removed.
+/// If another writer, in any process, uses that name, it is `.partial-2.NAME`, and so on. Files left by
+/// killed processes are replaced.
 class PartialFile {
  public:
   /// @throws InputError if the name is a folder or device, which must not be replaced
@@ -17,7 +17,7 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  /// The name until then of a file with one writer.
+  /// The partial name of a file with one writer.
   static std::string partialName(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then

@@ -23,14 +23,14 @@ class RawlogReader {
   RawlogReader(const RawlogReader&) = delete;
   RawlogReader& operator=(const RawlogReader&) = delete;
 
-  /// The next object; null at the end, or where the log is truncated or broken (see `defect`).
+  /// Returns the next object; null at the end, or where the log is truncated or broken (see `defect`).
   /// @throws InputError if the first object is not a rawlog object
   mrpt::serialization::CSerializable::Ptr next();
 
   size_t entry() const { return entry_; }                ///< objects read so far
   const std::string& defect() const { return defect_; }  ///< empty for an intact log
 
-  /// Observations of classes that are not read (ObjectLayouts.h): they are passed over, also within frames.
+  /// Number of observations of unlisted classes (ObjectLayouts.h), which are skipped, also within frames.
   size_t passedOver() const { return passedOver_; }
   size_t firstPassedOver() const { return firstPassedOver_; }  ///< entry
   const std::set<std::string>& passedOverClasses() const { return passedOverClasses_; }

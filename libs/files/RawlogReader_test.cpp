@@ -128,7 +128,7 @@ TEST(RawlogReader, AnUnknownClassIsADefectInOneLine) {
   EXPECT_THAT(read.defect, testing::Not(HasSubstr("====")));
 }
 
-/// `object` as one of a class that is not listed.
+/// Renames the class of `object` to one that is not listed.
 std::string ofOtherClass(std::string object) {
   return object.replace(object.find("RangeScan"), 9, "RangeScam");
 }

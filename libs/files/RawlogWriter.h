@@ -24,12 +24,12 @@ class RawlogWriter {
 
   /// @throws InputError if the disk is full
   void write(const mrpt::serialization::CSerializable& object);
-  /// Syncs to disk, for a recording whose program may be killed.
+  /// Syncs to disk, so that a recording survives a killed program.
   /// @throws InputError if the disk is full
   void flush();
   /// @throws InputError if the disk is full, or the file cannot be renamed
   void finish();
-  /// Gives the file its name although the disk is full: RawlogReader can read it up to the cut.
+  /// Like `finish` on a full disk: keeps the truncated file, which RawlogReader can read up to the cut.
   void finishCut();
 
  private:

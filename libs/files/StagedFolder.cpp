@@ -23,7 +23,7 @@ namespace {
 
 int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
 
-/// Whether a folder can be renamed within its parent.
+/// Returns whether a folder can be renamed within its parent.
 bool isRenamable(const fs::path& folder) {
   struct stat own {
   }, parent{};
@@ -33,8 +33,8 @@ bool isRenamable(const fs::path& folder) {
          own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
 }
 
-/// To disk, so that a power cut after the renaming leaves no empty files.
-/// @throws InputError if a file does not get there
+/// Syncs a folder to disk, so that a power cut after the renaming leaves no empty files.
+/// @throws InputError if a file cannot be synced
 void sync(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
@@ -109,7 +109,8 @@ void StagedFolder::takeDatedSubfolder() {
   created_.push_back(final_);
 }
 
-/// The lock distinguishes the folders of running programs from those of killed ones.
+/// Creates and locks the hidden folder. The lock distinguishes the folders of running programs from those of
+/// killed ones.
 void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   removeDead(place, prefix);
   for (;;) {
@@ -128,8 +129,8 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   }
 }
 
-/// Removes the unfinished results of killed programs, and no other file: one that stands in the folder as
-/// well is a link. Complete results that could not be renamed stay.
+/// Removes the unfinished results of killed programs and no other file; other files in their folders are
+/// links. Complete results that could not be renamed stay.
 void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) const {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
@@ -161,7 +162,7 @@ void StagedFolder::publish() {
     moveOneByOne();
 }
 
-/// Swaps both folders in one step. Links other files first, so that they are missing at no time.
+/// Swaps both folders in one step. Links other files first, so that they are never missing.
 bool StagedFolder::exchange() const {
   std::error_code isMovedLater;
   for (const auto& entry : fs::directory_iterator(final_))

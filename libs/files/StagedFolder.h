@@ -20,7 +20,7 @@ class StagedFolder {
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
   /// results and `overwrite` is false.
   /// @param results  names of all files that a run may write; the last marks a complete run
-  /// @param own        a result that may already be there: the run goes on from it
+  /// @param own        a result that may already exist, because the run continues from it
   /// @throws InputError if the folder cannot be created or written to
   StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite,
                const std::string& own = {});
@@ -28,18 +28,18 @@ class StagedFolder {
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// A result that this run has written to the final folder already.
+  /// Names a result that this run has already written to the final folder.
   void setOwn(const std::string& name) { own_ = name; }
-  /// Whether another run has written this file to the final folder.
+  /// Returns whether another run has written this file to the final folder.
   bool isOfAnother(const std::string& name) const;
   /// The hidden folder.
   const OutputFolder& files() const { return *files_; }
-  /// As the user wrote it, or its dated subfolder.
+  /// The final folder as the user wrote it, or its dated subfolder.
   const std::string& folder() const { return shown_; }
   /// A file's path in the final folder, which may still change in `publish` if another run has finished
   /// there.
   std::string finalPath(const std::string& name) const { return shown_ + "/" + name; }
-  /// One line if the results do not go to the folder asked for; else empty.
+  /// Says in one line where the results go, if not to the requested folder; else empty.
   std::string note() const;
 
   /// @throws InputError if the results cannot be written to disk, or cannot be renamed; they then stay in the

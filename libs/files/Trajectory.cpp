@@ -1,7 +1,6 @@
 #include "files/Trajectory.h"
 
 #include <cmath>
-#include <initializer_list>
 #include <ostream>
 
 #include "base/Errors.h"
@@ -9,27 +8,12 @@
 #include "files/NumberTable.h"
 
 namespace hybrid_slam::files {
-namespace {
-
-constexpr double kLargestCoordinate = 1e7;  // m: from the equator to a pole, which UTM's northings reach
-
-/// The sums of squares of the evaluation would otherwise overflow.
-void checkCoordinates(std::initializer_list<double> coordinates, const NumberRow& row,
-                      const std::string& file) {
-  for (const double coordinate : coordinates)
-    if (!(std::abs(coordinate) <= kLargestCoordinate))
-      throw InputError("broken line", "file `" + file + "`, line " + std::to_string(row.line),
-                       "expected coordinates in -1e7..1e7 m");
-}
-
-}  // namespace
-
 Trajectory loadTum(const std::string& file) {
   constexpr double kNormTolerance = 0.01;  // quaternions are often written with 3 or 4 digits
   Trajectory trajectory;
   for (const NumberRow& row : readNumberTable(file, "timestamp x y z qx qy qz qw")) {
     const auto& v = row.values;
-    checkCoordinates({v[1], v[2], v[3]}, row, file);
+    checkPose(row, file, {1, 2, 3}, {});
     const double qx = v[4], qy = v[5], qz = v[6], qw = v[7];
     const double squaredNorm = qx * qx + qy * qy + qz * qz + qw * qw;
     if (!(std::abs(std::sqrt(squaredNorm) - 1) <= kNormTolerance))
@@ -52,7 +36,7 @@ Trajectory loadOdometry(const std::string& file) {
   Trajectory odometry;
   for (const NumberRow& row : readNumberTable(file, "t x y theta")) {
     const auto& v = row.values;
-    checkCoordinates({v[1], v[2]}, row, file);
+    checkPose(row, file, {1, 2}, {3});
     odometry.push_back({v[0], {v[1], v[2], v[3]}});
   }
   return odometry;

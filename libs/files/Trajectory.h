@@ -15,7 +15,7 @@ struct StampedPose {
   mrpt::math::TPose2D pose{};  ///< of the robot, in the frame of the trajectory; m, rad
 };
 
-/// In file order, the order of driving; timestamps may repeat and step back.
+/// Poses in the order of driving, as in the file. Timestamps may repeat or decrease.
 using Trajectory = std::vector<StampedPose>;
 
 /// Reads `timestamp x y z qx qy qz qw` (s, m, unit quaternion): keeps x, y and yaw.
@@ -27,7 +27,8 @@ Trajectory loadTum(const std::string& file);
 void saveTum(const Trajectory& trajectory, std::ostream& out);
 
 /// Reads raw odometry, `t x y theta` (s, m, rad).
-/// @throws InputError for an unreadable or empty file, a broken line or a coordinate beyond 10,000 km.
+/// @throws InputError for an unreadable or empty file, a broken line, a coordinate beyond 10,000 km or
+///         an angle beyond 1e7 rad.
 Trajectory loadOdometry(const std::string& file);
 
 }  // namespace hybrid_slam::files

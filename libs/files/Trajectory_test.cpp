@@ -72,6 +72,8 @@ TEST_F(TrajectoryFile, CoordinatesBeyondTheEarthAreNamed) {
     fileWith("0 0 0 0\n1 " + std::string(xy) + " 0\n");
     EXPECT_EQ(test::errorOf([&] { loadOdometry(file); }), error) << xy;
   }
+  EXPECT_EQ(test::errorOf([&] { loadOdometry(fileWith("0 0 0 0\n1 0 0 1e200\n")); }),
+            "broken line: file `" + file + "`, line 2; expected angles in -1e7..1e7 rad");
   EXPECT_EQ(loadTum(fileWith("0 500000 -10000000 0 0 0 0 1\n")).at(0).pose.y, -1e7);
 }
 

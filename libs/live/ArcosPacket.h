@@ -28,7 +28,7 @@ struct Sip {
   int16_t heading = 0;    ///< 4096 per turn
   bool isMoving = false;
 };
-/// Empty for a payload that is not a standard SIP.
+/// Decodes a payload; empty if it is not a standard SIP.
 std::optional<Sip> decodeSip(const Payload& payload);
 
 /// Splits a byte stream into payloads. Resynchronises at the next packet after an unexpected byte, an
@@ -36,7 +36,7 @@ std::optional<Sip> decodeSip(const Payload& payload);
 class Decoder {
  public:
   void feed(const std::string& bytes) { buffer_ += bytes; }
-  /// The next payload; empty until more bytes arrive.
+  /// Returns the next payload; empty until more bytes arrive.
   std::optional<Payload> next();
   size_t damaged() const { return damaged_; }  ///< packets with a wrong count or checksum
 

@@ -24,7 +24,7 @@ class CycleGrouper {
   CycleGrouper(double rate, CycleSink sink) : period_(rate > 0 ? 1 / rate : 0), sink_(std::move(sink)) {}
 
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// End of input: delivers the pending observations.
+  /// Ends the input: delivers the pending observations.
   void finish();
 
  private:
@@ -44,11 +44,11 @@ class CycleGrouper {
   std::optional<double> newest_, lastOdometry_;  ///< s
 };
 
-/// s; the longest time an observation waits for others. An observation older than the newest by more than
+/// Longest time (s) that an observation waits for others. An observation older than the newest by more than
 /// this means that the clock was set back or another log begins.
 constexpr double kLongestWait = 1;
-/// Observations that wait for others, far more than sensors give in kLongestWait: their stamps do not
-/// advance.
+/// Largest number of waiting observations, far more than sensors give in kLongestWait; more mean that
+/// timestamps do not advance.
 constexpr size_t kMostWaiting = 1000;
 
 }  // namespace hybrid_slam::live

@@ -15,7 +15,7 @@ using test::odometry;
 using test::scan;
 using testing::ElementsAre;
 
-/// Each cycle as text: o for odometry, s for a scan, with the times.
+/// Records each cycle as text: o for odometry, s for a scan, with the times.
 struct Cycles {
   std::vector<std::string> texts;
   CycleGrouper grouper;

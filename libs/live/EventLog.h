@@ -10,7 +10,8 @@
 namespace hybrid_slam::live {
 
 /// Thread-safe. Repeated identical events of a subject (a sensor, the server), such as a refused connection
-/// at each attempt, are logged once, until another event of that subject.
+/// at each attempt, are logged once, until another event of that subject. Memory is bounded: after 1000
+/// subjects, repeated events are logged again.
 class EventLog {
  public:
   using Write = std::function<void(const std::string& line)>;

@@ -21,8 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeartbeat = 1000;      // ms
-constexpr double kTokenPatience = 5;  // s
+constexpr int kHeartbeat = 1000;                   // ms
+constexpr double kTokenPatience = 5;               // s
+constexpr size_t kMostReceived = size_t{1} << 20;  // bytes of a client, which has only a token to send
 
 const std::string& checkedAddress(const std::string& address, const std::string& token) {
   if (token.empty() && !isLoopback(address))
@@ -37,14 +38,15 @@ uint64_t drawSession() {
   return static_cast<uint64_t>(device()) << 32 | device();
 }
 
-std::string nameOf(int descriptor) {
+/// @param hasPort  without it, all connections of a machine have one name
+std::string nameOf(int descriptor, bool hasPort) {
   sockaddr_storage peer{};
   socklen_t size = sizeof peer;
   ::getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size);
   char host[NI_MAXHOST] = "", port[NI_MAXSERV] = "0";
   ::getnameinfo(reinterpret_cast<sockaddr*>(&peer), size, host, sizeof host, port, sizeof port,
                 NI_NUMERICHOST | NI_NUMERICSERV);
-  return "client " + addressText(host, static_cast<uint16_t>(std::stoi(port)));
+  return "client " + (hasPort ? addressText(host, static_cast<uint16_t>(std::stoi(port))) : host);
 }
 
 }  // namespace
@@ -54,7 +56,8 @@ ObservationServer::ObservationServer(const std::string& address, uint16_t port, 
       log_(log),
       listener_(checkedAddress(address, limits_.token), port),
       wakeUp_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-      session_(drawSession()) {
+      session_(drawSession()),
+      allowed_(static_cast<double>(limits_.clients)) {
   if (wakeUp_ < 0) throw std::runtime_error("no eventfd");
   thread_ = std::thread([this] { serve(); });
 }
@@ -110,6 +113,15 @@ void ObservationServer::finish(double timeout) {
   while (!isAllSent() && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
+/// Further clients wait in the system's queue.
+bool ObservationServer::isOpenToClients() {
+  const auto now = Clock::now();
+  const std::chrono::duration<double> passed = now - lastAllowed_;
+  lastAllowed_ = now;
+  allowed_ = std::min(static_cast<double>(limits_.clients), allowed_ + limits_.newPerSecond * passed.count());
+  return clients_.size() < limits_.clients && allowed_ >= 1;
+}
+
 void ObservationServer::serve() {
   auto lastHeartbeat = Clock::now();
   uint64_t lastNumber = 0;
@@ -121,8 +133,7 @@ void ObservationServer::serve() {
         ready.push_back({client.socket.descriptor(),
                          static_cast<short>(POLLIN | (client.queue.empty() ? 0 : POLLOUT)), 0});
     }
-    // Further clients wait in the system's queue.
-    if (!isFull_) ready.push_back({listener_.descriptor(), POLLIN, 0});
+    if (isOpenToClients()) ready.push_back({listener_.descriptor(), POLLIN, 0});
     ::poll(ready.data(), ready.size(), kHeartbeat);
 
     uint64_t count = 0;
@@ -139,8 +150,7 @@ void ObservationServer::serve() {
         client = clients_.erase(client);
       }
     }
-    isFull_ = clients_.size() >= limits_.clients;
-    if (!isFull_ && i < ready.size() && ready[i].revents) accept();
+    if (i < ready.size() && ready[i].revents) accept();
     clientCount_ = static_cast<size_t>(
         std::count_if(clients_.begin(), clients_.end(), [](const Client& client) { return client.isKnown; }));
 
@@ -159,26 +169,35 @@ void ObservationServer::accept() {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return;
   }
+  allowed_ -= 1;
   Client client;
-  client.name = nameOf(socket.descriptor());
+  client.name = nameOf(socket.descriptor(), false);
   client.socket = std::move(socket);
   client.lastTaken = Clock::now();
-  client.isKnown = limits_.token.empty();
-  log_.report(client.name, "connected");
+  if (limits_.token.empty()) becomeKnown(client);
   const std::lock_guard<std::mutex> lock(mutex_);
   clients_.push_back(std::move(client));
+}
+
+/// Strangers are reported under the name of their machine, so that the log tells a repeated fault once.
+void ObservationServer::becomeKnown(Client& client) {
+  client.name = nameOf(client.socket.descriptor(), true);
+  client.isKnown = true;
+  log_.report(client.name, "connected");
 }
 
 /// Data from known clients is discarded; reading detects when they leave.
 void ObservationServer::read(Client& client) {
   const std::string bytes = client.socket.receive(0);
+  client.received += bytes.size();
+  if (client.received > kMostReceived) throw std::runtime_error("sends too much");
   if (client.isKnown) return;
   client.shown += bytes.substr(0, kMaxToken + 1);
   const size_t end = client.shown.find('\n');
   if (end == std::string::npos && client.shown.size() <= kMaxToken) return;
   if (!isSameToken(client.shown.substr(0, end), limits_.token)) throw std::runtime_error("wrong token");
   const std::lock_guard<std::mutex> lock(mutex_);
-  client.isKnown = true;
+  becomeKnown(client);
 }
 
 void ObservationServer::write(Client& client) {

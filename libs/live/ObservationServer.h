@@ -21,7 +21,7 @@ namespace hybrid_slam::live {
 
 /// One thread serves all clients without blocking. Each has a queue of unsent cycles; when it is full, the
 /// oldest cycle is dropped. A client that takes nothing for long is disconnected: it keeps a place that
-/// another may need.
+/// another may need. One that sends over 1 MiB is disconnected, too.
 class ObservationServer {
  public:
   struct Limits {
@@ -29,6 +29,7 @@ class ObservationServer {
     size_t clients = 250;
     double patience = 30;  ///< s for a client to take a message, before it is disconnected
     std::string token{};   ///< a client gets nothing before it has sent this and a line end; empty: no token
+    double newPerSecond = 10;  ///< clients, after as many at once as `clients`; the others wait
   };
 
   /// @param address  local address to listen on; @param port  0: any free port
@@ -54,6 +55,7 @@ class ObservationServer {
     TcpSocket socket;
     std::string name;
     bool isKnown = false;                               ///< no token needed, or it has come
+    size_t received = 0;                                ///< bytes
     std::string shown;                                  ///< what has come of the token
     std::deque<Bytes> queue;                            ///< the first may be partly sent
     size_t sent = 0;                                    ///< bytes of the first
@@ -62,7 +64,9 @@ class ObservationServer {
   };
 
   void serve();
+  bool isOpenToClients();
   void accept();
+  void becomeKnown(Client& client);
   void read(Client& client);
   void write(Client& client);
   void enqueue(MessageKind kind, std::string payload = {});
@@ -79,7 +83,8 @@ class ObservationServer {
   /// Guards the clients' queues and number_; only the thread adds and removes clients.
   std::mutex mutex_;
   std::list<Client> clients_;
-  bool isFull_ = false;  ///< more clients than can be served
+  double allowed_;  ///< new clients now
+  std::chrono::steady_clock::time_point lastAllowed_ = std::chrono::steady_clock::now();
   std::thread thread_;
 };
 

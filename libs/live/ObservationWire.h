@@ -32,7 +32,7 @@ struct Message {
   std::string payload{};
 };
 
-/// Protocol violation.
+/// Thrown for a protocol violation.
 struct WireError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -49,7 +49,7 @@ mrpt::obs::CSensoryFrame::Ptr deserialise(const std::string& payload);
 class MessageDecoder {
  public:
   void feed(const std::string& bytes) { buffer_ += bytes; }
-  /// The next complete message; empty until more bytes arrive.
+  /// Returns the next complete message; empty until more bytes arrive.
   /// @throws WireError for wrong magic bytes, kind, length or checksum
   std::optional<Message> next();
 

@@ -16,7 +16,7 @@ namespace hybrid_slam::live {
 /// impossible jumps (readings::isJump, isFarAway).
 class OdometryContinuity {
  public:
-  /// The next pose is in a new frame.
+  /// Announces that the next pose is in a new frame.
   void restart() { isNewFrame_ = true; }
 
   /// @param pose  as reported by the robot (m, rad)

@@ -16,10 +16,10 @@ class RawlogPlayer : public CycleSource {
   /// @throws InputError if the log is missing or has no scan
   RawlogPlayer(const std::string& file, double cycleRate, double replayRate);
 
-  /// What is wrong with the log, a line each.
+  /// Returns the defects of the log, one per line.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Ends with the log. Converts the odometry of action-observation pairs to CObservationOdometry.
+  /// Plays the log to its end. Converts the odometry of action-observation pairs to CObservationOdometry.
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
  private:

@@ -19,7 +19,7 @@ namespace hybrid_slam::live {
 /// the end of the run, even a failed one. After a power cut the partial file is readable up to its end.
 class Recording {
  public:
-  /// @param name  of the file, which gets the date and time before its extension
+  /// @param name  file name; the date and time are inserted before its extension
   Recording(const std::string& folder, const std::string& name, EventLog& log);
   ~Recording() { finish(); }
   Recording(const Recording&) = delete;
@@ -31,7 +31,7 @@ class Recording {
   /// Syncs everything written so far to disk, from any thread.
   void flush();
   void finish();
-  /// Empty before the first observation.
+  /// Returns the path; empty before the first observation.
   const std::string& path() const { return path_; }
   size_t entries() const { return entries_; }  ///< observations taken, even if they could not be written
 

@@ -5,7 +5,7 @@
 namespace hybrid_slam::live {
 namespace {
 
-/// Signed difference of a 15-bit counter.
+/// Returns the signed difference of a 15-bit counter.
 int difference(uint16_t from, uint16_t to) {
   const int forwards = (to - from) & 0x7fff;
   return forwards < 0x4000 ? forwards : forwards - 0x8000;

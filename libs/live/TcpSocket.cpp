@@ -29,7 +29,7 @@ constexpr double kStopInterval = 0.1;  // s
 
 [[noreturn]] void fail(int error) { throw std::runtime_error(std::strerror(error)); }
 
-/// Whether the socket is ready for `events` within `timeout` s.
+/// Returns whether the socket is ready for `events` within `timeout` s.
 bool waitFor(int descriptor, short events, double timeout) {
   const auto end = Clock::now() + std::chrono::duration<double>(timeout);
   for (;;) {
@@ -67,7 +67,8 @@ Addresses lookUp(const std::string& host, uint16_t port, int flags) {
   return {found, ::freeaddrinfo};
 }
 
-/// In a separate thread, abandoned on a stop: getaddrinfo cannot be interrupted. @return none if stopped
+/// Looks a name up in a separate thread, abandoned on a stop: getaddrinfo cannot be interrupted. @return none
+/// if stopped
 Addresses lookUp(const std::string& host, uint16_t port, double timeout,
                  const std::function<bool()>& isStopped) {
   std::packaged_task<Addresses()> task([host, port] { return lookUp(host, port, 0); });

@@ -12,7 +12,7 @@
 
 namespace hybrid_slam::live {
 
-/// HOST:PORT, an IPv6 address in brackets.
+/// Returns HOST:PORT, with an IPv6 address in brackets.
 std::string addressText(const std::string& host, uint16_t port);
 
 /// One end of a connection; closed with the object.
@@ -37,7 +37,7 @@ class TcpSocket {
   int descriptor() const { return descriptor_; }
   void close();
 
-  /// Received bytes, at most 64 KiB; waits at most `timeout` s for the first one. Empty if none arrived.
+  /// Receives at most 64 KiB; waits at most `timeout` s for the first byte. Empty if none arrived.
   /// @throws std::runtime_error if the connection was closed or broke
   std::string receive(double timeout);
   /// Sends without blocking. @return number of bytes sent, 0 if the buffer is full
@@ -61,7 +61,7 @@ class TcpListener {
 
   uint16_t port() const { return port_; }
   int descriptor() const { return socket_.descriptor(); }
-  /// The next connection; a closed socket if there is none within `timeout` s, with errno set.
+  /// Returns the next connection; a closed socket, with errno set, if there is none within `timeout` s.
   TcpSocket accept(double timeout);
 
  private:

@@ -66,7 +66,7 @@ class FullListener {
   std::vector<TcpSocket> sockets_;
 };
 
-/// Time (s) that a client without a server takes to stop.
+/// Returns the time (s) that a client without a server takes to stop.
 double timeToStop(const std::string& host, uint16_t port) {
   test::Events events;
   ObservationClient client({host, port, 15}, events.log());

@@ -9,14 +9,14 @@ namespace hybrid_slam::live {
 
 constexpr size_t kMinToken = 16, kMaxToken = 256;  ///< characters
 
-/// The first line of a file; empty if no file is named.
+/// Returns the first line of a file; empty if no file is named.
 /// @throws InputError if it cannot be read, or is not of kMinToken to kMaxToken characters
 std::string readToken(const std::string& file, const std::string& where);
 
-/// Takes the same time wherever two tokens of one length differ.
+/// Compares tokens in a time that does not depend on where they differ.
 bool isSameToken(const std::string& shown, const std::string& expected);
 
-/// Whether only this machine can reach the address.
+/// Returns whether only this machine can reach the address.
 bool isLoopback(const std::string& address);
 
 }  // namespace hybrid_slam::live

@@ -14,7 +14,7 @@
 namespace hybrid_slam::live {
 namespace {
 
-/// Number of observations, about one second: sensors do not start at the same time.
+/// Number of early observations kept, about one second: sensors do not start at the same time.
 constexpr size_t kEarly = 5;
 
 /// The smallest value that at least a share of all values do not exceed (Hyndman & Fan's type 1); 0 without
@@ -90,7 +90,8 @@ void LiveRun::pass(const Arrived& arrived) {
 void LiveRun::reportUse(const mrpt::obs::CObservation2DRangeScan& scan) {
   const auto use = assembler_.useOf(scan);
   const bool isUsed = use == readings::ScanGrouper::Use::taken;
-  if (!(isUsed ? used_ : ignored_).insert(scan.sensorLabel).second) return;
+  auto& told = isUsed ? used_ : ignored_;
+  if (told.size() >= readings::kMostLabels || !told.insert(scan.sensorLabel).second) return;
   log_.report("laser `" + scan.sensorLabel + "`",
               isUsed ? "used, " + std::to_string(scan.getScanSize()) + " beams"
                      : "scan not used, as are further ones: " + readings::reasonOf(use) + ": " + place());

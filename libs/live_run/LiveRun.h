@@ -36,8 +36,8 @@ class LiveRun {
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
-  /// Called in the filter's thread after each scan, with whether it caused an update. Set it before the first
-  /// cycle.
+  /// A function called in the filter's thread after each scan; `isUpdate` says whether it caused an update.
+  /// Set it before the first cycle.
   using Watcher = std::function<void(const FilterView&, const readings::Reading&, bool isUpdate)>;
   void setWatcher(Watcher watcher) { watcher_ = std::move(watcher); }
 
@@ -50,7 +50,7 @@ class LiveRun {
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
   /// Saves map and session to a dated subfolder after the next scan.
   void requestSave() { run_.requestSave(); }
-  /// The filter has failed; further cycles are useless.
+  /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
 
   /// Filters the waiting readings, then writes all results.
@@ -70,13 +70,13 @@ class LiveRun {
 
   void takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival);
   void pass(const Arrived& arrived);
-  /// Reports each laser once that is used, and once that is not.
+  /// Reports once for each laser whether it is used.
   void reportUse(const mrpt::obs::CObservation2DRangeScan& scan);
   void filter();
   void stopFilter();
   void tellState();
   void tellVerdict();
-  /// Where the last observation is in the recording.
+  /// Names the last observation in the recording.
   std::string place() const;
 
   run::Configuration& configuration_;

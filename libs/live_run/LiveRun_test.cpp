@@ -37,7 +37,7 @@ class LiveRunTest : public testing::Test {
                          more);
     return run::Configuration(ini, {"run.output=" + folder.path(output)});
   }
-  /// The log's observations through a grouper into a live run. @return the summary
+  /// Passes the log's observations through a grouper to a live run. @return the summary
   std::string runLive(const test::Log& log, const std::string& more = "") {
     run::Configuration c = configuration("live", more);
     LiveRun run(c, options, events.log(), true);
@@ -54,7 +54,7 @@ class LiveRunTest : public testing::Test {
     const std::atomic<bool> stop{false};
     run::replay(c, true, stop);
   }
-  /// The newest; empty if there is none.
+  /// Returns the newest recording; empty if there is none.
   std::string recording() const {
     const auto all = test::filesIn(folder.path("live"), "recording-");
     return all.empty() ? "" : all.back();
@@ -87,7 +87,7 @@ TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
   EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
 }
 
-/// Told by the log before its first odometry, or by the setting.
+/// The log states the scan time before its first odometry, or the setting does.
 TEST_F(LiveRunTest, ScansAreCorrectedForTheMotionDuringTheirSweepAndReplayedSo) {
   options.maxWaiting = 1000;
   test::Log log{readings::commentOf({"LASER", 0.1}, test::stamp(998))};
@@ -217,6 +217,18 @@ TEST_F(LiveRunTest, EachLaserThatIsUsedIsReportedOnce) {
   EXPECT_EQ(events.count("laser `LASER`: used, 181 beams"), 1u) << events.text();
   EXPECT_EQ(events.count("laser `REAR`: used, 91 beams"), 1u) << events.text();
   EXPECT_EQ(events.count("laser `"), 2u) << events.text();
+}
+
+TEST_F(LiveRunTest, ManyLasersThatAreNotUsedFillNeitherLogNorMemory) {
+  options.maxWaiting = 1000;
+  test::Log log = test::laps(10);
+  for (int i = 0; i < 200; ++i) {
+    const auto scan = test::scan(1000.1, {}, 3, "LASER" + std::to_string(i));
+    scan->sensorPose.x(1e5);
+    log.insert(log.begin() + 2, scan);
+  }
+  runLive(log);
+  EXPECT_EQ(events.count("scan not used"), 100u);
 }
 
 TEST_F(LiveRunTest, WhatCannotBeTrueIsSkippedAndReported) {

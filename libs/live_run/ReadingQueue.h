@@ -32,7 +32,7 @@ class ReadingQueue {
     }
     changed_.notify_one();
   }
-  /// No more readings come.
+  /// Announces that no more readings come.
   void close() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);

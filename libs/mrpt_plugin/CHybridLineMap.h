@@ -31,12 +31,12 @@ class CHybridLineMap : public mrpt::maps::CMetricMap {
 
   bool isEmpty() const override { return database_.lines().empty(); }
   std::string asString() const override;
-  /// PREFIX.csv: the lines, as in lines.csv (doc/results.md).
+  /// Writes PREFIX.csv: the lines, as in lines.csv (doc/results.md).
   /// @throws std::runtime_error if the file cannot be written
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
-  /// Green lines in the plane z = 0, in the map frame.
+  /// Draws green lines in the plane z = 0, in the map frame.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const override;
-  /// 0: MRPT's mean over several maps counts maps without points so.
+  /// Returns 0, as maps without points do in MRPT's mean over several maps.
   float compute3DMatchingRatio(const CMetricMap*, const mrpt::poses::CPose3D&,
                                const mrpt::maps::TMatchingRatioParams&) const override {
     return 0;
@@ -44,10 +44,10 @@ class CHybridLineMap : public mrpt::maps::CMetricMap {
 
  private:
   void internal_clear() override { database_ = {}; }
-  /// One step of Sec. III-C: the lines of a scan, seen from a pose, update the database.
+  /// Performs one step of Sec. III-C: updates the database with the lines of a scan at a pose.
   bool internal_insertObservation(const mrpt::obs::CObservation& observation,
                                   const std::optional<const mrpt::poses::CPose3D>& robot) override;
-  /// exponent x log w_line (Sec. III-D); 0 for an observation without use.
+  /// Returns exponent x log w_line (Sec. III-D); 0 for an observation that is not used.
   double internal_computeObservationLikelihood(const mrpt::obs::CObservation& observation,
                                                const mrpt::poses::CPose3D& robot) const override;
   bool internal_canComputeObservationLikelihood(const mrpt::obs::CObservation& observation) const override;

@@ -191,8 +191,7 @@ TEST(HybridLineMapOptions, MisspeltSectionsAndKeysAreErrors) {
   }
 }
 
-/// The same as in a particle of MRPT's filter: its maps add their likelihoods, and a copied particle keeps
-/// them.
+/// As in a particle of MRPT's filter, several maps add their likelihoods, and a copied particle keeps them.
 TEST(CHybridLineMap, AddsToTheLikelihoodOfSeveralMapsAndTheirCopies) {
   CMultiMetricMap maps = mapsOf("[" + kPrefix + "line_database]\nmin_length = 1.5\n");
   RandomStream random = randomStream();

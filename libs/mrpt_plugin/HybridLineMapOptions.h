@@ -29,15 +29,15 @@ struct HybridLineMapOptions {
   LineWeightOptions weight;
   LikelihoodOptions likelihood;
 
-  /// (end of the section's name, options) of every part.
+  /// Returns (end of the section's name, options) of every part.
   std::vector<std::pair<std::string, Options*>> sections();
 
-  /// @param prefix  of the sections, "MappingApplication_hybridLineMap_00"
+  /// @param prefix  prefix of the sections, "MappingApplication_hybridLineMap_00"
   /// @throws InputError for a section of this prefix that is not one of ours, and as
   ///         Options::loadFromConfigFile
   void load(const mrpt::config::CConfigFileBase& source, const std::string& prefix);
 
-  /// The values of all settings, as text. Reading checks what an INI file is checked for.
+  /// Reads or writes the values of all settings as text. Reading checks them like those of an INI file.
   template <class State>
   void visit(State& state) {
     for (const auto& [section, options] : sections())

@@ -104,7 +104,7 @@ void BagLog::hold(const std::vector<bags::TransformMessage>& transforms, double 
 
 void BagLog::hold(double time, double recorded, Record record, size_t beams) {
   if (time == 0) time = recorded;
-  if (!(time >= 0 && time <= kLatestTime)) throw bags::BrokenBytes("its time is not one");
+  if (!(time >= 0 && time <= kLatestTime)) throw bags::BrokenBytes("its time is impossible");
   std::visit([&](auto& one) { one.time = time; }, record);
   heldBeams_ += beams;
   held_.emplace(std::make_tuple(time, beams > 0, number_), std::move(record));

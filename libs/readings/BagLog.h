@@ -1,5 +1,5 @@
 /// @file BagLog.h
-/// @brief A recording of ROS as the objects of a rawlog, one at a time.
+/// @brief Reads a ROS recording as the objects of a rawlog, one at a time.
 #pragma once
 
 #include <map>
@@ -14,9 +14,9 @@
 
 namespace hybrid_slam::readings {
 
-/// Reads a bag as a stream. A scan is labelled by its topic and has the time of its header, or when it was
-/// recorded if that is zero. A message is recorded a little later than the time that it states, each
-/// topic by another delay: objects are put into the order of their times within one second.
+/// Reads a bag as a stream. A scan is labelled by its topic and has the time of its header, or the recording
+/// time if that is zero. Messages are recorded with a delay that differs between topics, so objects are
+/// sorted by time within one second.
 class BagLog {
  public:
   /// Uses `maxRange`, `actionObservation`, `laserX` (for a laser of unknown pose) and `strict` of the
@@ -24,7 +24,7 @@ class BagLog {
   /// @throws InputError if the file cannot be read
   BagLog(const std::string& file, BagPlan plan, const LogConversionOptions& options, BrokenLineReport report);
 
-  /// The next object; null at the end, or where the file is cut or damaged (see `defect`).
+  /// Returns the next object; null at the end, or where the file is cut or damaged (see `defect`).
   /// @throws InputError for a broken message if `strict`
   mrpt::serialization::CSerializable::Ptr next();
 
@@ -41,7 +41,7 @@ class BagLog {
   void hold(const bags::OdometryMessage& odometry, double recorded);
   void hold(const std::vector<bags::TransformMessage>& transforms, double recorded);
   void hold(double time, double recorded, Record record, size_t beams);
-  /// Passes on what no later message can come before.
+  /// Passes on the objects that no later message can precede.
   void release(bool isAtEnd);
 
   std::string file_;
@@ -50,7 +50,7 @@ class BagLog {
   LogConversionOptions options_;
   BrokenLineReport report_;
   LogObjects objects_;
-  /// By time, odometry before a scan of the same time, order of recording.
+  /// Sorted by time, odometry before scans of the same time, then order of recording.
   std::map<std::tuple<double, bool, size_t>, Record> held_;
   size_t heldBeams_ = 0, number_ = 0;
 };

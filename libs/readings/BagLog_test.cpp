@@ -182,7 +182,24 @@ TEST_F(BagLogTest, WithoutATopicOdometryIsTheTransformBelowOdom) {
   EXPECT_THAT(plan(messages).notes, IsEmpty());
 }
 
-/// A scan is recorded after it has been taken, and after odometry of a later time.
+/// A recording of /tf without /tf_static.
+TEST_F(BagLogTest, TheTransformBelowOdomIsTheOdometryAlsoOfALaserWithoutATransform) {
+  std::vector<TestMessage> messages{frameAt("map", "odom", test::turned(9, 9, 0)),
+                                    frameAt("odom", "base_link", test::turned(1, 0, 0), 1, "/tf"),
+                                    frameAt("base_link", "left_wheel", test::turned(0, 0.1, 0)),
+                                    scanOn("/scan", 1, "laser"),
+                                    frameAt("odom", "base_link", test::turned(2, 0, 0), 2, "/tf")};
+  const auto all = read<CObservationOdometry>(messages);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_NEAR(all[1]->odometry.x(), 2, 1e-12);
+  EXPECT_THAT(plan(messages).notes, ElementsAre(HasSubstr("no transform from `base_link` to `laser`")));
+
+  messages.push_back(frameAt("second_odom", "trailer", test::turned(0, 0, 0)));
+  EXPECT_THAT(plan(messages).odomFrame, IsEmpty()) << "which of them is not known";
+  EXPECT_THAT(errorOf(messages, {{}, "/tf"}), HasSubstr("no odometry among the transforms"));
+}
+
+/// The scan is recorded after odometry of a later time.
 TEST_F(BagLogTest, ObjectsAreInTheOrderOfTheirTimes) {
   std::vector<TestMessage> messages{odometryAt(1, {1, 0, 0}), odometryAt(1.2, {2, 0, 0}),
                                     scanOn("/scan", 1.1, "base_link"), odometryAt(5, {3, 0, 0}),

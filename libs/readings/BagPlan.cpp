@@ -7,6 +7,7 @@
 
 #include "bags/ByteCursor.h"
 #include "base/Errors.h"
+#include "base/Terminal.h"
 
 namespace hybrid_slam::readings {
 
@@ -100,7 +101,8 @@ bool endsWith(const std::string& name, const std::string& end) {
   return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Above a laser: the frame named `odom`, the base below it, and frames that are named as bases are.
+/// Frames above a laser: the one named `odom`, the base below it, and those with the name of a base. Where
+/// the transforms of the laser are missing (often /tf_static), the only frame below `odom` is the base.
 struct Base {
   std::string odom, below;
   std::vector<std::string> candidates;
@@ -114,6 +116,10 @@ Base baseAbove(const FrameTree& frames, const std::string& laser) {
       base.odom = path[i];
       base.below = path[i - 1];
     }
+  if (const auto bases = frames.childrenOf("odom"); base.odom.empty() && bases.size() == 1) {
+    base.below = bases.front();
+    base.odom = frames.ancestors(base.below).at(1);
+  }
   for (const char* name : {"base_footprint", "base_link"})
     for (const std::string& frame : path)
       if (endsWith(frame, name)) base.candidates.push_back(frame);
@@ -132,7 +138,8 @@ std::string BagContents::table() const {
             [](const Entry* a, const Entry* b) { return a->topic.name < b->topic.name; });
   std::ostringstream out;
   for (const Entry* entry : all)
-    out << std::setw(9) << entry->messages << "  " << entry->topic.name << "  " << entry->topic.type << "\n";
+    out << std::setw(9) << entry->messages << "  " << onOneLine(entry->topic.name + "  " + entry->topic.type)
+        << "\n";
   return out.str();
 }
 
@@ -178,6 +185,9 @@ BagPlan planOf(const BagContents& contents, const BagOptions& options, const std
   } else {
     plan.odomFrame = above.odom;
     plan.baseFrame = above.below;
+    if (above.odom.empty() && !options.odometryTopic.empty())
+      throw InputError("no odometry among the transforms", file,
+                       "expected one from a frame `odom` to the base of the robot");
   }
   const std::string expectedBase = bases.empty() ? "base_link" : bases.front();
   std::set<std::string> used;

@@ -1,5 +1,5 @@
 /// @file BagPlan.h
-/// @brief Which messages of a bag give scans and odometry.
+/// @brief Chooses the topics of a bag that give scans and odometry.
 #pragma once
 
 #include <mrpt/math/TPose3D.h>
@@ -19,7 +19,7 @@ struct BagOptions {
   std::string odometryTopic;        ///< of nav_msgs/Odometry, or that of the transforms
 };
 
-/// What a bag holds, from one pass.
+/// Contents of a bag, from one pass.
 struct BagContents {
   struct Entry {
     bags::Topic topic;
@@ -32,15 +32,15 @@ struct BagContents {
 
   /// `/scan (sensor_msgs/LaserScan, 120 messages), /odom ...`; at most 20.
   std::string list() const;
-  /// A line for each topic, by name: its messages, name and type.
+  /// Returns a line for each topic, sorted by name: number of messages, name and type.
   std::string table() const;
 };
 
-/// @throws InputError if the file is not a bag, or damaged before its first message
+/// Reads the whole bag. @throws InputError if the file is not a bag, or damaged before its first message
 BagContents contentsOf(const std::string& file);
 
-/// A scan topic is a laser. Its pose follows from the transforms between the robot's base and the scan's
-/// frame, in the first value of each: a laser does not move on the robot.
+/// Each scan topic is a laser. Its pose follows from the first transforms between the robot's base and the
+/// scan's frame: a laser does not move on the robot.
 struct BagPlan {
   struct Laser {
     std::string topic;
@@ -53,9 +53,9 @@ struct BagPlan {
   std::vector<std::string> notes;    ///< for the user: what was assumed
 };
 
-/// By default all lasers are used, and the odometry is that of the only odometry topic, or else the transform
-/// from an `odom` frame to the robot's base. The default needs lasers in frames of their own with known
-/// poses, if there are several, and at most one odometry topic.
+/// Applies the user's choice. By default all lasers are used, and the odometry is that of the only odometry
+/// topic, or else the transform from an `odom` frame to the robot's base. The default requires at most one
+/// odometry topic and, with several lasers, a separate frame with known pose for each.
 /// @throws InputError if there are no scans, a topic is missing, or there is no default; it lists the topics
 ///         and names the options
 BagPlan planOf(const BagContents& contents, const BagOptions& options, const std::string& file);

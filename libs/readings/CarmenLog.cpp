@@ -1,5 +1,5 @@
 /// @file CarmenLog.cpp
-/// @brief CARMEN's logger: rows `ODOM`, of its lasers, and `PARAM`.
+/// @brief Logs of CARMEN's logger: rows `ODOM`, `PARAM` and those of the lasers.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,12 +10,12 @@
 namespace hybrid_slam::readings {
 namespace {
 
-/// The front laser's pose on the robot, from the two poses of its rows. CARMEN writes the mounting that was
-/// in force into every row, so rows that agree are believed rather than `PARAM`, which may be of another
-/// robot. A corrected log has a mapper's pose in place of the laser's: its rows soon disagree.
+/// The front laser's pose on the robot, from the two poses of its rows. CARMEN writes the current mounting
+/// into every row, so rows that agree take precedence over `PARAM`, which may be of another robot. In a
+/// corrected log, a mapper's pose replaces the laser's: its rows soon disagree.
 class FrontLaserMounting {
  public:
-  /// Null once the rows have disagreed.
+  /// Returns the mounting; empty once the rows have disagreed.
   std::optional<mrpt::math::TPose2D> of(const mrpt::math::TPose2D& laser, const mrpt::math::TPose2D& robot) {
     const mrpt::math::TPose2D mounting = laser - robot;
     if (!first_) first_ = mounting;
@@ -31,14 +31,14 @@ class FrontLaserMounting {
   bool agree_ = true;
 };
 
-/// Rows of a laser, the most useful first. A log may hold the same scan in rows of two kinds.
+/// Kinds of a laser's rows, the most useful first. A log may hold the same scan in rows of two kinds.
 enum class Rows {
   posed,     ///< with the robot's pose: FLASER, RLASER, ROBOTLASERn
   mounted,   ///< LASERn and RAWLASERn of the front (1) and the rear laser (2)
   unmounted  ///< LASERn and RAWLASERn of others: the log does not tell where on the robot they are
 };
 
-/// `LASER3`: 3; 0 for another name.
+/// Returns 3 for `LASER3`; 0 for another name.
 int laserNumber(std::string_view name, std::string_view kind) {
   const bool isKind = name.size() == kind.size() + 1 && name.substr(0, kind.size()) == kind;
   return isKind && name.back() >= '1' && name.back() <= '9' ? name.back() - '0' : 0;
@@ -62,15 +62,15 @@ class CarmenParser : public LogParser {
   LogRecord plainLaser(std::string_view name, LogFields& fields) const;
   LogRecord rawLaser(std::string_view name, LogFields& fields) const;
   LogRecord robotLaser(std::string_view name, LogFields& fields) const;
-  /// The laser's configuration and ranges, up to its remissions.
+  /// Reads the laser's configuration and ranges, up to its remissions.
   static LaserRecord configuredScan(std::string_view name, LogFields& fields);
-  /// Pose of the laser with this number.
+  /// Returns the pose of the laser with this number.
   mrpt::math::TPose2D mounting(int number) const;
   void parameter(LogFields& fields);
   double time(LogFields& fields) const;
 
   Rows used_ = Rows::unmounted;              ///< rows of later kinds are skipped
-  double frontOffset_ = 0, rearOffset_ = 0;  ///< m, of the lasers ahead of the robot's centre, by `PARAM`
+  double frontOffset_ = 0, rearOffset_ = 0;  ///< m, x of the lasers on the robot, by `PARAM`
   FrontLaserMounting frontMounting_;
 };
 
@@ -108,16 +108,25 @@ mrpt::math::TPose2D CarmenParser::mounting(int number) const {
 
 LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const size_t beams = fields.count(1);
-  fields.expectLeft(beams + 9, std::to_string(beams) +
-                                   " ranges, the laser's and the robot's pose, "
-                                   "ipc_time host logger_time");
+  const bool hasRobot = fields.left() != beams + 8 || !fields.isZero(beams + 3, 3);
+  if (hasRobot)
+    fields.expectLeft(beams + 9, std::to_string(beams) +
+                                     " ranges, the laser's and the robot's pose, "
+                                     "ipc_time host logger_time");
   LaserRecord record = scan(name, beams, fields);
-  const mrpt::math::TPose2D laser = fields.pose();
-  record.odometry = fields.pose();
-  record.time = time(fields);
   // Logs differ in whether the heading of a rear laser's row includes the half turn: PARAM states where it
   // is.
   record.laserPose = mounting(name == "RLASER" ? 2 : 1);
+  if (!hasRobot) {
+    // The log of Orebro has the odometry in place of the laser's pose.
+    record.odometry = fields.pose();
+    fields.skip(4);  // zeros, host
+    record.time = fields.time();
+    return record;
+  }
+  const mrpt::math::TPose2D laser = fields.pose();
+  record.odometry = fields.pose();
+  record.time = time(fields);
   if (name == "FLASER" && !options_.laserX)
     record.laserPose = frontMounting_.of(laser, *record.odometry).value_or(record.laserPose);
   return record;
@@ -180,7 +189,7 @@ void CarmenParser::parameter(LogFields& fields) {
   if (key == "robot_rearlaser_offset") rearOffset_ = fields.number();
 }
 
-/// The last fields of every CARMEN row.
+/// Reads the last fields of every CARMEN row.
 double CarmenParser::time(LogFields& fields) const {
   const double ipc = fields.time();
   fields.word();  // host

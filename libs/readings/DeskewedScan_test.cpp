@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
 using test::SweptLaser;
 
-/// The motion to each beam of a scan at 0 s.
+/// Motion from the timestamp, 0 s, to the time of each beam.
 std::vector<TPose2D> motionOf(const SweptLaser& laser, const test::Motion& motion) {
   std::vector<TPose2D> all;
   for (size_t i = 0; i < laser.beams; ++i)
@@ -21,11 +21,11 @@ std::vector<TPose2D> motionOf(const SweptLaser& laser, const test::Motion& motio
   return all;
 }
 
-/// On the spot, at 1.5 rad/s.
+/// Turns on the spot at 1.5 rad/s.
 TPose2D turning(double t) { return {1, -0.5, 0.3 + 1.5 * t}; }
-/// Obliquely to the walls, at 1 m/s.
+/// Drives obliquely to the walls at 1 m/s.
 TPose2D driving(double t) { return {0.8 * t, 0.6 * t, 0.3}; }
-/// Both, the other way round.
+/// Drives and turns the other way.
 TPose2D onAnArc(double t) { return {0.5 * std::cos(2 * t), -0.5 * std::sin(2 * t), 1 - 2 * t}; }
 
 struct Case {

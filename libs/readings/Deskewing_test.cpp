@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 using test::Log;
 using test::SweptLaser;
 
-/// At 1.5 rad/s, and along the room.
+/// Turns at 1.5 rad/s.
 TPose2D turning(double t) { return {0.5, 0.2, 1.5 * (t - 100)}; }
 TPose2D driving(double t) { return {0.5 * (t - 100), 0.4, 0.5}; }
 
@@ -30,7 +30,7 @@ Log stating(double seconds, Log log, const std::string& label = "LASER") {
   return log;
 }
 
-/// Odometry each 0.05 s, which begins before the scans, at 100, 100.13, ... s, and ends after them.
+/// Scans at 100, 100.13, ... s, and odometry every 0.05 s, which begins before them and ends after them.
 Log observations(const test::Motion& motion, const SweptLaser& laser = {}) {
   Log log;
   for (int i = -1, scans = 0; i < 26; ++i) {
@@ -42,7 +42,7 @@ Log observations(const test::Motion& motion, const SweptLaser& laser = {}) {
   return log;
 }
 
-/// Scans and the motion to each as pairs.
+/// Pairs of a scan and the motion to it.
 Log pairs(const test::Motion& motion) {
   Log log;
   for (int i = 0; i < 9; ++i) {
@@ -54,7 +54,7 @@ Log pairs(const test::Motion& motion) {
   return log;
 }
 
-/// Error of the worst scan, m.
+/// Returns the largest error of a scan (m).
 double worst(const std::vector<Reading>& readings, const test::Motion& motion) {
   double all = 0;
   for (const Reading& reading : readings)

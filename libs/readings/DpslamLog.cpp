@@ -1,5 +1,5 @@
 /// @file DpslamLog.cpp
-/// @brief DP-SLAM's logs: rows `Odometry`, `Laser`, without times.
+/// @brief Logs of DP-SLAM: rows `Odometry` and `Laser`, without times.
 #include <algorithm>
 #include <cctype>
 

@@ -9,7 +9,7 @@
 namespace hybrid_slam::readings {
 
 std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel,
-                                     double maxRange) {
+                                     double maxRange, size_t mostKept) {
   InputOptions options;
   options.sensorLabel = sensorLabel;
   const RawlogSummary summary = summarise(rawlog, options);
@@ -17,6 +17,7 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::strin
     throw InputError("log " + summary.defect, summary.defectPlace(rawlog), "expected a whole log");
   RawlogSource source(rawlog, options, summary);
   std::vector<EndPoints> scans;
+  size_t kept = 0;
   while (const auto reading = source.next()) {
     EndPoints ends{reading->timestamp, {}};
     for (const LaserScan& scan : toLaserScans(reading->scans, maxRange))
@@ -25,6 +26,10 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::strin
         ends.points.push_back(scan.sensorPose.composePoint(
             {beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)}));
       }
+    kept += 1 + ends.points.size();
+    if (kept > mostKept)
+      throw InputError("too many scans", rawlog + ", scan " + std::to_string(scans.size() + 1),
+                       "expected at most " + std::to_string(mostKept) + " scans and valid beams together");
     scans.push_back(std::move(ends));
   }
   return scans;

@@ -2,6 +2,7 @@
 /// @brief Reads the end points of a log's scans, for evaluation.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -10,12 +11,14 @@
 
 namespace hybrid_slam::readings {
 
-/// The scans of one laser, in the order of the log.
+/// Reads the end points of each scan in the order of the log.
 /// @param sensorLabel  of the lasers, as [input] sensor_label; empty: all
 /// @param maxRange     m; the smaller of this and the log's own limit applies
-/// @throws InputError for a log without scans of that laser, and for a truncated log, whose errors would be
-///         those of another drive
+/// @param mostKept     limit of the scans and valid beams together; the default takes 2 GB of memory
+/// @throws InputError for a log without scans of these lasers or with too many, and for a truncated log,
+///         which would give the errors of a shorter drive
 std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel = {},
-                                     double maxRange = std::numeric_limits<double>::infinity());
+                                     double maxRange = std::numeric_limits<double>::infinity(),
+                                     size_t mostKept = size_t{1} << 27);
 
 }  // namespace hybrid_slam::readings

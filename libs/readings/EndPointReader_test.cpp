@@ -7,6 +7,7 @@
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::readings {
@@ -43,6 +44,13 @@ TEST_F(EndPointReader, LaserAndRangeCanBeChosen) {
   EXPECT_LT(scans[0].points.size(), 91u);
   for (const auto& point : scans[0].points) EXPECT_LT(point.norm(), 4);
   EXPECT_THROW(loadEndPoints(rawlog(), "NONE"), InputError);
+}
+
+TEST_F(EndPointReader, TooManyEndPointsAreAnErrorBeforeTheyFillTheMemory) {
+  test::writeGzipped(rawlog(), {test::scan(5), test::scan(6), test::scan(7)});
+  EXPECT_EQ(loadEndPoints(rawlog(), {}, 80, 3 * 181 + 3).size(), 3u);
+  EXPECT_EQ(test::errorOf([&] { loadEndPoints(rawlog(), {}, 80, 3 * 181 + 2); }),
+            "too many scans: " + rawlog() + ", scan 3; expected at most 545 scans and valid beams together");
 }
 
 TEST_F(EndPointReader, ATruncatedLogIsAnError) {

@@ -1,5 +1,6 @@
 #include "readings/FrameTree.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/CQuaternion.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 constexpr size_t kMostFrames = 10000, kMostAncestors = 100;
 
 bool differs(const CPose3D& a, const CPose3D& b) {
-  constexpr double kMetres = 1e-3, kRadians = 0.1 * M_PI / 180;
+  constexpr double kMetres = 1e-3, kRadians = mrpt::DEG2RAD(0.1);
   const CPose3D step = b - a;
   return step.norm() > kMetres || std::abs(step.yaw()) > kRadians || std::abs(step.pitch()) > kRadians ||
          std::abs(step.roll()) > kRadians;
@@ -40,6 +41,14 @@ std::vector<std::string> FrameTree::ancestors(const std::string& frame) const {
        edge = edges_.find(all.back()))
     all.push_back(edge->second.parent);
   return all;
+}
+
+std::vector<std::string> FrameTree::childrenOf(const std::string& part) const {
+  std::vector<std::string> children;
+  for (const auto& [child, edge] : edges_)
+    if (edge.parent.find(part) != std::string::npos) children.push_back(child);
+  std::sort(children.begin(), children.end());
+  return children;
 }
 
 std::optional<std::string> FrameTree::common(const std::string& a, const std::string& b) const {

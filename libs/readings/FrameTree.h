@@ -1,5 +1,5 @@
 /// @file FrameTree.h
-/// @brief The frames of a robot, from its transforms.
+/// @brief Tree of a robot's frames, from its transforms.
 #pragma once
 
 #include <mrpt/poses/CPose3D.h>
@@ -15,16 +15,18 @@ namespace hybrid_slam::readings {
 
 mrpt::poses::CPose3D poseOf(const bags::FramePose& pose);
 
-/// Each frame has the parent and the pose of its first transform.
+/// Keeps the parent and the pose of each frame's first transform.
 class FrameTree {
  public:
   void add(const bags::TransformMessage& transform);
 
-  /// The frame, its parent, and so on; at most 100.
+  /// Returns the frame, its parent, and so on; at most 100.
   std::vector<std::string> ancestors(const std::string& frame) const;
-  /// Pose of a frame in another (m, rad); empty if they are not connected.
+  /// Returns the frames whose parent has a name that contains `part`, sorted.
+  std::vector<std::string> childrenOf(const std::string& part) const;
+  /// Returns the pose of `frame` in `base` (m, rad); empty if they are not connected.
   std::optional<mrpt::poses::CPose3D> pose(const std::string& base, const std::string& frame) const;
-  /// Whether one of the transforms between two frames has changed by over 1 mm or 0.1 deg.
+  /// Returns whether a transform between two frames has changed by over 1 mm or 0.1 deg.
   bool moves(const std::string& base, const std::string& frame) const;
 
  private:
@@ -33,9 +35,9 @@ class FrameTree {
     mrpt::poses::CPose3D pose;  ///< in the parent
     bool moves = false;
   };
-  /// The edges from a frame up to one of its ancestors.
+  /// Returns the edges from a frame up to one of its ancestors.
   std::vector<const Edge*> edgesUp(const std::string& frame, const std::string& ancestor) const;
-  /// The nearest frame above both, or one of them; empty if there is none.
+  /// Returns the nearest common ancestor, which may be one of both; empty if there is none.
   std::optional<std::string> common(const std::string& a, const std::string& b) const;
 
   std::unordered_map<std::string, Edge> edges_;  ///< by child

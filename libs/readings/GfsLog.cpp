@@ -1,5 +1,5 @@
 /// @file GfsLog.cpp
-/// @brief GMapping's output: rows `ODOM`, `LASER_READING`.
+/// @brief Logs of GMapping: rows `ODOM` and `LASER_READING`.
 #include "readings/LogFields.h"
 #include "readings/LogFormats.h"
 

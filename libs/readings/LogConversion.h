@@ -10,11 +10,11 @@
 namespace hybrid_slam::readings {
 
 /// Converts `logPath` (plain or compressed) into the rawlog `rawlogPath`, whose objects are those of TextLog
-/// or BagLog. A bag that is cut or damaged is converted up to there, unless `strict` (LogSummary::defect).
+/// or BagLog. A truncated or damaged bag is converted up to its defect (LogSummary::defect), unless `strict`.
 ///
 /// @throws InputError for an input that is missing, unreadable, truncated, not a log, a rawlog, or without
-///         scans, for an unwritable output, and for a broken line if `strict`; no file is then left at
-///         `rawlogPath`
+///         scans, for an unwritable output, and for a broken line if `strict`; no file is left at
+///         `rawlogPath` then
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
                       const LogConversionOptions& options, const BrokenLineReport& report,
                       const BagOptions& bag = {});

@@ -52,7 +52,7 @@ struct Converted {
   CRawlog rawlog;
   std::vector<size_t> brokenLines;
 
-  /// "LABEL time" of each entry.
+  /// Returns "LABEL time" of each entry.
   std::vector<std::string> entries() const {
     std::vector<std::string> all;
     for (const auto& object : rawlog) {
@@ -239,6 +239,15 @@ TEST(LogConversion, OtherRecordsAreCountedByName) {
   EXPECT_THAT(result.brokenLines, IsEmpty());
 }
 
+TEST(LogConversion, OtherRecordsOfManyNamesTakeLittleMemory) {
+  std::string log = laser("FLASER", 181, "0 0 0", "1");
+  for (int i = 0; i < 200; ++i) log += "NAME" + std::to_string(i) + " a\n";
+  const auto records = convert(log + "NAME0 a\n").summary.otherRecords;
+  EXPECT_EQ(records.size(), 101u);
+  EXPECT_EQ(records.at("NAME0"), 2u);
+  EXPECT_EQ(records.at("of other names"), 100u);
+}
+
 TEST(LogConversion, AGivenFormatOverridesTheContent) {
   LogConversionOptions options;
   options.format = formatNamed("dpslam");
@@ -290,7 +299,7 @@ TEST(LogConversion, AFailureLeavesNoFile) {
   EXPECT_EQ(errorOf(good, out), "no error");
 }
 
-/// The public logs of doc/datasets.md.
+/// Tests on the public logs of doc/datasets.md.
 class PublicLogs : public testing::Test {
  protected:
   void SetUp() override {

@@ -9,7 +9,7 @@ namespace hybrid_slam::readings {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\f\v";
-/// s; MRPT's timestamps are 64-bit counts of 100 ns since 1601 and end at 9e11 s.
+/// Largest time (s). MRPT's timestamps are 64-bit counts of 100 ns since 1601 and end at 9e11 s.
 constexpr double kLatestTime = 1e11;
 
 }  // namespace
@@ -26,6 +26,13 @@ void LogFields::expectLeft(size_t count, const std::string& what) const {
   if (left() == count) return;
   throw BrokenLine(std::to_string(left()) + " fields where " + std::to_string(count) +
                    " were expected: " + what);
+}
+
+bool LogFields::isZero(size_t skipped, size_t count) const {
+  if (left() < skipped + count) return false;
+  const auto first = fields_.begin() + static_cast<std::ptrdiff_t>(next_ + skipped);
+  return std::all_of(first, first + static_cast<std::ptrdiff_t>(count),
+                     [](std::string_view field) { return parseNumber(field) == 0.0; });
 }
 
 std::string_view LogFields::word() {

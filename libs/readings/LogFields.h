@@ -11,7 +11,7 @@
 
 namespace hybrid_slam::readings {
 
-/// A line that does not match its record type; what() gives the reason.
+/// Thrown for a line that does not match its record type; what() gives the reason.
 struct BrokenLine : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,18 +25,20 @@ class LogFields {
   size_t left() const { return fields_.size() - next_; }
   /// @throws BrokenLine unless exactly `count` fields are left; `what` describes them
   void expectLeft(size_t count, const std::string& what) const;
+  /// Returns whether `count` fields, after the next `skipped` ones, are there and read `0`.
+  bool isZero(size_t skipped, size_t count) const;
 
   std::string_view word();
   void skip(size_t count) { next_ += count; }
-  /// A finite number.
+  /// Reads a finite number.
   double number();
-  /// A range reading (m); `nan` and `inf` mean no return.
+  /// Reads a range (m); `nan` and `inf` mean no return.
   float range();
-  /// A whole number, at least `least`.
+  /// Reads a whole number of at least `least`.
   size_t count(size_t least);
-  /// A time in seconds within the range of a timestamp.
+  /// Reads a time (s) within the range of a timestamp.
   double time();
-  /// x, y (m), theta (rad).
+  /// Reads x, y (m), theta (rad).
   mrpt::math::TPose2D pose();
 
  private:
@@ -45,7 +47,7 @@ class LogFields {
   size_t next_ = 0;
 };
 
-/// The field in backquotes, shortened, with `?` for unprintable characters.
+/// Returns the field in backquotes, shortened, with `?` for unprintable characters.
 std::string inBackquotes(std::string_view field);
 
 }  // namespace hybrid_slam::readings

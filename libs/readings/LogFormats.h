@@ -1,6 +1,6 @@
 /// @file LogFormats.h
-/// @brief The text logs that can be converted. A new format is a file that defines its LogFormat, and its
-/// name in the list below.
+/// @brief The text logs that can be read. A new format needs a file that defines its LogFormat, and an entry
+/// in the list below.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ struct LogFormat {
   const char* key;   ///< of option --format
   const char* name;  ///< for the user
   const char* rows;  ///< names of the rows that hold scans
-  double maxRange;   ///< m; readings at or beyond it are no returns, unless the user says otherwise
-  /// Whether a row of this name, with this many fields after it, is found in no other format.
+  double maxRange;   ///< m; readings at or beyond it are no returns by default
+  /// Returns whether a row of this name, with this many fields after it, occurs in this format only.
   bool (*isRow)(std::string_view name, size_t fields);
   std::unique_ptr<LogParser> (*makeParser)(const LogParserOptions& options);
 };
@@ -28,16 +28,16 @@ inline std::vector<const LogFormat*> logFormats() {
   return {&kCarmenLog, &kGfsLog, &kDpslamLog, &kTinyslamLog};
 }
 
-/// How the names of logs end: rawlogs, text logs and bags, also compressed. For a choice of files: the format
-/// itself is detected from the content.
+/// File name endings of rawlogs, text logs and bags, also compressed, for file dialogs. The format itself is
+/// detected from the content.
 inline std::vector<std::string> logEndings() {
   return {".rawlog", ".clf", ".log", ".gfs",  ".dat", ".bag", ".db3",
           ".mcap",   ".gz",  ".bz2", ".zstd", ".zst", ".lz4"};
 }
 
-/// The format that a line implies; null if it could be in any.
+/// Returns the format that a line implies; null if it could be in any.
 const LogFormat* formatOf(std::string_view line);
-/// The format of option --format; null if there is none.
+/// Returns the format with this key (--format); null if there is none.
 const LogFormat* formatNamed(std::string_view key);
 
 template <class Parser>

@@ -51,6 +51,14 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
 
 }  // namespace
 
+/// A log that is no log has any number of names.
+void LogObjects::operator()(const OtherRecord& record) {
+  constexpr size_t kMostNames = 100;
+  auto& counts = summary.otherRecords;
+  const bool isKept = counts.size() < kMostNames || counts.count(record.name) > 0;
+  ++counts[isKept ? record.name : "of other names"];
+}
+
 mrpt::serialization::CSerializable::Ptr LogObjects::take() {
   if (ready_.empty()) return nullptr;
   auto object = ready_.front();
@@ -101,7 +109,7 @@ void LogObjects::operator()(const LaserRecord& record) {
   }
 }
 
-/// The odometry increment since the previous scan; an empty action if there is none.
+/// Writes the odometry increment since the previous scan; an empty action if there is none.
 void LogObjects::writeActionUpTo(double time) {
   auto actions = mrpt::obs::CActionCollection::Create();
   if (last_) {

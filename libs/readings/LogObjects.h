@@ -1,5 +1,5 @@
 /// @file LogObjects.h
-/// @brief The records of a log as the objects of a rawlog.
+/// @brief Converts the records of a log to the objects of a rawlog.
 #pragma once
 
 #include <mrpt/poses/CPose2D.h>
@@ -20,21 +20,21 @@ struct LogSummary {
   std::string format;  ///< for the user
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
   std::vector<std::string> notes;              ///< of a bag: what was assumed
-  std::string defect;                          ///< of a bag: how it is cut or damaged; empty if intact
-  std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name
+  std::string defect;                          ///< of a bag: why it is incomplete; empty if intact
+  std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name, of 100 names
   double earliest = 0, latest = 0;             ///< s
   double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
   float longestRange = 0;                      ///< m, among the valid readings
   size_t wrongSweeps = 0;                      ///< scans that state an impossible scan time
   size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
-  /// Odometry readings over kMaxStep apart, rows over a day apart: how many, and the line of the first (text
+  /// Odometry readings over kMaxStep apart and rows over a day apart: number, and line of the first (text
   /// logs).
   size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
 };
 
-/// Turns records into rawlog objects, in either form, and gathers the summary. Odometry is labelled
-/// `ODOMETRY`, a scan by its record's label. A comment precedes the first scan of a laser whose scan time is
-/// known, and each scan from which on it is another (SweepTimes.h).
+/// Turns records into rawlog objects of either form, and collects the summary. Odometry is labelled
+/// `ODOMETRY`, a scan by its record's label. If the scan time of a laser is known, a comment precedes its
+/// first scan, and each scan where it changes (SweepTimes.h).
 ///
 /// MRPT's scans are symmetric about the sensor's x axis; the offset of an asymmetric fan goes into the yaw of
 /// the sensor pose (-0.5 deg for 180 beams from -90 to +89 deg).
@@ -46,11 +46,11 @@ class LogObjects {
       : maxRange_(maxRange), actionObservation_(actionObservation) {}
 
   void operator()(std::monostate) {}
-  void operator()(const OtherRecord& record) { ++summary.otherRecords[record.name]; }
+  void operator()(const OtherRecord& record);
   void operator()(const OdometryRecord& record);
   void operator()(const LaserRecord& record);
 
-  /// The next object of the records so far; null if there is none.
+  /// Returns the next object of the records so far; null if there is none.
   mrpt::serialization::CSerializable::Ptr take();
 
   LogSummary summary;
@@ -62,9 +62,9 @@ class LogObjects {
   std::deque<mrpt::serialization::CSerializable::Ptr> ready_;
   double maxRange_;
   bool actionObservation_;
-  std::map<std::string, double> sweeps_;  ///< s, of each laser, as written
+  std::map<std::string, double> sweeps_;  ///< s, last written for each laser
   std::optional<OdometryRecord> last_;
-  double lastTime_ = 0;                             ///< s, of the record before
+  double lastTime_ = 0;                             ///< s, of the previous record
   std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry
 };
 

@@ -7,7 +7,7 @@
 namespace hybrid_slam::readings {
 namespace {
 
-/// Message names are in capitals: `SYNC`, `NMEA-GGA`, `SM_UPDATE`.
+/// Returns whether a word can be a message name, which is in capitals: `SYNC`, `NMEA-GGA`, `SM_UPDATE`.
 bool isRecordName(std::string_view word) {
   return word.size() <= 32 && word.front() >= 'A' && word.front() <= 'Z' &&
          std::all_of(word.begin(), word.end(), [](char c) {

@@ -1,5 +1,5 @@
 /// @file LogParser.h
-/// @brief The records of text logs, and what the parsers of all formats share.
+/// @brief The records of text logs, and the base of all parsers.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,7 +17,7 @@ namespace hybrid_slam::readings {
 
 class LogFields;
 
-/// Which of the two timestamps of a CARMEN row to use.
+/// The two timestamps of a CARMEN row.
 enum class LogTime {
   ipc,    ///< of the message, set when the sensor was read
   logger  ///< of arrival at the logger, seconds since its start
@@ -32,7 +32,7 @@ struct OdometryRecord {
 struct LaserRecord {
   std::string label;          ///< the record's name in the log
   double time = 0;            ///< s
-  std::vector<float> ranges;  ///< m, as logged: no return, NaN and negative readings included
+  std::vector<float> ranges;  ///< m, as logged, including NaN, negative readings and codes for no return
   BeamAngles angles;
   mrpt::math::TPose2D laserPose;                ///< in the robot frame
   std::optional<mrpt::math::TPose3D> mounting;  ///< instead of laserPose, where its height and tilt are known
@@ -57,14 +57,14 @@ struct LogParserOptions {
   std::optional<double> angularStep;  ///< rad, for scans whose row does not state it
 };
 
-/// Parses the lines of one log; what a line sets, such as a parameter, holds for those after it. Each format
-/// derives its own parser (LogFormats.h).
+/// Parses the lines of one log. Parameters set by a line hold for those after it. Each format derives its own
+/// parser (LogFormats.h).
 class LogParser {
  public:
   explicit LogParser(const LogParserOptions& options) : options_(options) {}
   virtual ~LogParser() = default;
 
-  /// Blank lines and comments (`#`) are no records.
+  /// Parses a line. Blank lines and comments (`#`) are no records.
   /// @throws BrokenLine for a wrong number of fields, a field that is not a number, no ranges, or a number of
   ///         beams with unknown angles
   LogRecord parse(std::string_view line);
@@ -73,12 +73,12 @@ class LogParser {
   static constexpr size_t kPreviewLines = 2000;
 
  protected:
-  /// @param fields  those after the record's name
+  /// @param fields  fields after the record's name
   virtual LogRecord record(std::string_view name, LogFields& fields) = 0;
-  /// A record that is not used. @throws BrokenLine if that is not a record's name
+  /// Returns an unused record. @throws BrokenLine if that is not a record's name
   static LogRecord otherRecord(std::string_view name);
   static std::vector<float> ranges(size_t beams, LogFields& fields);
-  /// A scan whose row has ranges only; the angles follow from their number or the options.
+  /// Reads a scan whose row has ranges only; the angles follow from their number or the options.
   LaserRecord scan(std::string_view name, size_t beams, LogFields& fields) const;
 
   LogParserOptions options_;

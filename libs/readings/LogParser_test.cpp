@@ -21,7 +21,7 @@ LogParserOptions threeBeamOptions() {
   return options;
 }
 
-/// The line must parse to a record of this type.
+/// Parses a line, which must be a record of this type.
 template <class Record>
 Record parseAs(LogParser& parser, const std::string& line) {
   return std::get<Record>(parser.parse(line));
@@ -182,6 +182,18 @@ TEST(LogParserCarmen, LasersWithoutThePoseOfTheRobotAreUsedWhereThereAreNoOthers
   parseAs<LaserRecord>(*parser, kFlaser);
 }
 
+/// The log of Orebro has the odometry in place of the laser's pose, zeros as the robot's, and one time.
+TEST(LogParserCarmen, RowsWithoutIpcTimeHaveTheOdometryInPlaceOfTheLasersPose) {
+  const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+  const auto record = parseAs<LaserRecord>(*parser, "FLASER 3 1 2 3 12 28 1.25 0 0 0 host 12.5");
+  EXPECT_THAT(record.ranges, ElementsAre(1, 2, 3));
+  EXPECT_EQ(record.time, 12.5);
+  expectPose(*record.odometry, 12, 28, 1.25);
+  expectPose(record.laserPose, 0, 0, 0);
+  const std::string lacksRange = "FLASER 3 1 2 12 28 1.25 12 28 1.25 100.5 host 12.5";
+  EXPECT_THAT(whyBroken(formatNamed("carmen"), lacksRange), HasSubstr("11 fields where 12"));
+}
+
 std::string tinyslamRow(int microseconds, int left, int right) {
   std::string row =
       std::to_string(microseconds) + " 14554 " + std::to_string(left) + " " + std::to_string(right);
@@ -200,10 +212,19 @@ TEST(LogParserTinyslam, OdometryIsThatOfTheWheels) {
   EXPECT_NEAR(first.angles.first + 341 * first.angles.step, 0, 1e-12);
   expectPose(first.laserPose, 0.145, 0, 0);
   expectPose(*first.odometry, 0, 0, 0);
-  expectPose(*parseAs<LaserRecord>(*parser, tinyslamRow(1600000, 236835, 233727)).odometry, 2 * M_PI * 0.077,
-             0, 0);
-  const auto turned = parseAs<LaserRecord>(*parser, tinyslamRow(1700000, 236735, 233827));
-  expectPose(*turned.odometry, 2 * M_PI * 0.077, 0, 0.2 * M_PI * 0.077 / 0.33);
+  // A row's odometry is 0.15 s newer than its scan.
+  const auto at = [&parser](int microseconds, int left, int right) {
+    return *parseAs<LaserRecord>(*parser, tinyslamRow(microseconds, left, right)).odometry;
+  };
+  const double turn = 2 * M_PI * 0.077;
+  expectPose(at(1600000, 236835, 233727), 0, 0, 0);
+  expectPose(at(1700000, 238835, 235727), turn / 2, 0, 0);
+  expectPose(at(2200000, 238835, 235727), 2 * turn, 0, 0);
+  at(2300000, 238735, 235827);
+  const double heading = 0.1 * turn / 0.33;
+  expectPose(at(2500000, 238735, 235827), 2 * turn, 0, heading);
+  // The clock steps back: no pose in between is known.
+  expectPose(at(100000, 240735, 237827), (2 + std::cos(heading)) * turn, std::sin(heading) * turn, heading);
   EXPECT_THAT(whyBroken(formatNamed("tinyslam"), "1 2 3 4"), HasSubstr("fields where"));
   EXPECT_EQ(formatOf(tinyslamRow(1, 2, 3)), formatNamed("tinyslam"));
   EXPECT_EQ(formatOf(tinyslamRow(1, 2, 3) + " 0"), nullptr);

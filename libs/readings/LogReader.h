@@ -1,5 +1,5 @@
 /// @file LogReader.h
-/// @brief The objects of a log in any format that can be replayed: a rawlog, a robot's text log, a bag.
+/// @brief Reads a log in any format: rawlog, text log or bag.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
@@ -22,23 +22,23 @@ struct BagPlan;
 class LogReader {
  public:
   /// @param plan  of a bag; null: the default
-  /// @throws InputError if the file is missing or unreadable, if a text file is not a log, or if it is not
-  ///         clear what to use of a bag
+  /// @throws InputError if the file is missing or unreadable, if a text file is not a log, or if the topics
+  ///         of a bag are ambiguous
   explicit LogReader(const std::string& file, const std::shared_ptr<const BagPlan>& plan = nullptr);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
 
-  /// The next object; null at the end, or where the log is truncated or broken (see `defect`).
+  /// Returns the next object; null at the end, or where the log is truncated or broken (see `defect`).
   /// @throws InputError if the first object is not a rawlog object, or if a text log has no scan
   mrpt::serialization::CSerializable::Ptr next();
 
-  size_t entry() const;               ///< of the last object: its number, or its line's
+  size_t entry() const;               ///< number of the last object, or of its line
   const char* unit() const;           ///< of `entry`: "entry", "line" or "message"
   const std::string& defect() const;  ///< empty for an intact log
-  /// Null for a text log or bag.
+  /// Returns the reader of a rawlog; null for a text log or bag.
   const files::RawlogReader* rawlog() const { return rawlog_.get(); }
-  size_t brokenLines() const { return brokenLines_; }  ///< of a text log, or messages of a bag; skipped
+  size_t brokenLines() const { return brokenLines_; }  ///< skipped lines of a text log, or messages of a bag
   size_t firstBroken() const { return firstBroken_; }  ///< number of the first
 
  private:

@@ -1,5 +1,5 @@
 /// @file LogWarnings.h
-/// @brief What is wrong with a log, for the user.
+/// @brief Warnings about a log.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace hybrid_slam::readings {
 
-/// A line for each anomaly: count, first entry, what is done about it. A defect (RawlogSummary) is not among
-/// them.
+/// Returns a line for each anomaly: count, first entry, how it is handled. A defect (RawlogSummary) is not
+/// included.
 std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string& file);
 
 }  // namespace hybrid_slam::readings

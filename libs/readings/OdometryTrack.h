@@ -9,29 +9,29 @@
 
 namespace hybrid_slam::readings {
 
-/// Linear in position and heading.
+/// Interpolates position and heading linearly.
 mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b, double share);
 
-/// Constant velocity between the readings, and after the last one. Starts again where time steps back or
+/// Assumes constant velocity between the readings and after the last one. Restarts where time steps back or
 /// readings are too far apart.
 class OdometryTrack {
  public:
-  /// @param maxGap  s, between readings
+  /// @param maxGap  largest time (s) between readings
   explicit OdometryTrack(double maxGap) : maxGap_(maxGap) {}
 
-  /// A reading (s; m, rad). The latest of one time counts.
+  /// Adds a reading (s; m, rad). It replaces an earlier one of the same time.
   void add(double time, const mrpt::math::TPose2D& pose);
-  /// Whether a time (s) lies between the readings.
+  /// Returns whether a time (s) lies between the readings.
   bool contains(double time) const {
     return !readings_.empty() && readings_.front().first <= time && time <= readings_.back().first;
   }
-  /// Likewise, or whether the next reading may come after it.
+  /// Likewise, or whether the next reading may follow that time.
   bool mayReach(double time) const {
     return !readings_.empty() && readings_.front().first <= time && time - readings_.back().first <= maxGap_;
   }
-  /// s; of the last reading. At least one is needed, as for the pose.
+  /// Returns the time (s) of the last reading. Requires at least one reading, as does `at`.
   double end() const { return readings_.back().first; }
-  /// The pose at a time (s). Up to the first reading it is that of the first reading.
+  /// Returns the pose at a time (s); before the first reading, that of the first reading.
   mrpt::math::TPose2D at(double time) const;
 
  private:

@@ -35,7 +35,7 @@ std::string quotedList(const Uses& lasers) {
   return all;
 }
 
-/// A laser without a single scan used is ignored.
+/// Notes the lasers of which no scan is used.
 void noteIgnored(RawlogSummary& summary, const Uses& lasers) {
   using Use = ScanGrouper::Use;
   for (const auto& [label, uses] : lasers) {
@@ -100,7 +100,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
     const ScanGrouper::Use use = grouper.useOf(scan);
-    ++uses[scan.sensorLabel][use];
+    if (use == ScanGrouper::Use::taken || uses.size() < kMostLabels || uses.count(scan.sensorLabel) > 0)
+      ++uses[scan.sensorLabel][use];
     if (use == ScanGrouper::Use::empty) return note(summary.empty, reader.entry());
     if (use == ScanGrouper::Use::misplaced) return note(summary.misplaced, reader.entry());
     if (use == ScanGrouper::Use::tilted) return note(summary.tilted, reader.entry());

@@ -1,5 +1,5 @@
 /// @file RawlogSource.h
-/// @brief Scans with odometry from a rawlog, in either format, a text log, or a bag.
+/// @brief Reads scans with odometry from a rawlog of either format, a text log, or a bag.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ struct InputOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The times of the lasers' sweeps; none without odometry, by which beams are corrected.
+/// Returns the times of the lasers' sweeps; none without odometry, which the correction of beams needs.
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry);
 
 /// Number of occurrences of an anomaly in a log, and the first entry (from 1).
@@ -37,7 +37,7 @@ struct Oddity {
 /// Summary of a log, from one pass before the filter runs.
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
-  std::vector<std::string> ignored;  ///< one line for each other laser: its label, and why it is not used
+  std::vector<std::string> ignored;  ///< one line for each other laser: label and reason
   size_t scans = 0;                  ///< readings: scans that several lasers take at one time count as one
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
   Oddity wrongOdometry;                                                   ///< NaN or infinite
@@ -47,25 +47,26 @@ struct RawlogSummary {
   Oddity brokenLines;                    ///< of a text log; messages of a bag
   Oddity passedOver;                     ///< observations of classes that are not read
   std::string passedOverClasses;         ///< a list
-  std::map<std::string, double> sweeps;  ///< s, by laser, where known: the last that holds
-  bool isDeskewed = false;               ///< whether the beams are corrected by these, where the robot moves
+  std::map<std::string, double> sweeps;  ///< s, last known of each laser
+  bool isDeskewed = false;               ///< beams are corrected by these where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;              ///< the odometry changes
   double duration = 0;                 ///< s, from the earliest scan to the latest
   size_t entries = 0;                  ///< lines of a text log, messages of a bag
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"
-  std::shared_ptr<const BagPlan> bag;  ///< what is used of a bag; null for other logs
+  std::shared_ptr<const BagPlan> bag;  ///< topics used of a bag; null for other logs
   std::string defect;                  ///< how the log is truncated; empty if complete
-  /// Scans and odometry readings that are not used because they cannot be true.
+  /// Number of scans and odometry readings that are skipped because they are impossible.
   size_t skippedReadings() const {
     return empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
   }
-  /// Where the defect is.
+  /// Says where the defect is.
   std::string defectPlace(const std::string& file) const {
     return unit + " " + std::to_string(entries + 1) + " of " + file;
   }
 };
 
+/// Reads the whole log.
 /// @throws InputError if there is no laser, a named one is missing, no scan has beams, or no laser is mounted
 ///         horizontally
 /// @throws std::runtime_error if `isStopped`, which is called at each entry, returns true
@@ -78,10 +79,10 @@ class RawlogSource {
  public:
   RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary);
 
-  /// Empty at the end of the log.
+  /// Returns the next reading; empty at the end of the log.
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
-  /// Where the last object read is: `entry 12 of FILE`.
+  /// Names the last object read: `entry 12 of FILE`.
   std::string place() const;
 
  private:

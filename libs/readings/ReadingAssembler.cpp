@@ -25,7 +25,7 @@ constexpr size_t kMostWaiting = 1000;  // scans
 constexpr size_t kMostWaitingBeams = 10'000'000;
 constexpr double kFarthestApart = 10;  // m between the scans of one reading
 
-/// MRPT's code uses valid beams unchecked.
+/// Marks invalid beams, because MRPT uses valid ones unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
   for (size_t i = 0; i < scan.getScanSize(); ++i) {
     const float range = scan.getScanRange(i);

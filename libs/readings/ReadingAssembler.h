@@ -20,12 +20,12 @@
 
 namespace hybrid_slam::readings {
 
-/// The scans of one time, and the odometry motion since the previous reading.
+/// The scans taken at one time, and the odometry motion since the previous reading.
 struct Reading {
-  /// At most one per laser, the latest last. The others were taken earlier: their sensor poses are corrected
-  /// by the odometry motion since.
+  /// At most one scan per laser, the latest last. The sensor poses of earlier ones are corrected by the
+  /// odometry motion since.
   Scans scans;
-  double timestamp = 0;        ///< s, of the latest scan; if it has none, that of the previous reading
+  double timestamp = 0;        ///< s, of the latest scan; without one, that of the previous reading
   mrpt::math::TPose2D motion;  ///< m, rad
 };
 
@@ -34,7 +34,7 @@ struct Reading {
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
 /// previous odometry reading is used; the last 1000 scans before the first odometry reading use that one, and
 /// earlier ones are dropped. A jump of the odometry by over 100 m, or a first reading beyond 1e8 m, counts as
-/// no motion; the odometry goes on from the new value. Scans taken over 10 m apart never form one reading.
+/// no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one reading.
 /// Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite,
 /// not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans
 /// are used and which of them form one reading.
@@ -51,25 +51,25 @@ class ReadingAssembler {
   /// @param lasers               labels of the lasers to use; none: all
   /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
-  /// @param sweeps               how long the scans take; default: as the log states
+  /// @param sweeps               durations of the scans; default: as the log states
   ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
                    SweepTimes sweeps = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
-  /// Whether a scan is used, and why not.
+  /// Returns whether a scan is used, or the reason why not.
   ScanGrouper::Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
     return grouper_.useOf(scan);
   }
   size_t jumps() const { return jumps_; }  ///< of the odometry so far
   /// End of input: scans that still wait for odometry take the last odometry reading.
   void finish();
-  /// The next complete reading; empty until more objects arrive.
+  /// Returns the next complete reading; empty until more objects arrive.
   std::optional<Reading> next();
 
  private:
   void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
-  /// A reading in the frame of the readings before the first jump.
+  /// Transforms a reading to the frame of those before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::math::TPose2D& reading);
   void finishWaiting();
   struct Waiting {
@@ -79,10 +79,10 @@ class ReadingAssembler {
     double sweep;                                      ///< s; 0: not corrected
     std::optional<mrpt::math::TPose2D> odometry = {};  ///< at the scan's time, as soon as it is known
   };
-  /// Whether the odometry is known up to the scan's last beam, or never will be.
+  /// Returns whether the odometry is known up to the scan's last beam, or never will be.
   bool isReady(const Waiting& scan) const;
   void completeReady();
-  /// The scan corrected for the motion during its sweep, where that is known.
+  /// Corrects the scan for the motion during its sweep, if that is known.
   mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
   void complete(const Waiting& scan);
   void endReading();
@@ -94,7 +94,7 @@ class ReadingAssembler {
   bool hasOdometryReadings_;
   double maxOdometryGap_;
   std::deque<Reading> ready_;
-  std::deque<Waiting> waiting_;  ///< for the odometry after them
+  std::deque<Waiting> waiting_;  ///< until odometry after them arrives
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
   std::vector<std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>>
       collected_;                                    ///< with odometry
@@ -116,21 +116,22 @@ void forEachObservation(const mrpt::serialization::CSerializable::Ptr& object, c
     for (const auto& observation : *frame) visit(observation);
 }
 
-/// The increment (m, rad) of an action; empty for other objects, and actions without odometry.
+/// Returns the increment (m, rad) of an action; empty for other objects, and actions without odometry.
 std::optional<mrpt::math::TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr& object);
 
-/// Whether an object is an action that should have odometry.
+/// Returns whether an object is an action that should have odometry.
 bool isAction(const mrpt::serialization::CSerializable::Ptr& object);
 
 bool isFinite(const mrpt::math::TPose2D& pose);
-/// Whether a scan has beams and a finite sensor pose.
+/// Returns whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
-/// m; a larger step between two odometry readings means two logs in one file, reset odometry, or an error.
+/// Largest step (m) between two odometry readings. A larger one means two logs in one file, reset odometry,
+/// or an error.
 constexpr double kMaxStep = 100;
-/// Whether a first odometry reading is impossible. Map coordinates (UTM) reach 1e7 m.
+/// Returns whether a first odometry reading is impossible. Map coordinates (UTM) reach 1e7 m.
 inline bool isFarAway(const mrpt::math::TPose2D& reading) { return !(reading.norm() <= 1e8); }
-/// Whether two odometry readings are over kMaxStep apart.
+/// Returns whether two odometry readings are over kMaxStep apart.
 inline bool isJump(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& now) {
   return !((now - before).norm() <= kMaxStep);
 }

@@ -13,7 +13,7 @@ using mrpt::math::TPose2D;
 using test::odometry;
 using test::scan;
 
-/// The readings of single observations.
+/// Assembles the readings of a log of single observations.
 std::vector<Reading> assembled(const test::Log& log) {
   ReadingAssembler assembler({}, true, 1);
   std::vector<Reading> readings;

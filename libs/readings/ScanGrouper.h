@@ -21,14 +21,15 @@ class ScanGrouper {
   ScanGrouper(const std::vector<std::string>& lasers, double maxGap);
 
   enum class Use { taken, empty, misplaced, tilted, unwanted, tooMany };
-  /// Whether a scan is used: it has beams, and its laser is wanted, on the robot and mounted horizontally.
+  /// Returns whether a scan is used: it has beams, and its laser is wanted, on the robot and mounted
+  /// horizontally.
   Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
   /// Announces a laser before its first scan is added; the lasers of a sensory frame are announced together.
   void expect(const std::string& label) { known_.insert(label); }
-  /// Number of the reading, from 1, that a scan belongs to. Scans are added in the order of the log.
+  /// Adds a scan, in the order of the log. Returns the number of its reading, from 1.
   size_t add(const mrpt::obs::CObservation2DRangeScan& scan);
-  /// Whether the reading that the last scan went to has a scan of every known laser.
+  /// Returns whether the reading of the last scan has a scan of every known laser.
   bool isComplete() const { return isComplete_; }
   size_t readings() const { return readings_; }
   const std::set<std::string>& lasers() const { return known_; }
@@ -42,10 +43,10 @@ class ScanGrouper {
   double firstTime_ = 0;  ///< s, of the current reading
 };
 
-/// Why a laser is not used, for the user.
+/// Returns the reason why a laser is not used, for the user.
 std::string reasonOf(ScanGrouper::Use use);
 
-/// The labels in a list such as `FRONT, REAR`; blanks around them are ignored.
+/// Splits a list of labels such as `FRONT, REAR`; ignores blanks around them.
 std::vector<std::string> labelsOf(const std::string& list);
 
 }  // namespace hybrid_slam::readings

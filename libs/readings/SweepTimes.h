@@ -1,5 +1,5 @@
 /// @file SweepTimes.h
-/// @brief How long lasers take for the beams of a scan, as logs and settings state.
+/// @brief Durations of the lasers' sweeps, as stated by logs and settings.
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -11,35 +11,43 @@
 
 namespace hybrid_slam::readings {
 
-/// s; the slowest lasers turn once a second.
+/// Longest sweep (s): the slowest lasers turn once a second.
 constexpr double kLongestSweep = 1;
-/// Whether a laser can take this time (s); 0: not known.
+/// Returns whether a sweep can take this time (s); 0: unknown.
 inline bool isSweepTime(double seconds) { return seconds >= 0 && seconds <= kLongestSweep; }
 
-/// What a log states. MRPT's scans (2.5.8, 2.14.7) have no place for it, so a comment before the scans of the
-/// laser does: `scan_time = 0.075 s, laser LASER`. It holds for all scans of this label after it.
+constexpr size_t kMostLabels = 100;  ///< of lasers that a log names; no robot has more
+
+/// Sweep time stated by a log. MRPT's scans (2.5.8, 2.14.7) have no field for it, so rawlogs have a comment
+/// before the scans of the laser, `scan_time = 0.075 s, laser LASER`, which holds for all later scans with
+/// this label.
 struct SweepTime {
   std::string label;
   double seconds = 0;  ///< from the first beam to the last; NaN for a text that is not a number
 };
 
 mrpt::obs::CObservationComment::Ptr commentOf(const SweepTime& sweep, mrpt::Clock::time_point timestamp);
-/// Empty for other observations.
+/// Returns the sweep time that a comment states; empty for other observations.
 std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation);
 
-/// The times that hold for the scans of a log. The beams are measured one after another at equal intervals,
-/// in the order of their indices; a scan's timestamp is the time of the first, as in ROS. MRPT agrees:
-/// `sensorPose` is the pose "at the moment of starting the scan".
+/// Sweep times of a log's scans. The beams are measured one after another at equal intervals, in the order of
+/// their indices; a scan's timestamp is the time of the first, as in ROS. MRPT agrees: `sensorPose` is the
+/// pose "at the moment of starting the scan".
 class SweepTimes {
  public:
-  /// The times that the log states.
+  /// Uses the times that the log states.
   SweepTimes() = default;
-  /// @param fixed  s, for all scans, in place of those that the log states; 0: beams are not corrected
+  /// @param fixed  s, for all scans, instead of the times in the log; 0: beams are not corrected
   explicit SweepTimes(const std::optional<double>& fixed) : fixed_(fixed) {}
 
-  /// Impossible times count as not known.
-  void take(const SweepTime& sweep) { stated_[sweep.label] = isSweepTime(sweep.seconds) ? sweep.seconds : 0; }
-  /// s; 0: not known, or a scan whose beams cannot be corrected, without timestamp or with a single beam.
+  /// Takes a time that the log states. Impossible times count as unknown. Only the first 100 labels are kept,
+  /// so that memory is bounded.
+  void take(const SweepTime& sweep) {
+    if (stated_.size() < kMostLabels || stated_.count(sweep.label) > 0)
+      stated_[sweep.label] = isSweepTime(sweep.seconds) ? sweep.seconds : 0;
+  }
+  /// Returns the sweep time (s); 0: unknown, or a scan that cannot be corrected, without timestamp or with a
+  /// single beam.
   double of(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace hybrid_slam::readings {
 namespace {
 
-/// `CARMEN: FLASER, RLASER, ROBOTLASER1; DP-SLAM: Laser`.
+/// Lists the formats: `CARMEN: FLASER, RLASER, ROBOTLASER1; DP-SLAM: Laser`.
 std::string formatList() {
   std::string all;
   for (const LogFormat* format : logFormats())

@@ -1,5 +1,5 @@
 /// @file TextLog.h
-/// @brief A robot's text log as the objects of a rawlog, one at a time.
+/// @brief Reads a robot's text log as the objects of a rawlog, one at a time.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
@@ -17,11 +17,11 @@ namespace hybrid_slam::readings {
 
 struct LogConversionOptions : LogParserOptions {
   const LogFormat* format = nullptr;  ///< null: detected from the content
-  /// m; readings at or beyond this are no returns. Empty: 80 m, since a SICK laser in 80 m mode reports no
-  /// return as 81.83 or 81.91 m; 8.18 m for DP-SLAM, whose laser ran in 8 m mode (8.183 to 8.191 m).
+  /// Readings at or beyond this (m) are no returns. Default: 80 m, because a SICK laser in 80 m mode reports
+  /// no return as 81.83 or 81.91 m; for DP-SLAM 8.18 m, because its laser ran in 8 m mode (8.183 to 8.191 m).
   std::optional<double> maxRange;
   bool actionObservation = false;  ///< (action, sensory frame) pairs instead of one observation per row
-  bool strict = false;             ///< stop at the first broken line or message
+  bool strict = false;             ///< fail at the first broken line or message
 };
 
 /// Called for each broken line with its number and error.
@@ -35,7 +35,7 @@ class TextLog {
   /// @throws InputError for a file that is missing, unreadable, or not a log
   TextLog(const std::string& file, const LogConversionOptions& options, BrokenLineReport report);
 
-  /// The next object; null at the end.
+  /// Returns the next object; null at the end.
   /// @throws InputError for a truncated or damaged file, a broken line if `strict`, and at the end of a log
   ///         without scans
   mrpt::serialization::CSerializable::Ptr next();

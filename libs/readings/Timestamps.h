@@ -11,7 +11,7 @@ inline bool isStamped(const mrpt::obs::CObservation& observation) {
   return observation.timestamp != INVALID_TIMESTAMP;
 }
 
-/// s since 1970, UTC.
+/// Seconds since 1970, UTC.
 inline double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
 
 }  // namespace hybrid_slam::readings

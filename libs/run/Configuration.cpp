@@ -37,8 +37,8 @@ void RunOptions::describe(OptionTable& t) {
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
         "not for linemap, ortho and stock");
   t.add("retry_particles", retryParticles, 0, 100000,
-        "if a run with an adaptive number of particles is judged lost, the log is mapped once more with this "
-        "many; 0: never");
+        "number of particles of a second run, if a run with an adaptive number is judged lost; 0: no second "
+        "run");
 }
 
 namespace {
@@ -90,7 +90,7 @@ std::string Configuration::text() {
 std::string plainConfigurationManual() {
   std::ostringstream out;
   out << "Sections and keys of the INI file: default, range and meaning. Keys that are\n"
-         "omitted keep their default; some are read off the log (doc/configuration.md).\n";
+         "omitted keep their default; some are derived from the log (doc/configuration.md).\n";
   Configuration defaults;
   files::writePlainManual(defaults.sections(), out);
   return out.str();
@@ -104,10 +104,9 @@ std::string configurationManual() {
          "section whose name is nearly one of these. Other sections are ignored, with a warning unless "
          "another program,\n"
          "a sensor driver or MRPT's rbpf-slam uses them. Lines have at most 10,000 characters.\n\n"
-         "## Read off the log\n\n"
-         "Programs that replay a log read these keys off its first 2,000 scans and print them. The INI file "
-         "and\n"
-         "`--set` override them; `config.ini` among the results holds the values used.\n\n"
+         "## Settings derived from the log\n\n"
+         "Programs that replay a log derive these keys from its first 2,000 scans and print them. The INI\n"
+         "file and `--set` override them; `config.ini` among the results has the values used.\n\n"
          "| key | value |\n|---|---|\n"
          "| `grid.max_range` | 20 m; more where over 5 % of the returns are farther (the range of 95 %, "
          "rounded up "
@@ -117,7 +116,7 @@ std::string configurationManual() {
          "robot) "
          "where the median distance between scans is over 0.3 m, else 0.1 m, 5 deg |\n"
          "| `input.require_odometry` | false where odometry is missing or never changes, else true |\n\n"
-         "The laser's place on the robot, its angles and its number of beams come with each scan.\n";
+         "The laser's pose on the robot, its angles and its number of beams are part of each scan.\n";
   Configuration defaults;
   files::writeManual(defaults.sections(), out);
   return out.str();

@@ -1,5 +1,5 @@
 /// @file Configuration.h
-/// @brief The INI file of a run, with all our sections checked.
+/// @brief Configuration of a run from an INI file, whose sections are checked.
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
@@ -27,7 +27,7 @@ struct RunOptions : Options {
   int refine = 1;
   int retryParticles = 60;
 
-  /// @name Of the command line alone
+  /// @name Set on the command line only
   /// @{
   bool overwrite = false;                        ///< a configuration must not delete results
   std::string resume, continueFrom, localizeIn;  ///< session files (or maps); empty: a new run
@@ -38,7 +38,7 @@ struct RunOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The method's name on the command line (`--method`), such as "hybrid".
+/// Returns the method's name on the command line (`--method`), such as "hybrid".
 std::string nameOf(RunOptions::Method method);
 
 /// All settings of a replay. Other sections (MRPT's, a grabber's) are ignored.
@@ -50,7 +50,7 @@ struct Configuration {
   /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
 
-  /// A line for each section of the file that nothing known uses.
+  /// A line for each unknown section of the file.
   std::vector<std::string> warnings;
 
   /// @param file      the INI file; empty: none
@@ -60,24 +60,25 @@ struct Configuration {
   Configuration(const std::string& file, const std::vector<std::string>& settings,
                 const files::Sections& more = {});
   Configuration() = default;
-  /// Loads what `text()` of an earlier run returned. @param file  that holds it
+  /// Loads the `text()` of an earlier run. @param file  file that holds it, for errors
   void load(const std::string& text, const std::string& file);
 
   files::Sections sections();
-  /// Sets a key of ours unless the file or the command line sets it. @return whether it did
+  /// Sets one of our keys unless the file or the command line does. @return whether it was set
   bool setDefault(const std::string& section, const std::string& key, const std::string& value);
-  /// Chooses the method, and with it which maps the particles hold.
+  /// Chooses the method, and with it the kinds of maps that the particles hold.
   void setMethod(RunOptions::Method method);
-  /// All our keys with their values, and the file's other sections; reading it back gives the same run.
+  /// Returns all our keys with their values, and the file's other sections. Reading it back gives the same
+  /// run.
   std::string text();
 
  private:
   files::Sections more_;
 };
 
-/// Every section and key with default, unit, range and meaning, as Markdown: doc/configuration.md.
+/// Returns every section and key with default, unit, range and meaning as Markdown: doc/configuration.md.
 std::string configurationManual();
-/// The same for a terminal.
+/// Likewise for a terminal.
 std::string plainConfigurationManual();
 
 /// The main section of MRPT's rbpf-slam.

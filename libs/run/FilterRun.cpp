@@ -39,7 +39,7 @@ std::unique_ptr<PlanSearch> planSearchOf(const Configuration& configuration) {
                                       configuration.run.start);
 }
 
-/// The session that the run goes on from, if it is in the output folder.
+/// Returns the session that the run continues from, if it is in the output folder.
 std::string ownFile(const RunOptions& run) {
   const fs::path name = fs::path(run.resume).filename();
   std::error_code ignored;

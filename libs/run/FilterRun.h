@@ -21,6 +21,7 @@
 #include "run/Verdict.h"
 #include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
+#include "slam/localization/Localizer.h"
 #include "slam/localization/PlanSearch.h"
 
 namespace hybrid_slam::run {
@@ -38,37 +39,37 @@ class FilterRun {
   explicit FilterRun(Configuration& configuration, Clock::time_point start = Clock::now());
   ~FilterRun();
 
-  /// Passes one reading to the filter. Until the place in the map of an earlier run or in a floor plan is
-  /// found, it also goes to the search for this place, and the filter maps in its own frame.
+  /// Passes one reading to the filter. Until the place in an earlier map or a floor plan is found, the
+  /// reading is also passed to that search, and the filter maps in a separate frame.
   /// @return true for an update of the filter, false if only the odometry was accumulated
   bool process(const readings::Reading& reading);
-  /// Goes on where a session ended, before the first reading. The configuration must be its (`adopt`).
+  /// Resumes a session, before the first reading. The configuration must be that of the session (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
   void resume(SessionReader& session);
-  /// The state of the run as bytes. Empty for MRPT's filter, in a fixed map, and while a start is searched
-  /// for: these have none.
+  /// Returns the state of the run as bytes. Empty for MRPT's filter, in a fixed map, and during the search
+  /// for the start.
   std::string state();
-  /// Goes on from `state` of a run with this configuration, before the first reading.
+  /// Continues from the `state` of a run with this configuration, before the first reading.
   void restore(const std::string& state);
-  /// Passes over the readings that the session has processed.
+  /// Skips the readings that the session has processed.
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
   void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
 
-  /// Has the next call of `process` save the map and the session to a dated subfolder, from any thread. A
-  /// note names it, or why it could not be written.
+  /// Makes the next call of `process` save the map and the session to a dated subfolder. Thread-safe. A note
+  /// names the folder, or the reason for a failure.
   void requestSave() { isSaveRequested_ = true; }
-  /// Writes map, trajectory and session as they are now; the run goes on.
+  /// Writes the current map, trajectory and session; the run continues.
   /// @param folder  created if missing
-  /// @throws InputError if it cannot be written; std::runtime_error while the start is searched for
+  /// @throws InputError if it cannot be written; std::runtime_error during the search for the start
   void saveMapTo(const std::string& folder);
-  /// Called before each session is written. What it was given must be on disk to resume from the session.
+  /// Sets an action to call before each session is written: to resume from it, all readings so far must be on
+  /// disk.
   void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
-  /// Whether the filter continues an earlier map or began with a floor plan, of this run or the one that is
-  /// resumed.
+  /// Returns whether this run, or the resumed one, continues an earlier map or began with a floor plan.
   bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
-  /// One line if the place in the map of an earlier run has not been found; else empty.
+  /// Says in one line that the place in the earlier map has not been found; else empty.
   std::string placeNote() const;
 
   size_t scans() const { return scans_; }  ///< processed
@@ -76,22 +77,22 @@ class FilterRun {
   std::string slipNote() const;
   /// One line if the map of the finished run has coarser cells than the filter's; else empty.
   std::string mapNote() const;
-  /// What has happened since the last call, a line each: loops closed (where, by how much, on what evidence),
-  /// the start found in a map, maps saved.
+  /// Returns the events since the last call, one line each: loops closed (where, by how much, on what
+  /// evidence), start found in a map, maps saved.
   std::vector<std::string> takeNotes() { return std::exchange(notes_, {}); }
-  /// The filter; while the start in the map of an earlier run is searched for, that search.
+  /// Returns the filter; during the search for the start in an earlier map, that search.
   const FilterView& view() const { return search_ ? static_cast<const FilterView&>(*search_) : *filter_; }
-  /// The times of the stages; enable it before the first scan. Changes no result.
+  /// Returns the profiler of the stages; enable it before the first scan. It does not change the results.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
-  /// Where the results will be.
+  /// Returns the folder of the results.
   const std::string& folder() const { return staged_.folder(); }
-  /// One line if that is not the folder asked for; else empty.
+  /// Says in one line if that is not the requested folder; else empty.
   std::string folderNote() const { return staged_.note(); }
 
   /// Writes the results.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
-  /// @param log      its summary; if shorter than what was processed (a recording on a full disk),
-  ///                 these end there
+  /// @param log      its summary; if it is shorter than the processed readings (a recording on a full disk),
+  ///                 the results end with it
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written
@@ -106,7 +107,7 @@ class FilterRun {
     std::vector<mrpt::math::TPose2D> path;
     mrpt::maps::COccupancyGridMap2D grid;
     std::vector<DatabaseLine> lines;
-    ScanMap map;  ///< of our filters: the same grid and lines
+    ScanMap map;  ///< with our filters: the same grid and lines
   };
   template <class State>
   void visit(State& state);
@@ -123,10 +124,10 @@ class FilterRun {
                      const std::vector<mrpt::math::TPose2D>& poses);
   void saveToDatedFolder();
   void saveIfDue();
-  /// The row of steps.csv and the counters of an update.
+  /// Writes the row of steps.csv and updates the counters.
   void record(double timestamp, Clock::time_point stepStart);
   void note(const LoopClosure& loop);
-  /// Closes the loops that are left open, matches the scans of the log to the map and rebuilds it.
+  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it.
   void refineResult(Result& result, readings::RawlogSource& source);
 
   Configuration& configuration_;
@@ -136,10 +137,10 @@ class FilterRun {
   std::unique_ptr<Filter> filter_;
   HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
   Localizer* localizer_ = nullptr;            ///< filter_, if it localises
-  std::optional<ScanMap> earlierMap_;         ///< to map on in, until the place in it is found
+  std::optional<ScanMap> earlierMap_;         ///< to continue, until the place in it is found
   std::unique_ptr<Localizer> search_;         ///< for this place
   std::unique_ptr<PlanSearch> planSearch_;    ///< for the place in a floor plan
-  std::optional<ScanOdometry> scanOdometry_;  ///< in place of odometry
+  std::optional<ScanOdometry> scanOdometry_;  ///< replaces odometry
   files::GrowingFile steps_;
   std::optional<files::GrowingFile> particles_;
   TrajectoryRecorder recorder_;
@@ -152,7 +153,7 @@ class FilterRun {
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
-  double secondsBefore_ = 0;  ///< wall time of the run that is resumed
+  double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
   size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost

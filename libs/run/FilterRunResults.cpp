@@ -21,7 +21,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// s, between the earliest and the latest pose.
+/// Returns the time (s) from the earliest to the latest pose.
 double durationOf(const files::Trajectory& trajectory) {
   const auto [first, last] =
       std::minmax_element(trajectory.begin(), trajectory.end(),
@@ -40,7 +40,7 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
   return all;
 }
 
-/// The covariances of poses in a fixed map: the spread of the particles, and 1 cm and 0.1 deg for a scan
+/// Returns the covariances of poses in a fixed map: spread of the particles plus 1 cm and 0.1 deg for a scan
 /// match.
 std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances) {
   const double angle = mrpt::DEG2RAD(0.1);

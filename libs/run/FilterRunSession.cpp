@@ -16,7 +16,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// A table of a session goes on in a file.
+/// Writes the rows of a table to a session, or continues the table from it.
 template <class State>
 void visitTable(State& state, files::GrowingFile& file) {
   std::string text;
@@ -31,7 +31,7 @@ InputError otherLog(const std::string& log) {
 
 }  // namespace
 
-/// The filter first, so that others can read it alone.
+/// Visits the filter first, so that it can be read alone.
 template <class State>
 void FilterRun::visit(State& state) {
   if constexpr (State::kIsReading)
@@ -95,8 +95,9 @@ void FilterRun::restore(const std::string& state) {
   planSearch_.reset();
 }
 
-/// A full disk must not end the run. Beside the files of another run, which `finish` may be about to replace,
-/// the checkpoint has a name of its own, so that a kill leaves these as they are.
+/// Writes a checkpoint if it is due. A full disk must not end the run. Next to the results of another run,
+/// which `finish` may replace, the checkpoint has a separate name, so that a killed run leaves them
+/// unchanged.
 void FilterRun::saveIfDue() {
   try {
     if (isSaveRequested_.exchange(false)) saveToDatedFolder();

@@ -34,7 +34,7 @@ TEST(FilterRun, SavesItselfOnceTheSearchInAPlanIsOver) {
   process();
   EXPECT_EQ(run.state(), "");
   EXPECT_THROW(run.saveMapTo(folder.path("early")), std::runtime_error);
-  for (int i = 0; i < 100; ++i) process();
+  for (int i = 0; i < 400; ++i) process();
   EXPECT_NE(run.state(), "");
   run.saveMapTo(folder.path("late"));
   EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));

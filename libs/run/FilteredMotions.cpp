@@ -19,7 +19,7 @@ void addSamples(std::vector<MotionSample>& samples, const FilterStep& step) {
     samples.push_back({step.odometry, step.motions[i], weight(i) / sum});
 }
 
-/// MRPT's auxiliary filters resample before moving the particles and do not weight by p(scan).
+/// Rejects MRPT's auxiliary filters, which resample before moving the particles and do not weight by p(scan).
 void checkFilter(const Configuration& configuration) {
   using Proposal = ParticleFilterOptions::Proposal;
   const Proposal proposal = configuration.filter.filter.proposal;

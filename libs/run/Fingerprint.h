@@ -1,5 +1,5 @@
 /// @file Fingerprint.h
-/// @brief Tells whether two logs begin with the same readings.
+/// @brief Detects whether two logs begin with the same readings.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace hybrid_slam::run {
 
-/// CRC-32 of all readings so far: times and ranges. A recording grows, so that the checksum of its file would
-/// not do.
-/// @param before  that of the readings before; 0 for the first
+/// CRC-32 of the times and ranges of all readings so far. The checksum of a recording's file would change as
+/// it grows.
+/// @param before  fingerprint of the previous readings; 0 for the first
 uint32_t fingerprintAfter(uint32_t before, const readings::Reading& reading);
 
 }  // namespace hybrid_slam::run

@@ -1,5 +1,5 @@
 /// @file KnownMap.h
-/// @brief The map in which a run maps on or localises.
+/// @brief The map that a run continues or localises in.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,14 @@
 
 namespace hybrid_slam::run {
 
-/// The map of a session, or of another program (MapReader.h), which has no lines.
+/// Reads the map of a session, or of another program (MapReader.h), which has no lines.
 /// @throws InputError for a file that is neither
 ScanMap readKnownMap(const std::string& file);
 
-/// That of `continueFrom` or `localizeIn`; empty without one. Sets the cell size of the filter to that of the
-/// map. To map on, its probabilities are limited to 0.2 to 0.8, so that what has moved since vanishes.
-/// @throws InputError likewise, and for another cell size or method that the configuration requires
+/// Reads the map of `continueFrom` or `localizeIn`; empty without one. Sets the cell size of the filter to
+/// that of the map. In a map to continue, probabilities are limited to 0.2 to 0.8, so that things that have
+/// moved vanish.
+/// @throws InputError likewise, and if the configuration requires another cell size or method
 std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration);
 
 }  // namespace hybrid_slam::run

@@ -1,5 +1,7 @@
 #include "run/LogSettings.h"
 
+#include <mrpt/core/bits_math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,8 +19,8 @@ constexpr double kNoLimit = 200;                             // m; upper bound o
 constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
 constexpr double kCentimetre = 0.01;                         // m
 
-/// What a laser logs for no return, m; 0 if it marks these beams as invalid. Some lasers log one value, or
-/// several close together, for all of them, with few returns just below.
+/// Returns the value (m) that a laser logs for no return; 0 if it marks these beams as invalid. Some lasers
+/// log one value, or several close together, for all of them, with few returns just below.
 double noReturn(const std::vector<float>& ranges) {
   if (ranges.empty()) return 0;
   const double longest = *std::max_element(ranges.begin(), ranges.end());
@@ -80,7 +82,7 @@ std::vector<LogSetting> updates(std::vector<float> steps) {
 }
 
 std::string describe(const std::string& label, const LaserScan& scan) {
-  const auto degrees = [](double angle) { return numberText(std::round(angle * 180 / M_PI * 1e3) / 1e3); };
+  const auto degrees = [](double angle) { return numberText(std::round(mrpt::RAD2DEG(angle) * 1e3) / 1e3); };
   std::string text =
       (label.empty() ? "laser: " : "laser " + label + ": ") + std::to_string(scan.beams.size()) + " beams";
   if (scan.beams.size() > 1)
@@ -92,7 +94,7 @@ std::string describe(const std::string& label, const LaserScan& scan) {
          " m, " + degrees(scan.sensorPose.phi) + " deg on the robot";
 }
 
-/// The first readings, up to one that the run will report as an error.
+/// Returns the first readings, up to one that the run will report as an error.
 std::vector<readings::Reading> firstReadings(const std::string& file, const readings::InputOptions& input,
                                              const readings::RawlogSummary& log) {
   readings::RawlogSource source(file, input, log);
@@ -118,7 +120,7 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   std::vector<float> ranges, steps;
   double limit = 0;  // m
   for (const readings::Reading& reading : firstReadings(file, input, log)) {
-    if (reading.motion.norm() > 0.01 || std::abs(reading.motion.phi) > 0.5 * M_PI / 180)
+    if (reading.motion.norm() > 0.01 || std::abs(reading.motion.phi) > mrpt::DEG2RAD(0.5))
       steps.push_back(static_cast<float>(reading.motion.norm()));
     for (const auto& observation : reading.scans) {
       const LaserScan scan = toLaserScan(*observation, kNoLimit);
@@ -140,8 +142,9 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   }
   found.settings = updates(steps);
   if (!log.hasMotion)
-    found.settings.push_back(
-        {"input", "require_odometry", "false", "no odometry: motion is predicted from the previous steps"});
+    found.settings.push_back({"input", "require_odometry", "false",
+                              std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
+                                  ": motion is predicted from the previous steps"});
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
   return found;
 }

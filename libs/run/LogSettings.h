@@ -12,22 +12,24 @@ namespace hybrid_slam::run {
 
 struct LogSetting {
   std::string section, key, value;
-  std::string reason;  ///< what the log shows
+  std::string reason;  ///< the evidence in the log
 };
 
-/// What the first 2,000 readings of a log show.
+/// Properties of the first 2,000 readings of a log.
 struct LogSettings {
   bool hasOdometry = false;
   std::vector<std::string> lasers;  ///< one line each: beams, spacing, place on the robot
   std::vector<LogSetting> settings;
 };
 
+/// Derives these settings from a log:
+///
 /// - `grid.max_range`: 20 m, or more if over 5 % of the returns are farther; never beyond the laser's own
-///   limit or the value that it logs for no return. Building walls are near, and far returns have a wide
-///   spacing.
+///   limit or the value that it logs for no return. Walls in buildings are near, and far returns are widely
+///   spaced.
 /// - `line_weight.sigma_deg`: 0.5 where ranges are logged in steps of 1 cm, else 0.4.
-/// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot where scans are
-///   sparse, for lack of overlap; else 0.1 m and 5 deg.
+/// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot if scans are
+///   sparse and overlap little; else 0.1 m and 5 deg.
 /// - `input.require_odometry`: false where odometry is missing or never changes.
 ///
 /// @param log  summary of the file

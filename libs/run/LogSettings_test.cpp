@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <functional>
 
@@ -35,8 +36,8 @@ class LogSettingsTest : public testing::Test {
   files::TemporaryFolder folder;
 };
 
-/// A laser with this limit (m), in a room `scale` times as large; farther walls give no return, or `code`
-/// (m).
+/// Simulates a laser with this limit (m) in a room `scale` times as large; farther walls give no return, or
+/// `code` (m).
 auto laser(double limit, double scale = 1, double code = 0) {
   return [=](CObservation2DRangeScan& scan) {
     scan.maxRange = static_cast<float>(code > 0 ? 80 : limit);
@@ -92,7 +93,8 @@ TEST_F(LogSettingsTest, SparseScansAreAllUsed) {
 }
 
 TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
-  const auto usesOdometry = [this](const std::function<test::TPose2D(size_t)>& odometry) {
+  std::vector<std::string> lines;
+  const auto usesOdometry = [&](const std::function<test::TPose2D(size_t)>& odometry) {
     test::Log log;
     for (size_t i = 0; i < 4; ++i) {
       log.push_back(test::odometry(1. + static_cast<double>(i), odometry(i)));
@@ -100,10 +102,13 @@ TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
     }
     const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
     Configuration c("", {});
-    applyLogSettings(readLogSettings(file, {}, readings::summarise(file, {})), c);
+    lines = applyLogSettings(readLogSettings(file, {}, readings::summarise(file, {})), c);
     return c.input.requireOdometry;
   };
   EXPECT_FALSE(usesOdometry([](size_t) { return test::TPose2D(1, 2, 3); }));
+  EXPECT_EQ(lines.back(),
+            "input.require_odometry = false: odometry that never changes: motion is predicted from the "
+            "previous steps");
   EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(i == 3 ? 0.01 : 0, 0, 0); }));
 }
 
@@ -124,7 +129,7 @@ TEST_F(LogSettingsTest, TheIniFileAndTheCommandLineAreStronger) {
   EXPECT_THAT(applyLogSettings(log, c), ElementsAre(HasSubstr("laser"), HasSubstr("update_distance = 0.1: "),
                                                     HasSubstr("update_angle_deg = 5: ")));
   EXPECT_EQ(c.filter.grid.maxRange, 30);
-  EXPECT_NEAR(c.filter.lineWeight.sigma, M_PI / 180, 1e-12);
+  EXPECT_NEAR(c.filter.lineWeight.sigma, mrpt::DEG2RAD(1.0), 1e-12);
 
   Configuration defaults("", {});
   applyLogSettings(log, defaults);

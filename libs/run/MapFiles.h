@@ -14,19 +14,19 @@
 
 namespace hybrid_slam::run {
 
-/// `map.png`, see `mapPicture`.
+/// Writes `map.png` (`mapPicture`).
 void savePicture(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
                  const files::Trajectory& trajectory, const std::vector<DatabaseLine>& lines,
                  const std::vector<DoubtfulPlace>& doubtful = {});
 
-/// `map.pgm` and `map.yaml` for ROS's map_server, see `MapRaster`.
+/// Writes `map.pgm` and `map.yaml` for ROS's map_server (`MapRaster`).
 void saveRosMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid,
                 const files::Trajectory& trajectory);
 
-/// `map.gridmap.gz`: the serialised COccupancyGridMap2D.
+/// Writes `map.gridmap.gz`, the serialised COccupancyGridMap2D.
 void saveGridMap(const files::OutputFolder& folder, const mrpt::maps::COccupancyGridMap2D& grid);
 
-/// `lines.csv`: rho,theta,length,x_start,y_start,x_end,y_end,count (m, rad; map frame).
+/// Writes `lines.csv`: rho,theta,length,x_start,y_start,x_end,y_end,count (m, rad; map frame).
 void saveLines(const files::OutputFolder& folder, const std::vector<DatabaseLine>& lines);
 
 }  // namespace hybrid_slam::run

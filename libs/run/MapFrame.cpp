@@ -11,16 +11,19 @@ namespace {
 
 const cv::Scalar kInk(60, 60, 60);
 
-/// The text of a picture, in proportion to its size.
+/// Returns the line height of the text in a picture whose longer side has `longest` pixels.
+int emOf(int longest) { return std::clamp(longest / 64, 12, 100); }
+
+/// Draws text whose size is proportional to the picture's.
 class Text {
  public:
-  explicit Text(const cv::Mat& map) : em_(std::clamp(std::max(map.cols, map.rows) / 64, 12, 100)) {}
+  explicit Text(const cv::Mat& map) : em_(emOf(std::max(map.cols, map.rows))) {}
   int em() const { return em_; }  ///< line height, pixels
   int widthOf(const std::string& text) const {
     int below = 0;
     return cv::getTextSize(text, kFont, scale(), thickness(), &below).width;
   }
-  /// Vertically centred on y.
+  /// Draws text vertically centred on y.
   void draw(cv::Mat& picture, const std::string& text, int left, int y) const {
     int below = 0;
     const int height = cv::getTextSize(text, kFont, scale(), thickness(), &below).height;
@@ -41,9 +44,11 @@ struct Tick {
   int pixel;     ///< of the map
 };
 
-/// Round coordinates, about six to a side of the picture.
+/// Round coordinates, about six per side of the picture; fewer in a small one, so that their labels fit.
 std::vector<Tick> ticks(double first, double direction, int pixels, int longest, double pixelsPerMetre) {
-  const double step = roundNumber(longest / 4.9 / pixelsPerMetre);
+  const double least = 5 * emOf(longest) / pixelsPerMetre;
+  double step = roundNumber(longest / 4.9 / pixelsPerMetre);
+  while (step < least) step = roundNumber(3 * step);
   const double last = first + direction * pixels / pixelsPerMetre;
   std::vector<Tick> all;
   for (double k = std::ceil(std::min(first, last) / step); k * step <= std::max(first, last); ++k) {
@@ -74,7 +79,7 @@ LegendEntry scaleBar(const cv::Mat& map, const MapArea& area, int em) {
   return {metres(length), static_cast<double>(pixels) / em, draw};
 }
 
-/// Entries side by side, in as many rows as they need.
+/// Places the entries side by side, in as many rows as needed.
 std::vector<cv::Point> legendPlaces(const std::vector<LegendEntry>& legend, const Text& text, int width) {
   const int em = text.em();
   std::vector<cv::Point> places;

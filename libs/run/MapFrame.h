@@ -1,5 +1,5 @@
 /// @file MapFrame.h
-/// @brief What surrounds the map in its picture: coordinates, scale bar, legend.
+/// @brief Frame of the map in its picture: coordinates, scale bar, legend.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::run {
 
-/// 1, 2 or 5 times a power of ten, the largest that is not above `most` (> 0).
+/// Returns the largest number up to `most` (> 0) that is 1, 2 or 5 times a power of ten.
 double roundNumber(double most);
 
 /// An entry of the legend: draws its symbol into a rectangle of `width` x 1 times the text's height.
@@ -28,10 +28,10 @@ struct MapArea {
 /// Thickness of a thin line in a picture whose longer side has `pixels`.
 int thinLine(int pixels);
 
-/// Lines at round coordinates, fainter than the cells.
+/// Draws lines at round coordinates, fainter than the cells.
 void drawGrid(cv::Mat& map, const MapArea& area);
 
-/// The map in a frame with these coordinates, above a scale bar and the legend.
+/// Draws the map in a frame with these coordinates, above a scale bar and the legend.
 cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendEntry> legend);
 
 }  // namespace hybrid_slam::run

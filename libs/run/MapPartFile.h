@@ -1,5 +1,5 @@
 /// @file MapPartFile.h
-/// @brief Maps to be merged, from files.
+/// @brief Reads maps to be merged.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 
 namespace hybrid_slam::run {
 
-/// What a file holds of a map.
+/// A map to be merged, with the contents of its file.
 struct MapPartFile {
   MapPart part;
   std::vector<double> times;                   ///< s, of each pose of the path; empty: unknown
   std::optional<Configuration> configuration;  ///< of the run
 };
 
-/// A session, a map of another program (readKnownMap), or a folder of results with its session. The scans of
+/// Reads a session, a map of another program (readKnownMap), or a result folder with a session. The scans of
 /// a session are known if they make up its whole map: the run could close loops and did not continue an
 /// earlier map.
-/// @throws InputError for a file that is none of them
+/// @throws InputError for any other file
 MapPartFile readMapPart(const std::string& file);
 
 }  // namespace hybrid_slam::run

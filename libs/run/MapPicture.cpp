@@ -12,7 +12,7 @@ namespace {
 
 const cv::Scalar kPath(0, 0, 220), kLine(0, 160, 0), kRobot(255, 180, 80), kDoubtful(0, 140, 255);  // BGR
 
-/// Cells along the side of a pixel, so that a picture has at most 2^26 pixels (RGB: 200 MB), 2^14 on a side.
+/// Returns the cells per pixel side that limit a picture to 2^26 pixels (RGB: 200 MB), 2^14 per side.
 int reductionOf(const MapRaster& map) {
   constexpr double kMostPixels = 1 << 26, kLongestSide = 1 << 14;
   const double pixels = static_cast<double>(map.width()) * map.height();
@@ -32,7 +32,7 @@ cv::Mat cellsOf(const MapRaster& map, int enlarged, int reduced) {
   return picture;
 }
 
-/// Draws what is given in metres, smooth and at fractions of pixels; what is outside is cut off.
+/// Draws shapes given in metres, antialiased, with subpixel accuracy, clipped to the picture.
 class Pen {
  public:
   Pen(cv::Mat& map, const MapArea& area)

@@ -12,15 +12,15 @@
 
 namespace hybrid_slam::run {
 
-/// What `map.png` shows on the cells.
+/// Marks that `map.png` shows on the cells.
 struct MapMarks {
   const files::Trajectory& trajectory;         ///< red; the robot at its end is light blue
   const std::vector<DatabaseLine>& lines;      ///< green
   const std::vector<DoubtfulPlace>& doubtful;  ///< orange circles
 };
 
-/// The bytes of a PNG: the map in a frame with round coordinates, a scale bar and a legend. The map itself
-/// has at most 2^26 pixels, 2^14 on a side: larger ones are reduced.
+/// Returns the bytes of a PNG: the map in a frame with round coordinates, a scale bar and a legend. Larger
+/// maps are reduced to at most 2^26 pixels, 2^14 per side.
 std::string mapPicture(const MapRaster& map, const MapMarks& marks);
 
 }  // namespace hybrid_slam::run

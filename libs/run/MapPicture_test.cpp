@@ -14,7 +14,7 @@ namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-/// The room of 101 x 61 cells of 0.05 m from (0.5, -3.5) on, and its picture.
+/// The room of 101 x 61 cells of 0.05 m with its corner at (0.5, -3.5), and its picture.
 class Picture : public testing::Test {
  protected:
   void draw(const COccupancyGridMap2D& grid, const files::Trajectory& path,
@@ -24,7 +24,7 @@ class Picture : public testing::Test {
     ASSERT_FALSE(image.empty());
     findFrame();
   }
-  /// The longest dark row and column that are not of the map, from the outside inwards.
+  /// Finds the frame: the outermost long dark rows and columns.
   void findFrame() {
     const auto isFrame = [](const cv::Vec3b& c) { return c == cv::Vec3b(60, 60, 60); };
     const auto count = [&](const cv::Mat& strip) {
@@ -57,7 +57,7 @@ class Picture : public testing::Test {
     const cv::Vec3b c = at(x, y);
     return c[0] == c[1] && c[1] == c[2] ? c[0] : -1;
   }
-  /// Smooth lines are paler beside their middle.
+  /// Compares colours with a tolerance: antialiased lines are paler beside their middle.
   static bool isLike(const cv::Vec3b& a, const cv::Vec3b& b) { return cv::norm(a, b) < 120; }
   /// Number of pixels of a colour in the legend.
   int legendPixels(const cv::Vec3b& colour) const {
@@ -147,6 +147,16 @@ TEST_F(Picture, OfALargeMapIsReducedAndKeepsThinWalls) {
   for (const int x : {10, 3333, 7990}) EXPECT_EQ(pixel(x, 1999), cv::Vec3b(0, 0, 0)) << "the wall";
   EXPECT_EQ(pixel(3333, 1500), cv::Vec3b(205, 205, 205)) << "unknown";
   EXPECT_PRED2(isLike, pixel(3333, 3000), kRed);
+}
+
+/// Of a map of 2.7 m at 80 pixels per metre: 1 m apart, since "-0.5 m" is 48 pixels long.
+TEST(MapFrame, ASmallPictureHasRoomForItsCoordinates) {
+  cv::Mat map(200, 216, CV_8UC3, cv::Scalar::all(250));
+  drawGrid(map, {-1.05, 1.5, 80});
+  std::vector<int> columns;
+  for (int x = 0; x < map.cols; ++x)
+    if (map.at<cv::Vec3b>(0, x)[0] < 250) columns.push_back(x);
+  EXPECT_EQ(columns, (std::vector{4, 84, 164}));
 }
 
 TEST(MapFrame, RoundNumbers) {

@@ -18,7 +18,7 @@ MapRaster::MapRaster(const COccupancyGridMap2D& grid, const files::Trajectory& t
   addDriven(trajectory);
 }
 
-/// Columns and rows with known cells, plus a margin; the whole grid if there are none.
+/// Finds the columns and rows with known cells, plus a margin; the whole grid if there are none.
 void MapRaster::findKnownCells() {
   constexpr int kMargin = 10;
   const int width = static_cast<int>(grid_.getSizeX()), height = static_cast<int>(grid_.getSizeY());
@@ -34,7 +34,8 @@ void MapRaster::findKnownCells() {
              std::min(known.x1 + kMargin, width - 1), std::min(known.y1 + kMargin, height - 1)};
 }
 
-/// At its start, the robot may stand outside of what its laser sees. Poses far from the map are wrong.
+/// Extends the window to the robot, which may start outside its laser's view. Ignores poses far from the map
+/// as wrong.
 void MapRaster::includeRobot(const files::Trajectory& trajectory) {
   constexpr double kFar = 2;  // m
   const double cell = grid_.getResolution(), radius = kRobotRadius / cell, far = kFar / cell;
@@ -49,18 +50,30 @@ void MapRaster::includeRobot(const files::Trajectory& trajectory) {
   }
 }
 
-/// Between two poses, the robot drove straight ahead, unless they are far apart: a gap in the log.
+/// Between two poses less than 1 m apart the robot drove straight ahead; up to 2 m it did if no cell on the
+/// line is occupied, since sparse logs have a scan per metre or two. Farther apart there is a gap in the log.
 void MapRaster::addDriven(const files::Trajectory& trajectory) {
-  constexpr double kGap = 1, kStep = 0.02, kStanding = 0.005;  // m
-  double x = 0, y = 0;                                         // of the last place that was added
+  constexpr double kNear = 1, kGap = 2, kStep = 0.02, kStanding = 0.005;  // m
+  double x = 0, y = 0;                                                    // of the last place that was added
   for (size_t i = 0; i < trajectory.size(); ++i) {
     const auto& to = trajectory[i].pose;
     const double distance = std::hypot(to.x - x, to.y - y);
     if (i > 0 && distance < kStanding) continue;
-    const int steps = i > 0 && distance < kGap ? static_cast<int>(std::ceil(distance / kStep)) : 1;
+    const bool isStraight = i > 0 && (distance < kNear || (distance < kGap && isClear(x, y, to.x, to.y)));
+    const int steps = isStraight ? static_cast<int>(std::ceil(distance / kStep)) : 1;
     for (int k = 1; k <= steps; ++k) addRobot(x + (to.x - x) * k / steps, y + (to.y - y) * k / steps);
     x = to.x, y = to.y;
   }
+}
+
+/// Returns whether no cell on a line is occupied (m, map frame).
+bool MapRaster::isClear(double x0, double y0, double x1, double y1) const {
+  const double column = (x0 - grid_.getXMin()) / cell_, row = (y0 - grid_.getYMin()) / cell_;
+  const double columns = (x1 - x0) / cell_, rows = (y1 - y0) / cell_;
+  const int steps = static_cast<int>(std::ceil(4 * std::hypot(columns, rows)));
+  for (int k = 0; k <= steps; ++k)
+    if (isOccupied(column + columns * k / steps, row + rows * k / steps)) return false;
+  return true;
 }
 
 void MapRaster::addRobot(double x, double y) {
@@ -77,13 +90,21 @@ void MapRaster::addRobot(double x, double y) {
             true;
 }
 
+bool MapRaster::isInGrid(double x, double y) const {
+  return x >= 0 && y >= 0 && x < static_cast<double>(grid_.getSizeX()) &&
+         y < static_cast<double>(grid_.getSizeY());
+}
+
+bool MapRaster::isOccupied(double x, double y) const {
+  return isInGrid(x, y) &&
+         1 - grid_.getCell(static_cast<int>(x), static_cast<int>(y)) > static_cast<float>(kOccupiedThreshold);
+}
+
 uint8_t MapRaster::at(int column, int row) const {
   const int x = window_.x0 + column, y = window_.y1 - row;
-  const bool isInGrid =
-      x >= 0 && y >= 0 && x < static_cast<int>(grid_.getSizeX()) && y < static_cast<int>(grid_.getSizeY());
-  if (isInGrid && 1 - grid_.getCell(x, y) > static_cast<float>(kOccupiedThreshold)) return kOccupied;
+  if (isOccupied(x, y)) return kOccupied;
   // The log-odds, since MRPT's table of probabilities has no exact half.
-  if (isInGrid && grid_.getRow(y)[x] > 0) return kFree;
+  if (isInGrid(x, y) && grid_.getRow(y)[x] > 0) return kFree;
   const size_t i = static_cast<size_t>(row) * static_cast<size_t>(width()) + static_cast<size_t>(column);
   return isDriven_[i] ? kFree : kUnknown;
 }

@@ -1,5 +1,5 @@
 /// @file MapRaster.h
-/// @brief A map as the pixels of its pictures.
+/// @brief A map as the pixels of a picture.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -11,15 +11,15 @@
 
 namespace hybrid_slam::run {
 
-/// m; a usual size. The cells that the robot drove over are free even where its laser could not see them.
+/// A usual radius (m). Cells that the robot drove over are free even where its laser could not see them.
 constexpr double kRobotRadius = 0.25;
 
-/// The known part of a grid, and where the robot was, in the three values of ROS's map_server. Column 0 is in
-/// the west, row 0 in the north.
+/// The known part of a grid, and the cells that the robot drove over, in the three values of ROS's
+/// map_server. Column 0 is in the west, row 0 in the north.
 class MapRaster {
  public:
   static constexpr uint8_t kOccupied = 0, kFree = 254, kUnknown = 205;
-  /// An occupancy above this is occupied: two hits with the default `[grid] p_hit`.
+  /// Occupancies above this are occupied: two hits with the default `[grid] p_hit`.
   static constexpr double kOccupiedThreshold = 0.65;
 
   /// @param grid  kept by reference
@@ -30,10 +30,11 @@ class MapRaster {
   double cell() const { return cell_; }                       ///< m
   double left() const { return xMin_; }                       ///< m, map frame, of the western edge
   double bottom() const { return yMin_; }                     ///< m, map frame, of the southern edge
-  /// Occupied by the threshold; free if beams crossed the cell more often than they hit it, or if the robot
-  /// drove over it.
+  /// Returns the value of a cell: occupied by the threshold; free if beams crossed it more often than they
+  /// hit it, or if the robot drove over it.
   uint8_t at(int column, int row) const;
-  /// The value of `side` x `side` cells: occupied if any is, else free if any is, so that thin walls remain.
+  /// Returns the value of `side` x `side` cells: occupied if any is, else free if any is, so that thin walls
+  /// remain.
   uint8_t at(int column, int row, int side) const;
 
  private:
@@ -44,6 +45,12 @@ class MapRaster {
   void includeRobot(const files::Trajectory& trajectory);
   void addDriven(const files::Trajectory& trajectory);
   void addRobot(double x, double y);
+  bool isClear(double x0, double y0, double x1, double y1) const;
+  /// @name Places in cells of the grid, from its south-western corner
+  /// @{
+  bool isInGrid(double x, double y) const;
+  bool isOccupied(double x, double y) const;
+  /// @}
 
   const mrpt::maps::COccupancyGridMap2D& grid_;
   Window window_{};  ///< cells of the grid; partly outside of it where the robot was

@@ -14,7 +14,7 @@ using mrpt::maps::COccupancyGridMap2D;
 using mrpt::math::TPose2D;
 
 /// A corridor of 12 m x 2 m, along which a robot drives 10 m from the origin. Its laser sees 180 deg, from
-/// 0.4 m ahead: at the start, there is no beam through the robot's own place.
+/// 0.4 m ahead: at the start, no beam crosses the robot's position.
 class Corridor : public testing::Test {
  protected:
   Corridor() {
@@ -92,6 +92,23 @@ TEST(MapRaster, AGapInTheLogIsNotDriven) {
   EXPECT_EQ(valueAt(4, {{0, {0, 0, 0}}, {1, {8, 0, 0}}}), MapRaster::kUnknown);
   EXPECT_EQ(valueAt(8, {{0, {0, 0, 0}}, {1, {8, 0, 0}}}), MapRaster::kFree);
   EXPECT_EQ(valueAt(4, {{0, {1e9, NAN, 0}}}), MapRaster::kUnknown);
+}
+
+/// A log may have a scan per metre (MIT Killian Court: up to 1.3 m).
+TEST(MapRaster, BetweenScansThatAreFarApartThePathIsFreeUnlessSomethingStandsThere) {
+  COccupancyGridMap2D cells;
+  cells.setSize(-1, 9, -1, 1, 0.05f, 0.5f);
+  cells.setCell(0, 0, 0.9f), cells.setCell(199, 39, 0.9f);
+  const auto valueAt = [&cells](double x, double to) {
+    const MapRaster map(cells, {{0, {0, 0, 0}}, {1, {to, 0, 0}}});
+    return map.at(static_cast<int>((x + 1) / 0.05), 20);
+  };
+  EXPECT_EQ(valueAt(0.67, 1.3), MapRaster::kFree);
+  EXPECT_EQ(valueAt(0.97, 1.9), MapRaster::kFree);
+  EXPECT_EQ(valueAt(1.07, 2.1), MapRaster::kUnknown) << "a gap in the log";
+  cells.setCell(cells.x2idx(0.67f), cells.y2idx(0.01f), 0.1f);
+  EXPECT_EQ(valueAt(0.47, 1.3), MapRaster::kUnknown) << "a wall: it drove around";
+  EXPECT_EQ(valueAt(0.47, 0.9), MapRaster::kFree) << "too close for a way around";
 }
 
 TEST(MapRaster, AReducedMapKeepsThinWalls) {

@@ -20,7 +20,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// Ours if one of the maps is; else the defaults, with the cells of the older map.
+/// Returns the configuration of the first map that has one; else the defaults, with the cell size of the
+/// older map.
 Configuration configurationOf(const MapPartFile& older, const MapPartFile& newer) {
   Configuration configuration;
   for (const MapPartFile* file : {&newer, &older})

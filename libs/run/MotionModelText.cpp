@@ -7,7 +7,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// A blank, then the text right-aligned in `width` characters.
+/// Returns a blank and the text, right-aligned in `width` characters.
 std::string cell(const std::string& text, size_t width) {
   return std::string(width > text.size() ? width - text.size() + 1 : 1, ' ') + text;
 }

@@ -1,5 +1,5 @@
 /// @file MotionModelText.h
-/// @brief A learnt motion model as an INI section and a table.
+/// @brief Writes a learnt motion model as an INI section and a table.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace hybrid_slam::run {
 
-/// Section [motion_model] of an INI file, each key with unit and meaning, below `comments` (one line each).
-/// Six digits, more than any log determines.
+/// Returns the section [motion_model] of an INI file: `comments` (one line each), then each key with unit and
+/// meaning. Values have six digits, more than any log determines.
 std::string motionModelSection(const MotionModelOptions& model, const std::vector<std::string>& comments);
 
 /// Header and row of the table of iterations: number, log-likelihood per update, then mean_d, mean_t, var_d,

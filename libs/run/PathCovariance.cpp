@@ -28,7 +28,7 @@ Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
 }
 
-/// Places of the path that lie on the same part of the map.
+/// Pairs of path indices at the same part of the map.
 std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::vector<double>& distances,
                                  const std::vector<Revisit>& returning) {
   std::vector<KnownPair> pairs;

@@ -1,5 +1,5 @@
 /// @file PathCovariance.h
-/// @brief How far the poses of a finished path may be off in the map frame: covariance.csv.
+/// @brief Uncertainty of a finished path in the map frame: covariance.csv.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -30,8 +30,8 @@ std::vector<PoseCovariance> pathCovariances(const std::vector<mrpt::math::TPose2
                                             const std::vector<PoseCovariance>& particles,
                                             const std::vector<Revisit>& returning, bool hasLines);
 
-/// `timestamp,xx,xy,yy,xphi,yphi,phiphi`, a row for each of the trajectory. Between two updates the
-/// covariance is that of the earlier one, grown by the motion since.
+/// Writes `timestamp,xx,xy,yy,xphi,yphi,phiphi`, one row per pose of the trajectory. Between two updates, the
+/// covariance of the earlier one grows by the motion since.
 /// @param updates  for each row of the trajectory, the number of updates up to it
 void writeCovariances(std::ostream& out, const files::Trajectory& trajectory,
                       const std::vector<size_t>& updates, const std::vector<mrpt::math::TPose2D>& path,

@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 double deviation(const PoseCovariance& covariance) { return std::sqrt(covariance(0, 0) + covariance(1, 1)); }
 
-/// 20 m along the x axis and back, in steps of 0.5 m.
+/// A path of 20 m along the x axis and back, in steps of 0.5 m.
 std::vector<TPose2D> thereAndBack() {
   std::vector<TPose2D> path;
   for (int i = 0; i <= 40; ++i) path.emplace_back(0.5 * i, 0, 0);

@@ -1,5 +1,5 @@
 /// @file PgmPicture.cpp
-/// @brief Netpbm's grey pictures: P5, and P2 in digits.
+/// @brief Netpbm's grey pictures: P5 (binary) and P2 (text).
 
 #include <algorithm>
 #include <charconv>
@@ -26,12 +26,12 @@ class PgmReader {
     rest_.remove_prefix(static_cast<size_t>(end - rest_.data()));
     return value;
   }
-  /// Exactly one white space separates the header of P5 from its pixels.
+  /// Skips the single white space between the header of P5 and its pixels.
   void separator() {
     if (rest_.empty() || !isSpace(rest_[0])) throw std::runtime_error("no pixels");
     rest_.remove_prefix(1);
   }
-  /// A big-endian number of one or two bytes that exist.
+  /// Reads a big-endian number of one or two bytes, which must exist.
   size_t sample(size_t size) {
     size_t value = 0;
     for (size_t i = 0; i < size; ++i) value = value << 8 | static_cast<uint8_t>(rest_[i]);

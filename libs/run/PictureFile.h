@@ -1,5 +1,5 @@
 /// @file PictureFile.h
-/// @brief The picture formats of maps, from their bytes.
+/// @brief Decodes the picture formats of maps.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace hybrid_slam::run {
 
-/// @throws std::runtime_error with what is wrong
+/// @throws std::runtime_error that says what is wrong
 GreyPicture decodePgm(const std::string& bytes);
 GreyPicture decodePng(const std::string& bytes);
 
-/// @throws std::runtime_error for no pixels, more than 2^28, or more than 2^20 on a side
+/// @throws std::runtime_error for no pixels, more than 2^28, or more than 2^20 per side
 void checkSize(size_t width, size_t height);
 
 }  // namespace hybrid_slam::run

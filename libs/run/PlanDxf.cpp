@@ -11,7 +11,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// dxflib does not report a full disk.
+/// Returns whether a file was written completely: dxflib does not report a full disk.
 bool isComplete(const std::string& path) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in || in.tellg() < 4) return false;
@@ -19,6 +19,16 @@ bool isComplete(const std::string& path) {
   std::string last(4, ' ');
   in.read(last.data(), 4);
   return last == "EOF\n";
+}
+
+constexpr char kApplication[] = "HYBRID_SLAM";  // of the extended data
+
+/// Writes the extended data of the wall whose LINE was written last.
+void writeCovariance(const Wall& wall, const DL_WriterA& out) {
+  const Eigen::Matrix2d c = wall.covariance();
+  out.dxfString(1001, kApplication);
+  out.dxfString(1000, "covariance of offset and angle: m^2, m rad, rad^2");
+  for (const double value : {c(0, 0), c(0, 1), c(1, 1)}) out.dxfReal(1040, value);
 }
 
 void write(const FloorPlan& plan, DL_Dxf& dxf, DL_WriterA& out) {
@@ -35,13 +45,19 @@ void write(const FloorPlan& plan, DL_Dxf& dxf, DL_WriterA& out) {
   dxf.writeLayer(out, DL_LayerData("WALLS", 0), DL_Attributes("", 7, 0, -1, "CONTINUOUS", 1.0));
   dxf.writeLayer(out, DL_LayerData("OPENINGS", 0), DL_Attributes("", 5, 0, -1, "CONTINUOUS", 1.0));
   out.tableEnd();
+  out.tableAppid(1);
+  dxf.writeAppid(out, kApplication);
+  out.tableEnd();
   out.sectionEnd();
   out.sectionEntities();
   const auto line = [&](const auto& a, const auto& b, const char* layer) {
     dxf.writeLine(out, DL_LineData(a.x, a.y, 0, b.x, b.y, 0),
                   DL_Attributes(layer, 256, 0, -1, "BYLAYER", 1.0));
   };
-  for (const Wall& wall : plan.walls) line(wall.start, wall.end, "WALLS");
+  for (const Wall& wall : plan.walls) {
+    line(wall.start, wall.end, "WALLS");
+    writeCovariance(wall, out);
+  }
   for (const Opening& opening : plan.openings) line(opening.start, opening.end, "OPENINGS");
   out.sectionEnd();
   out.dxfEOF();

@@ -24,7 +24,7 @@ constexpr double kChord = mrpt::DEG2RAD(10.0);
 constexpr double kStraight = 1e-3;  // bulge: an arc that leaves its chord by 1/2000 of it
 constexpr double kShortest = 1e-6;  // m
 
-/// m of the unit $INSUNITS (DXF reference, HEADER section).
+/// Returns the length (m) of the unit $INSUNITS (DXF reference, HEADER section).
 double metresOf(double unit) {
   static const std::map<double, double> known{{0, 1},       {1, 0.0254},  {2, 0.3048},  {3, 1609.344},
                                               {4, 0.001},   {5, 0.01},    {6, 1},       {7, 1000},
@@ -35,7 +35,7 @@ double metresOf(double unit) {
   return found->second;
 }
 
-/// The groups of a DXF: a code on one line, its value on the next (DXF reference, "Group codes").
+/// Reads the groups of a DXF: a code on one line, its value on the next (DXF reference, "Group codes").
 class Groups {
  public:
   explicit Groups(const std::string& text) : in_(text) {}
@@ -43,7 +43,7 @@ class Groups {
   int code = 0;
   std::string value;
 
-  /// False at the end.
+  /// Reads the next group; returns false at the end.
   bool next() {
     std::string text;
     if (!std::getline(in_, text)) return false;
@@ -75,12 +75,12 @@ class Groups {
   size_t line_ = 0;
 };
 
-/// What is drawn in the section ENTITIES. Those of BLOCKS are drawn only where an INSERT places them.
+/// An entity of the section ENTITIES. Those of BLOCKS are drawn only where an INSERT places them.
 struct Entity {
   std::string type, layer;
   std::vector<std::pair<int, double>> geometry;  ///< codes and numbers, in the order of the file
 
-  /// The first number with a code; 0 if there is none.
+  /// Returns the first number with a code; 0 if there is none.
   double at(int code) const {
     for (const auto& [found, number] : geometry)
       if (found == code) return number;
@@ -98,7 +98,7 @@ class DxfWalls {
  public:
   explicit DxfWalls(PlanLines& lines) : lines_(lines) {}
 
-  /// @param metre  m of a unit of the drawing
+  /// @param metre  length (m) of the drawing's unit
   void setUnit(double metre) { metre_ = metre; }
   void add(const Entity& entity) {
     if (entity.layer == "OPENINGS") return;

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace hybrid_slam::run {
 namespace {
@@ -14,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMargin = 1;  // m
 
-/// m, to 0.1 mm.
+/// Rounds a length (m) to 0.1 mm.
 double rounded(double metres) { return std::round(metres * 1e4) / 1e4; }
 
 struct Box {
@@ -30,12 +31,19 @@ Box boxOf(const FloorPlan& plan) {
   return box;
 }
 
-void writeLine(std::ostream& out, const TPoint2D& a, const TPoint2D& b) {
+void writeLine(std::ostream& out, const TPoint2D& a, const TPoint2D& b, const std::string& more = {}) {
   out << "<line x1=\"" << rounded(a.x) << "\" y1=\"" << rounded(a.y) << "\" x2=\"" << rounded(b.x)
-      << "\" y2=\"" << rounded(b.y) << "\"/>\n";
+      << "\" y2=\"" << rounded(b.y) << '"' << more << "/>\n";
 }
 
-/// The body of a wall between its faces.
+std::string covarianceAttribute(const Wall& wall) {
+  const Eigen::Matrix2d c = wall.covariance();
+  std::ostringstream out;
+  out << std::setprecision(4) << " data-covariance=\"" << c(0, 0) << ' ' << c(0, 1) << ' ' << c(1, 1) << '"';
+  return out.str();
+}
+
+/// Writes the body of a wall between its faces.
 void writeBody(std::ostream& out, const Wall& a, const Wall& b) {
   const double from = std::max(a.line.along(a.start), a.line.along(b.end));
   const double to = std::min(a.line.along(a.end), a.line.along(b.start));
@@ -55,17 +63,14 @@ Json feature(const TPoint2D& a, const TPoint2D& b, Json properties) {
 }
 
 Json properties(const Wall& wall, size_t id) {
-  const Eigen::Matrix2d& c = wall.line.covariance;
-  // Offset and angle at the middle of the wall, not where the line is known best.
-  const double s = wall.line.along((wall.start + wall.end) * 0.5);
-  const double cross = c(0, 1) + s * c(1, 1), offset = c(0, 0) + 2 * s * c(0, 1) + s * s * c(1, 1);
+  const Eigen::Matrix2d c = wall.covariance();
   Json json{{"kind", "wall"},
             {"id", id},
             {"line", wall.group},
             {"length_m", rounded(wall.length())},
             {"observations", wall.count},
             {"snapped", wall.isSnapped},
-            {"covariance", {{offset, cross}, {cross, c(1, 1)}}}};
+            {"covariance", {{c(0, 0), c(0, 1)}, {c(1, 0), c(1, 1)}}}};
   if (wall.pair >= 0) json["other_face"] = wall.pair, json["thickness_m"] = rounded(wall.thickness);
   return json;
 }
@@ -81,7 +86,7 @@ void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan) {
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << rounded(width) << "cm\" height=\""
         << rounded(height) << "cm\" viewBox=\"" << rounded(box.x0 - kMargin) << ' '
         << rounded(-box.y1 - kMargin) << ' ' << rounded(width) << ' ' << rounded(height)
-        << "\">\n<desc>floor plan, metres in the map frame</desc>\n"
+        << "\">\n<desc>floor plan, metres in the map frame; data-covariance: m^2, m rad, rad^2</desc>\n"
         << "<rect x=\"" << rounded(box.x0 - kMargin) << "\" y=\"" << rounded(-box.y1 - kMargin)
         << "\" width=\"100%\" height=\"100%\" fill=\"white\"/>\n<g transform=\"scale(1,-1)\" fill=\"none\">\n"
         << "<g id=\"bodies\" fill=\"#999\">\n";
@@ -92,7 +97,7 @@ void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan) {
     out << "</g>\n<g id=\"openings\" stroke=\"#4a90d9\" stroke-width=\"0.04\" stroke-dasharray=\"0.15\">\n";
     for (const Opening& opening : plan.openings) writeLine(out, opening.start, opening.end);
     out << "</g>\n<g id=\"walls\" stroke=\"black\" stroke-width=\"0.08\" stroke-linecap=\"round\">\n";
-    for (const Wall& wall : plan.walls) writeLine(out, wall.start, wall.end);
+    for (const Wall& wall : plan.walls) writeLine(out, wall.start, wall.end, covarianceAttribute(wall));
     out << "</g>\n</g>\n</svg>\n";
   });
 }

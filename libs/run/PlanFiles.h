@@ -11,27 +11,30 @@
 
 namespace hybrid_slam::run {
 
-/// `plan.svg`: walls black, filled between their two faces; openings dashed.
+/// Writes `plan.svg`: walls black, filled between their two faces; openings dashed. The attribute
+/// `data-covariance` of a wall holds the upper triangle of Wall::covariance.
 void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan);
 
-/// `plan.dxf` (R12, metres): a LINE for each wall on the layer WALLS, for each opening on OPENINGS.
+/// Writes `plan.dxf` (R12, metres): a LINE for each wall on the layer WALLS, and for each opening on
+/// OPENINGS. A wall's extended data (HYBRID_SLAM) holds the upper triangle of Wall::covariance.
 /// @throws InputError if it cannot be written completely
 void savePlanDxf(const files::OutputFolder& folder, const FloorPlan& plan);
 
-/// `plan.geojson`: a LineString for each wall and opening, with the covariance of the wall.
+/// Writes `plan.geojson`: a LineString for each wall and opening, with the covariance of the wall.
 void savePlanGeoJson(const files::OutputFolder& folder, const FloorPlan& plan);
 
-/// All three.
+/// Writes all three files.
 void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
 
-/// The walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF (readPlanDxf), or an SVG that
-/// savePlanSvg wrote; told apart by the end of the name. Openings are left out.
-/// @throws InputError for an unreadable file, one of another kind, one without walls, or as PlanLines::add
+/// Reads the walls of a plan: GeoJSON with LineStrings or Polygons (m), DXF (readPlanDxf), or an SVG that
+/// savePlanSvg wrote. The file name's ending selects the format. Openings are left out.
+/// @throws InputError for a file that is unreadable, of another format or without walls, and as
+/// PlanLines::add
 std::vector<PlanLine> loadPlan(const std::string& file);
-/// The same for the content of the file.
+/// Likewise for the content of the file.
 std::vector<PlanLine> planOf(const std::string& text, const std::string& file);
 
-/// Plans are compared and searched piece by piece: bounds their number.
+/// Bounds the number of pieces in which plans are compared and searched.
 /// @param length  m, of all walls
 /// @throws InputError for over 30 km
 void checkPlanLength(double length, const std::string& file);

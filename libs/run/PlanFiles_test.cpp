@@ -35,6 +35,10 @@ struct PlanFiles : testing::Test {
     temporary.write(name, text);
     return loadPlan(temporary.path(name));
   }
+  std::string textOf(const std::string& name) const {
+    std::ifstream in(temporary.path(name));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
   std::string errorOf(const std::string& name, const std::string& text) const {
     return test::errorOf([&] { load(name, text); });
   }
@@ -59,12 +63,12 @@ TEST_F(PlanFiles, AnEmptyPlanIsWrittenButNotRead) {
     EXPECT_THROW(loadPlan(temporary.path(name)), InputError) << name;
 }
 
-TEST_F(PlanFiles, GeoJsonHoldsTheCovarianceAtTheMiddleOfTheWall) {
+TEST_F(PlanFiles, EachFormatHoldsTheCovarianceAtTheMiddleOfTheWall) {
   FloorPlan one = plan();
   one.walls.resize(1);
   one.walls[0].line.at = {0, 0};  // 1.5 m before the middle
   one.walls[0].line.covariance << 1e-4, 0, 0, 1e-6;
-  savePlanGeoJson(files::OutputFolder(temporary.path("out")), one);
+  savePlan(files::OutputFolder(temporary.path("out")), one);
   std::ifstream in(temporary.path("out/plan.geojson"));
   const auto json = nlohmann::json::parse(in);
   const auto& covariance = json["features"][0]["properties"]["covariance"];
@@ -72,6 +76,10 @@ TEST_F(PlanFiles, GeoJsonHoldsTheCovarianceAtTheMiddleOfTheWall) {
   EXPECT_NEAR(covariance[0][1], 1.5e-6, 1e-12);
   EXPECT_NEAR(covariance[1][1], 1e-6, 1e-15);
   EXPECT_EQ(json["features"][1]["properties"]["kind"], "opening");
+  EXPECT_THAT(textOf("out/plan.svg"), HasSubstr("y2=\"0\" data-covariance=\"0.0001023 1.5e-06 1e-06\"/>"));
+  EXPECT_THAT(textOf("out/plan.dxf"), HasSubstr("APPID\n  2\nHYBRID_SLAM\n"));
+  EXPECT_THAT(textOf("out/plan.dxf"), HasSubstr("1001\nHYBRID_SLAM\n1000\n"));
+  EXPECT_THAT(textOf("out/plan.dxf"), HasSubstr("\n1040\n0.00010225\n1040\n0.0000015\n1040\n0.000001\n"));
 }
 
 TEST_F(PlanFiles, DxfOfOthersHasPolylinesAndUnits) {
@@ -103,7 +111,8 @@ TEST_F(PlanFiles, DxfInEveryUnitIsReadInMetres) {
               HasSubstr("unknown unit, $INSUNITS 19"));
 }
 
-/// A semicircle from (0, 0) to (2, 0) below the chord, by a bulge of 1, by an arc, and as half of a circle.
+/// The semicircle from (0, 0) to (2, 0) below the chord is given by a bulge of 1, by an arc, and as half of a
+/// circle.
 TEST_F(PlanFiles, DxfOfOthersHasArcs) {
   const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
   const auto polyline = load(
@@ -122,7 +131,7 @@ TEST_F(PlanFiles, DxfOfOthersHasArcs) {
   EXPECT_EQ(load("circle.dxf", head + "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n" + tail).size(), 36u);
 }
 
-/// Counts and angles that a hostile or broken DXF may state.
+/// The counts and angles are those of a hostile or broken DXF.
 TEST_F(PlanFiles, CountsAndAnglesOfADxfAreNotBelieved) {
   const std::string head = "0\nSECTION\n2\nENTITIES\n", tail = "0\nENDSEC\n0\nEOF\n";
   EXPECT_THAT(errorOf("a.dxf", head + "0\nLWPOLYLINE\n8\n0\n90\n1073741825\n" + tail),

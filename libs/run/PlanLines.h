@@ -1,5 +1,5 @@
 /// @file PlanLines.h
-/// @brief The walls of a floor plan while it is read, within bounds.
+/// @brief Collects the walls of a floor plan that is read, within bounds.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ class PlanLines {
   double length_ = 0;  // m
 };
 
-/// The walls of a DXF: LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE, in the unit of $INSUNITS (0 or none: m).
-/// Arcs become chords of at most 10 deg. Blocks (symbols of doors, furniture) and the layer OPENINGS are left
-/// out.
-/// @throws std::runtime_error if it is no ASCII DXF or has an unknown unit; InputError as PlanLines::add
+/// Reads the walls of a DXF: LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE, in the unit of $INSUNITS (0 or none:
+/// m). Arcs become chords of at most 10 deg. Blocks (symbols of doors, furniture) and the layer OPENINGS are
+/// left out.
+/// @throws std::runtime_error if it is not an ASCII DXF or has an unknown unit; InputError as PlanLines::add
 void readPlanDxf(const std::string& text, PlanLines& lines);
 
 }  // namespace hybrid_slam::run

@@ -20,14 +20,15 @@ uint32_t numberAt(std::string_view bytes, size_t at) {
   return value;
 }
 
-/// One of the smaller pictures in which an interlaced PNG file holds its pixels: every dx-th from x0 on.
+/// A pass of an interlaced PNG: a reduced picture with every dx-th pixel from x0 on.
 struct Pass {
   size_t x0, dx, y0, dy;
 };
 constexpr Pass kInterlaced[] = {{0, 8, 0, 8}, {4, 8, 0, 8}, {0, 4, 4, 8}, {2, 4, 0, 4},
                                 {0, 2, 2, 4}, {1, 2, 0, 2}, {0, 1, 1, 2}};
 
-/// Bytes of the inflated pixels, as the header claims: each row has one more, for its filter.
+/// Returns the bytes of the inflated pixels that the header claims: each row has an additional one for its
+/// filter.
 size_t pixelBytes(std::string_view header) {
   constexpr size_t kLength = 13, kMostDepth = 16, kMostKind = 6;
   if (header.size() != kLength) throw std::runtime_error("no PNG header");
@@ -52,7 +53,7 @@ size_t pixelBytes(std::string_view header) {
 
 /// The chunks that make up the pixels.
 struct Chunks {
-  std::string picture = "\x89PNG\r\n\x1a\n";  ///< without others: libpng prints what it finds wrong in them
+  std::string picture = "\x89PNG\r\n\x1a\n";  ///< without other chunks, whose errors libpng would print
   size_t pixelBytes = 0;
   std::string deflated;
 };
@@ -80,8 +81,8 @@ Chunks essentialChunks(std::string_view bytes) {
   return chunks;
 }
 
-/// Bytes that a whole zlib stream holds; stops beyond `most`. @throws std::runtime_error if it is cut or
-/// damaged
+/// Returns the size of an inflated zlib stream; stops beyond `most`.
+/// @throws std::runtime_error if it is cut or damaged
 size_t inflatedSize(const std::string& deflated, size_t most) {
   z_stream stream{};
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(deflated.data()));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Terminal.h"
+
 namespace hybrid_slam::run {
 
 Progress::Progress(size_t total, bool isQuiet)
@@ -40,7 +42,7 @@ void Progress::update(size_t done, const std::string& note) {
 }
 
 void Progress::say(const std::string& line) {
-  std::fprintf(stderr, "%s%s\n", hasBar_ ? "\r\033[K" : "", line.c_str());
+  std::fprintf(stderr, "%s%s\n", hasBar_ ? "\r\033[K" : "", onOneLine(line).c_str());
 }
 
 void Progress::finish() {

@@ -20,9 +20,9 @@ class Progress {
 
   /// @param done  of `total`; @param note  shown next to it, such as the particles' spread
   void update(size_t done, const std::string& note);
-  /// Writes a line of its own, also if quiet.
+  /// Writes a separate line, also if quiet.
   void say(const std::string& line);
-  /// Ends the bar's line.
+  /// Ends the line of the bar.
   void finish();
 
  private:

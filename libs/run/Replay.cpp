@@ -9,6 +9,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "base/Terminal.h"
 #include "readings/LogWarnings.h"
 #include "run/FilterRun.h"
 #include "run/LogSettings.h"
@@ -25,8 +26,8 @@ std::string spreadNote(const FilterStep& step) {
   return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
 }
 
-/// One run over the log, from the session if there is one. A second run that does not reach the end writes no
-/// results.
+/// Runs over the log once, from the session if there is one. A second run that does not reach the end writes
+/// no results.
 class Pass {
  public:
   Pass(Configuration& configuration, const readings::RawlogSummary& log, bool isSecond, bool isQuiet)
@@ -89,13 +90,13 @@ class Pass {
   Progress progress_;
 };
 
-/// Whether a file is in a folder.
+/// Returns whether a file is in a folder.
 bool isIn(const std::string& file, const std::string& folder) {
   std::error_code ignored;
   return !file.empty() && fs::equivalent(fs::canonical(file, ignored).parent_path(), folder, ignored);
 }
 
-/// Why a second run cannot start from the map or plan that the first started from; empty if it can.
+/// Says why a second run cannot start from the map or plan of the first; empty if it can.
 std::string missingStart(const FilterRun& run, const RunOptions& options) {
   for (const std::string& file : {options.continueFrom, options.priorPlan})
     if (isIn(file, run.folder())) return "these results may have replaced " + file;
@@ -104,7 +105,7 @@ std::string missingStart(const FilterRun& run, const RunOptions& options) {
   return {};
 }
 
-/// Whether more particles may map what this run has lost.
+/// Returns whether a run with more particles may succeed where this one failed.
 bool isRetryDue(const ReplayOutcome& outcome, const Configuration& c) {
   const auto method = c.run.method;
   return outcome.verdict.level == Verdict::Level::lost && outcome.incomplete.empty() &&
@@ -126,7 +127,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
       applyLogSettings(readLogSettings(file, configuration.input, log), configuration);
   auto run = std::make_unique<FilterRun>(configuration, start);
   for (const std::string& line : ofLog)
-    if (!isQuiet) std::cout << line << "\n" << std::flush;
+    if (!isQuiet) std::cout << onOneLine(line) << "\n" << std::flush;
   ReplayOutcome outcome =
       Pass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
   if (!isRetryDue(outcome, configuration)) return outcome;

@@ -20,13 +20,13 @@ struct ReplayOutcome {
   std::string profile;     ///< table of stage times; empty unless requested
 };
 
-/// Completes the configuration with the settings read off the log (LogSettings.h) and prints them on standard
-/// output unless quiet. Replays configuration.run.rawlog and writes the result files of doc/results.md to
+/// Completes the configuration with settings from the log (LogSettings.h), and prints them on standard output
+/// unless quiet. Replays configuration.run.rawlog and writes the result files of doc/results.md to
 /// configuration.run.output. A resumed run takes configuration, log and output from the session (Resume.h).
-/// @param stop  set externally (Ctrl-C): the run ends after the current scan and writes its results
+/// @param stop  set from outside (Ctrl-C): the run ends after the current scan and writes its results
 /// @param wantsProfile  measure stage times
 /// @throws InputError for a wrong log or output folder, or a result that cannot be written;
-///         std::runtime_error if the run ends before its first scan, and so without results
+///         std::runtime_error if the run ends before its first scan, without results
 ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atomic<bool>& stop,
                      bool wantsProfile = false);
 

@@ -68,7 +68,8 @@ TEST(Replay, ARunThatIsStoppedBeforeItsFirstScanReplacesNothing) {
   }
 }
 
-/// A straight drive to the north-east, with walls 4 m to both sides: steps of 70 m without overlap.
+/// A straight drive to the north-east in steps of 70 m, so that scans do not overlap, between walls 4 m to
+/// both sides.
 test::Log straightDrive(double length) {
   test::Log log;
   for (int i = 0; i * 70 < length; ++i) {

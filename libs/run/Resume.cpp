@@ -15,10 +15,10 @@ bool mayDiffer(const std::string& section, const std::string& key) {
 void adopt(Configuration& configuration, const SessionReader& session) {
   if (!session.hasRun())
     throw InputError("a merged map, which has no run to resume", session.file(),
-                     "expected the session of a run; --continue maps on in this map");
+                     "expected the session of a run; --continue continues its map");
   if (session.header().version != HYBRID_SLAM_VERSION)
     throw InputError("session of version " + session.header().version, session.file(),
-                     "expected version " HYBRID_SLAM_VERSION " to resume; --continue maps on in its map");
+                     "expected version " HYBRID_SLAM_VERSION " to resume; --continue continues its map");
   Configuration earlier;
   earlier.load(session.header().configuration, session.file());
   const files::Sections given = configuration.sections();

@@ -23,7 +23,7 @@ double occupancyOf(const RosMapFile& map, int grey, bool isTransparent) {
   return std::clamp((darkness - map.freeBelow) / (map.occupiedAbove - map.freeBelow), kFree, kOccupied);
 }
 
-/// Cell values of all grey values.
+/// Returns the cell value of each grey value.
 std::array<int8_t, 256> cellValues(const RosMapFile& map, bool isTransparent) {
   std::array<int8_t, 256> values{};
   for (int grey = 0; grey < 256; ++grey) {

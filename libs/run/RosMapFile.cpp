@@ -25,7 +25,7 @@ std::string textOf(const std::string& file) {
   return text;
 }
 
-/// The keys of a map.yaml.
+/// Reads the keys of a map.yaml.
 class MapKeys {
  public:
   explicit MapKeys(const std::string& file) : file_(file) {

@@ -8,7 +8,7 @@ namespace hybrid_slam::run {
 
 enum class RosMapMode { trinary, scale, raw };
 
-/// What a map.yaml says of its picture.
+/// Contents of a map.yaml.
 struct RosMapFile {
   std::string picture;  ///< path
   double resolution;    ///< m per pixel, 0.001 .. 10
@@ -18,7 +18,8 @@ struct RosMapFile {
   RosMapMode mode;
 };
 
-/// @throws InputError for a file that is no map.yaml, a wrong value, a rotated map (yaw other than 0)
+/// Reads a map.yaml.
+/// @throws InputError for any other file, a wrong value, or a rotated map (yaw other than 0)
 RosMapFile readRosMapFile(const std::string& file);
 
 }  // namespace hybrid_slam::run

@@ -22,7 +22,7 @@ using Keys = std::map<std::string, std::string>;
 
 class RosMap : public testing::Test {
  protected:
-  /// Changes keys of a valid map.yaml; those without a value are left out.
+  /// Writes a valid map.yaml with changed keys; those without a value are left out.
   std::string write(const Keys& changed) {
     Keys keys{{"image", "map.pgm"}, {"resolution", "0.05"},      {"origin", "[-0.1, 0.2, 0]"},
               {"negate", "0"},      {"occupied_thresh", "0.65"}, {"free_thresh", "0.25"}};
@@ -43,7 +43,7 @@ class RosMap : public testing::Test {
     }
     return "";
   }
-  /// Occupancies of the map's row, from left to right.
+  /// Returns the occupancies of the map's row from left to right.
   std::vector<double> row(const Keys& changed) {
     const OccupancyGrid grid = readRosMap(write(changed));
     std::vector<double> occupancies;

@@ -20,7 +20,7 @@ constexpr uint32_t kFormat = 1;
 constexpr size_t kMostBytes = size_t{1} << 33;
 const char* const kWhat = "session file (session.hslam) of hybrid-slam";
 
-/// Writes everything, to disk.
+/// Writes all bytes and syncs them to disk.
 bool writeAll(int file, const std::string& bytes) {
   for (size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);

@@ -14,11 +14,11 @@
 namespace hybrid_slam::run {
 
 inline const char* const kSessionName = "session.hslam";
-/// A checkpoint of a run that is to replace the results in its folder.
+/// Name of the checkpoint of a run that will replace the results in its folder.
 inline const char* const kCheckpointName = "checkpoint.hslam";
 
-/// What every use of a session needs. The state of the run follows in the file (FilterRun), unless the map
-/// was merged of others.
+/// The part of a session that every use needs. The state of the run follows in the file (FilterRun), unless
+/// the map was merged from others.
 struct SessionHeader {
   std::string version;                    ///< of the program that wrote it
   std::string configuration;              ///< Configuration::text()
@@ -33,14 +33,15 @@ struct SessionHeader {
   }
 };
 
-/// Writes what a session file starts with.
+/// Writes the header of a session file.
 void writeHeader(StateWriter& out, SessionHeader& header);
 
-/// Writes the bytes compressed, to disk before the name changes: a reader finds the former file or this one.
+/// Writes the compressed bytes and syncs them before the file gets its name, so that a reader finds the old
+/// file or the new one.
 /// @throws InputError if the file cannot be written
 void saveSession(const std::string& path, const std::string& bytes);
 
-/// Whether a file begins like a session.
+/// Returns whether a file begins like a session.
 bool isSession(const std::string& file);
 
 /// Reads a session file.
@@ -53,14 +54,14 @@ class SessionReader {
 
   const std::string& file() const { return file_; }
   const SessionHeader& header() const { return header_; }
-  /// Whether the state of a run follows the header, or nothing: a merged map (slam-merge).
+  /// Returns whether the state of a run follows the header; not in a merged map (slam-merge).
   bool hasRun() const { return !in_.isAtEnd(); }
-  /// Reads what follows the header: the filter's state first.
+  /// Reads the first part after the header, the filter's state.
   /// @throws InputError likewise
   void read(const std::function<void(StateReader&)>& read) {
     guarded([&] { read(in_); });
   }
-  /// The same, to the end of the file.
+  /// Likewise, to the end of the file.
   void readRest(const std::function<void(StateReader&)>& read);
 
  private:

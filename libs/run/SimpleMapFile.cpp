@@ -20,7 +20,7 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
                     const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit)
       : source_(&source), isUpdate_(&isUpdate), path_(&path), visit_(&visit) {}
 
-  /// The scans and their poses alone. MRPT 2.5.8 reads this version and no later one, 2.14.7 both.
+  /// Writes scans and poses only. MRPT 2.5.8 reads this version and no later one; 2.14.7 reads both.
   uint8_t serializeGetVersion() const override { return 1; }
   void serializeTo(mrpt::serialization::CArchive& out) const override {
     out.WriteAs<uint32_t>(std::count(isUpdate_->begin(), isUpdate_->end(), true));

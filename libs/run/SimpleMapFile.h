@@ -16,11 +16,11 @@ namespace hybrid_slam::run {
 /// Called with the pose (map frame) and the scans of each update.
 using UpdateVisitor = std::function<void(const mrpt::math::TPose2D&, const Scans&)>;
 
-/// `map.simplemap.gz`: the scans of the updates, reread from the log, at the best particle's poses (map
-/// frame, without covariance).
+/// Writes `map.simplemap.gz`: the scans of the updates, reread from the log, at the best particle's poses
+/// (map frame, without covariance).
 /// @param isUpdate  for each processed reading of the log, whether it caused an update
 /// @param path      one pose per update
-/// @param visit     reads the scans as well: the log is long to parse
+/// @param visit     called with each update's scans, to parse the log only once
 void saveSimpleMap(
     const files::OutputFolder& folder, readings::RawlogSource& source, const std::vector<bool>& isUpdate,
     const std::vector<mrpt::math::TPose2D>& path,

@@ -1,5 +1,6 @@
 /// @file StepsTable.h
-/// @brief `steps.csv`: one row per filter update; `particles.csv`: one row per particle of an update.
+/// @brief Writes `steps.csv`, one row per filter update, and `particles.csv`, one row per particle of an
+/// update.
 #pragma once
 
 #include <ostream>

@@ -1,5 +1,5 @@
 /// @file TimeLeft.h
-/// @brief Estimates how long a run still takes.
+/// @brief Estimates the remaining time of a run.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace hybrid_slam::run {
 
 /// Scans take longer as the map grows and loops close, so the time is extrapolated as a d + b d^2 of the d
-/// scans done, with b >= 0. Writing the results takes about a quarter as long again.
+/// scans done, with b >= 0. Writing the results takes about another quarter.
 class TimeLeft {
  public:
   explicit TimeLeft(size_t total) : total_(total) {}
 
   /// @param elapsed  s since the start, not less than before
-  /// @return s; nothing for the first 2 s or 2 %, which say little
+  /// @return s; empty in the first 2 s or 2 %, which say little
   std::optional<double> after(size_t done, double elapsed);
 
  private:

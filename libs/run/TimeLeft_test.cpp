@@ -7,7 +7,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// Estimates over true times left, writing included, at 5 %, 10 %, ... of 1000 scans.
+/// Ratios of estimated to true times left, writing included, at 5 %, 10 %, ... of 1000 scans.
 /// @param timeOf  s, from the number of scans
 std::vector<double> ratios(const std::function<double(double)>& timeOf) {
   TimeLeft left(1000);

@@ -1,5 +1,5 @@
 /// @file TrajectoryRecorder.h
-/// @brief A pose for every scan, also for those between two updates of the filter.
+/// @brief Records a pose for every scan, also between two updates of the filter.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -17,13 +17,13 @@ class TrajectoryRecorder {
   /// @param updates  number of filter updates after this scan
   void add(double timestamp, const mrpt::math::TPose2D& motion, size_t updates);
 
-  /// The pose of every scan: at an update, the filter's; between two, odometry from the previous update, with
-  /// the closing error spread evenly over the scans up to the next; before the first and after the last,
-  /// odometry alone.
+  /// Returns the pose of every scan: at an update, the filter's; between two, odometry from the previous
+  /// update, with the closing error spread evenly over the scans up to the next; before the first and after
+  /// the last, odometry alone.
   /// @param path  one pose per update (map frame)
   files::Trajectory trajectory(const std::vector<mrpt::math::TPose2D>& path) const;
 
-  /// For each scan, the number of updates up to it.
+  /// Returns the number of updates up to each scan.
   std::vector<size_t> updates() const;
 
   double distance() const { return distance_; }  ///< m, along the odometry

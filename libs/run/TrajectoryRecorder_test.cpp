@@ -20,7 +20,8 @@ void expectPoses(const files::Trajectory& trajectory, const std::vector<TPose2D>
   }
 }
 
-/// Scans at 10 s, 11 s, ... each 1 m ahead of the one before; `updates` after each.
+/// Records scans at 10 s, 11 s, ..., each 1 m ahead of the previous one, with the number of `updates` after
+/// each.
 TrajectoryRecorder straight(const std::vector<size_t>& updates) {
   TrajectoryRecorder recorder;
   for (size_t i = 0; i < updates.size(); ++i)

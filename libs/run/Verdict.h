@@ -28,7 +28,7 @@ struct Verdict {
   std::string line() const;
 };
 
-/// What a verdict is based on.
+/// Evidence that a verdict is based on.
 struct Evidence {
   std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
   std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before

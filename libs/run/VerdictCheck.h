@@ -1,5 +1,5 @@
 /// @file VerdictCheck.h
-/// @brief Which scans a verdict compares, and the evidence that they give.
+/// @brief Chooses the scans that a verdict compares, and collects their evidence.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace hybrid_slam::run {
 
-/// Scans are compared with what was mapped this much path before, m.
+/// Scans are compared with the map from this much path (m) before.
 constexpr double kReturning = 20, kRecent = 2;
 
 /// Chooses the scans to compare along a path: one every 0.5 m or 30 deg.
@@ -41,8 +41,8 @@ class VerdictCheck {
   size_t updates_ = 0;
 };
 
-/// The scans to compare of a run that goes on, whose path may still change: about 2 kB for each metre of the
-/// path. Copies share them.
+/// The scans to compare in an ongoing run, whose path may still change: about 2 kB per metre of path. Copies
+/// share them.
 class ComparedScans {
  public:
   /// @param pose    of the best particle at an update, map frame
@@ -65,13 +65,13 @@ class ComparedScans {
   ComparisonSteps steps_;
 };
 
-/// The verdict on the map of a run that goes on.
+/// The verdict on the map of an ongoing run.
 class RunningVerdict {
  public:
   /// Call it after each update of a filter that maps. @param scans  of the update
   void add(const FilterView& view, const Scans& scans);
-  /// On the map as it is now: a function to be called in any thread, which takes 30 ms to 70 ms for a km of
-  /// path.
+  /// Returns a function that judges the current map. Any thread may call it; it takes 30 ms to 70 ms per km
+  /// of path.
   std::function<Verdict()> judge(const FilterView& view) const;
 
  private:

@@ -9,8 +9,8 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// The evidence of three laps on a path: collected along it, and collected along another one of the same
-/// length and judged by it.
+/// The evidence of three laps on a path: collected along it, and collected along another path of the same
+/// length but judged by this one.
 struct Both {
   Evidence final, soFar;
 };

@@ -76,7 +76,7 @@ void PioneerOdometry::connect() {
   serial_->setTimeouts(1, 0, 20, 1, 20);
 }
 
-/// The robot echoes each SYNC; the last answer also holds its name, type and subtype.
+/// Connects. The robot echoes each SYNC; the last answer also holds its name, type and subtype.
 void PioneerOdometry::shakeHands() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     uint8_t step = live::arcos::sync0;
@@ -121,7 +121,7 @@ void PioneerOdometry::doProcess() {
   if (secondsSince(lastSip_) > kSilence) throw std::runtime_error("the robot is silent");
 }
 
-/// A noisy line must not flood the log: report the 1st, 2nd, 4th, 8th ... damaged packet.
+/// Reports the 1st, 2nd, 4th, 8th ... damaged packet, so that a noisy line does not flood the log.
 void PioneerOdometry::tellOfDamage(size_t before) {
   for (size_t n = before + 1; n <= decoder_.damaged(); ++n)
     if ((n & (n - 1)) == 0) MRPT_LOG_WARN_STREAM("damaged packets skipped: " << n << " so far");

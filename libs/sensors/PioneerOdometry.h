@@ -31,8 +31,8 @@ struct PioneerOptions : Options {
 
 /// `driver = PioneerOdometry`: a Pioneer 2/3, AmigoBot or PowerBot on a serial port or TCP.
 ///
-/// Sends SYNC0, SYNC1, SYNC2, OPEN, then PULSE every second (the robot's watchdog takes two), CLOSE at the
-/// end. Each server information packet (ten per second) becomes a CObservationOdometry, timestamped on
+/// Sends SYNC0, SYNC1, SYNC2, OPEN, then PULSE every second (the robot's watchdog allows two), and CLOSE at
+/// the end. Each server information packet (ten per second) becomes a CObservationOdometry, timestamped on
 /// arrival. Any connection fault throws; the caller recreates the sensor.
 class PioneerOdometry : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COutputLogger {
   DEFINE_GENERIC_SENSOR(PioneerOdometry)

@@ -28,13 +28,13 @@ using mrpt::obs::CObservation;
 constexpr double kShortestPause = 0.2, kLongestPause = 10;  // s
 std::atomic<size_t> countLeftBehind{0};
 
-/// CLMS100Eth returns scans without beams once its connection is lost.
+/// Detects the scans without beams that CLMS100Eth returns once its connection is lost.
 bool isEmptyScan(const CObservation& observation) {
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
   return scan && scan->getScanSize() == 0;
 }
 
-/// Whether an IPv4 address is this machine's, or reachable from the local network alone (RFC 1918,
+/// Returns whether an IPv4 address is this machine's, or reachable only from the local network (RFC 1918,
 /// link-local).
 bool isPrivate(const std::string& address) {
   in_addr ip{};
@@ -44,7 +44,7 @@ bool isPrivate(const std::string& address) {
          bits >> 16 == 0xA9FE;
 }
 
-/// MRPT's driver reads past its buffer if the device sends noise (doc/security.md).
+/// Rejects public addresses: MRPT's driver reads past its buffer if the device sends noise (doc/security.md).
 void checkLaserAddress(const mrpt::config::CConfigFileMemory& config, const std::string& section) {
   const std::string address = config.read_string(section, "ip_address", "192.168.0.1");
   if (isPrivate(address) || config.read_bool(section, "trust_address", false)) return;

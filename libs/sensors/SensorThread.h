@@ -40,7 +40,7 @@ class ObservationInbox {
 class SensorThread {
  public:
   /// @param timeout  s without an observation until the driver is recreated
-  /// @throws InputError for an unknown driver, or one that rejects the section's settings
+  /// @throws InputError for an unknown driver, or if the driver rejects the section's settings
   SensorThread(const mrpt::config::CConfigFileMemory& config, const std::string& section, double timeout,
                std::shared_ptr<ObservationInbox> inbox, std::shared_ptr<live::EventLog> log);
   void start();

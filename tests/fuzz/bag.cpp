@@ -14,7 +14,7 @@
 
 using namespace hybrid_slam;
 
-/// SQLite needs a file with a name.
+/// Opens the input as a file with a name, which SQLite needs.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const std::string path = "/dev/shm/fuzz-bag-" + std::to_string(getpid());
   std::ofstream(path, std::ios::binary)

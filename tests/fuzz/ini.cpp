@@ -1,5 +1,5 @@
 /// @file ini.cpp
-/// @brief Configuration files, and what is written of them.
+/// @brief Configuration files, and their saved form.
 
 #include "MemoryFile.h"
 #include "base/Errors.h"

@@ -26,7 +26,7 @@ std::string chunk(const std::string& type, const std::string& content) {
              ::crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())));
 }
 
-/// A PNG file with this header and these pixels: no mutation finds a checksum.
+/// Makes a PNG file with this header and these pixels, since mutations do not find valid checksums.
 std::string pngOf(const std::string& bytes) {
   constexpr size_t kHeader = 13;
   const std::string pixels = bytes.size() > kHeader ? bytes.substr(kHeader) : "";

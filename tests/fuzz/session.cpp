@@ -1,5 +1,5 @@
 /// @file session.cpp
-/// @brief Session files, from their bytes after decompression to a run that goes on.
+/// @brief Session files, from their decompressed bytes to a run that continues.
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 

@@ -1,5 +1,5 @@
 /// @file wire.cpp
-/// @brief What a server may send: messages, and the frames in those that pass the checksum.
+/// @brief The bytes of a server: messages, and the frames in those that pass the checksum.
 
 #include <exception>
 #include <string>

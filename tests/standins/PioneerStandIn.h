@@ -43,7 +43,7 @@ class PioneerStandIn : public StandIn {
   live::arcos::Decoder decoder_;
   int synced_ = 0;  ///< steps of the handshake done
   bool isOpen_ = false;
-  mrpt::math::TPose2D start_;  ///< where the counters were last zero
+  mrpt::math::TPose2D start_;  ///< pose at which the counters were last zero
   Clock::time_point lastSip_{};
   mutable std::mutex mutex_;
   std::set<int> commands_;

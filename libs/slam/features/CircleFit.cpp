@@ -8,7 +8,7 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-/// (x, y, radius) about the mean of the points.
+/// (x, y, radius), relative to the mean of the points.
 using Circle = Eigen::Vector3d;
 
 TPoint2D meanOf(PointRange points) {
@@ -17,7 +17,7 @@ TPoint2D meanOf(PointRange points) {
   return mean * (1.0 / static_cast<double>(points.size()));
 }
 
-/// a (x^2 + y^2) + b x + c y + d = 0 of least squares under Taubin's constraint: the eigenvector of the
+/// Fits a (x^2 + y^2) + b x + c y + d = 0 by least squares under Taubin's constraint: the eigenvector of the
 /// normalised moments with the least eigenvalue (Chernov 2010).
 std::optional<Circle> taubin(PointRange points, const TPoint2D& mean) {
   double meanSquare = 0;

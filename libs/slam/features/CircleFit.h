@@ -13,12 +13,14 @@ struct FittedCircle {
   mrpt::math::TPoint2D centre;  ///< m
   double radius = 0;            ///< m
   double squares = 0;           ///< sum of the squared distances of the points from the circle, m^2
-  /// (J^T J)^-1 of the distances by centre and radius: their covariance for distances of variance 1.
+  /// (J^T J)^-1 with J the derivative of the distances by centre and radius: the covariance of these for
+  /// distances of variance 1.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
 };
 
-/// The algebraic fit of Taubin (1991), which is nearly unbiased also for short arcs, improved by Gauss-Newton
-/// steps of the distances. Empty for fewer than four points, points on a line, or steps that diverge.
+/// Fits a circle by Taubin's algebraic method (1991), which is nearly unbiased also for short arcs, and
+/// refines it by Gauss-Newton on the distances. Empty for fewer than four points, points on a line, or
+/// divergence.
 std::optional<FittedCircle> fitCircle(PointRange points);
 
 }  // namespace hybrid_slam

@@ -19,8 +19,10 @@ Eigen::Vector2d innovation(const PointFeature& seen, const PointFeature& known) 
 }  // namespace
 
 void FeatureOptions::describe(OptionTable& table) {
-  table.add("enabled", enabled, "weigh corners and arcs of the scan by the particle's map of them");
-  table.add("min_wall", minWall, 0.1, 100, "m", "shortest visible wall at a corner");
+  table.add("enabled", enabled,
+            "weigh particles by how the scan's corners, wall ends and arcs agree with their map");
+  table.add("wall_ends", wallEnds, "ends of walls at openings are features too");
+  table.add("min_wall", minWall, 0.05, 100, "m", "shortest visible wall at a corner or wall end");
   table.add("max_radius", maxRadius, 0, 100, "m",
             "largest radius of an arc (pillar, round hall); 0: no arcs");
   table.add("sigma", sigma, 0.001, 10, "m",
@@ -35,7 +37,9 @@ std::optional<double> matchDistance(const PointFeature& seen, const PointFeature
   if (seen.kind != known.kind) return std::nullopt;
   const Eigen::Vector2d off = innovation(seen, known);
   if (std::abs(off.x()) > kFarthest || std::abs(off.y()) > kFarthest) return std::nullopt;
-  if (seen.isCorner()) {
+  // A bound of the last check, by the traces instead of the largest eigenvalue: most pairs end here.
+  if (off.squaredNorm() > kGate * (seen.covariance.trace() + known.covariance.trace())) return std::nullopt;
+  if (!seen.isArc()) {
     if (std::abs(std::remainder(seen.direction - known.direction, 2 * M_PI)) > M_PI / 4) return std::nullopt;
   } else {
     const double error = kRadiusError * known.radius;

@@ -24,12 +24,12 @@ struct MapFeature : PointFeature {
   }
 };
 
-/// Squared Mahalanobis distance of two observations of one feature, or of an observation and a feature. Empty
-/// if they cannot be the same: kinds differ, directions of corners differ by more than 45 deg, or radii or
-/// positions by more than three standard deviations.
+/// Returns the squared Mahalanobis distance between two observations of one feature, or an observation and a
+/// feature. Empty if they cannot be the same: kinds differ, directions of corners differ by more than 45 deg,
+/// or radii or positions by more than three standard deviations.
 std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known);
 
-/// The Kalman update of a feature by an observation.
+/// Updates a feature by an observation (Kalman).
 MapFeature merged(const MapFeature& feature, const PointFeature& seen);
 
 /// The features of one particle, in the map frame.
@@ -37,12 +37,12 @@ class FeatureDatabase {
  public:
   /// Merges each observation into the feature that it matches best, or inserts it. Every pruneInterval steps,
   /// removes features seen fewer than minCount times, except those younger than pruneInterval steps.
-  /// @param seen  map frame, with the errors of the pose (`withModelError`)
+  /// @param seen  map frame; covariance includes the pose error (`withModelError`)
   void update(const std::vector<PointFeature>& seen, const FeatureOptions& options);
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// The closest match among the features observed at least `minCount` times, or null.
+  /// Returns the closest match among the features observed at least `minCount` times, or null.
   const MapFeature* closestMatch(const PointFeature& seen, int minCount = 1) const;
 
   template <class State>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "testing/TestScans.h"
@@ -30,7 +31,7 @@ std::vector<PointFeature> featuresOf(const LaserScan& scan) {
   return detectFeatures(scan, LineExtractionOptions(), FeatureOptions());
 }
 
-/// The only feature within 0.3 m of a point; empty unless there is exactly one.
+/// Returns the only feature within 0.3 m of a point; empty unless there is exactly one.
 std::optional<PointFeature> featureAt(const std::vector<PointFeature>& features, const TPoint2D& point) {
   std::optional<PointFeature> found;
   for (const PointFeature& feature : features)
@@ -62,7 +63,63 @@ TEST(FeatureDetection, CornersOfARoomAreWhereTheWallsMeet) {
     EXPECT_NEAR(std::remainder(found->direction + M_PI / 2 - corner.direction * kDegree, 2 * M_PI), 0,
                 5 * kDegree);
   }
-  for (const PointFeature& feature : features) EXPECT_TRUE(feature.isCorner());
+  for (const PointFeature& feature : features) EXPECT_FALSE(feature.isArc());
+}
+
+/// A corridor with a pillar 0.3 m deep and 0.5 m wide at one wall and a door frame 0.15 m deep and 0.9 m wide
+/// at the other.
+const Walls kCorridor = polygon({{-20, -1.25},
+                                 {5, -1.25},
+                                 {5, -0.95},
+                                 {5.5, -0.95},
+                                 {5.5, -1.25},
+                                 {20, -1.25},
+                                 {20, 1.25},
+                                 {4.4, 1.25},
+                                 {4.4, 1.4},
+                                 {3.5, 1.4},
+                                 {3.5, 1.25},
+                                 {-20, 1.25}});
+
+TEST(FeatureDetection, PillarsAndDoorFramesOfACorridorShow) {
+  constexpr int kScans = 50;
+  int pillar = 0, frame = 0;
+  for (uint64_t seed = 1; seed <= kScans; ++seed) {
+    const TPose2D robot(static_cast<double>(seed) * 0.05, 0, 0);
+    const auto features = featuresOf(scanAt(kCorridor, robot, 0.012, seed));
+    const auto shows = [&](const TPoint2D& at) {
+      return std::any_of(features.begin(), features.end(), [&](const PointFeature& feature) {
+        return (robot.composePoint(feature.position) - at).norm() < 0.05;
+      });
+    };
+    pillar += shows({5, -0.95});
+    frame += shows({4.4, 1.25}) || shows({3.5, 1.25});
+  }
+  EXPECT_GE(pillar, 0.8 * kScans);
+  EXPECT_GE(frame, 0.8 * kScans);
+}
+
+TEST(FeatureDetection, AWallEndsWhereTheLaserSeesFarther) {
+  // An opening from (1, 2) to (2, 2); the wall behind it is partly hidden by its edges.
+  const Walls walls{{{-3, 2}, {1, 2}}, {{2, 2}, {5, 2}}, {{-3, 6}, {10, 6}}};
+  const auto features = featuresOf(scanAt(walls, {0, 0, 0}, 0));
+  ASSERT_EQ(features.size(), 2u);  // not the ends of what is visible of the wall behind
+  for (const PointFeature& end : features) {
+    EXPECT_EQ(end.kind, FeatureKind::wallEnd);
+    const bool isRight = end.position.x > 1.5;
+    const Eigen::Vector2d off(end.position.x - (isRight ? 2 : 1), end.position.y - 2);
+    EXPECT_LT(std::abs(off.x()), 2 * std::sqrt(end.covariance(0, 0)));
+    EXPECT_LT(std::abs(off.y()), 1e-6);
+    EXPECT_GT(end.covariance(0, 0), end.covariance(1, 1)) << "between two beams";
+    EXPECT_NEAR(std::remainder(end.direction - (isRight ? 0 : M_PI), 2 * M_PI), 0, 1e-6);
+  }
+}
+
+TEST(FeatureDetection, AWallThatTheLaserLosesHasNoEnd) {
+  LaserScan scan = scanAt({{{-3, 2}, {5, 2}}, {{-3, 6}, {10, 6}}}, {0, 0, M_PI / 2}, 0);
+  EXPECT_TRUE(featuresOf(scan).empty()) << "beyond the end nothing is seen";
+  scan.beams[300].valid = false;
+  EXPECT_TRUE(featuresOf(scan).empty());
 }
 
 TEST(FeatureDetection, ABuildingsCornerIsConvex) {

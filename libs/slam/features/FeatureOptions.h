@@ -9,10 +9,11 @@ namespace hybrid_slam {
 /// Section [features].
 struct FeatureOptions : Options {
   bool enabled = false;
-  double minWall = 0.3;   ///< m
+  bool wallEnds = true;
+  double minWall = 0.1;   ///< m
   double maxRadius = 15;  ///< m
-  double sigma = 0.02;    ///< m
-  double floor = 0.1;
+  double sigma = 0.007;   ///< m
+  double floor = 0.001;
   int minCount = 3;
   int pruneInterval = 10;
 

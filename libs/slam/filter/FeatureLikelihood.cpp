@@ -10,7 +10,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-/// Derivative of a point that the robot sees at `at` (map frame) by the robot's pose.
+/// Derivative of a point seen at `at` (map frame) with respect to the robot's pose.
 Eigen::Matrix<double, 2, 3> derivative(const TPoint2D& at, const TPose2D& pose) {
   Eigen::Matrix<double, 2, 3> byPose;
   byPose << 1, 0, pose.y - at.y, 0, 1, at.x - pose.x;
@@ -26,7 +26,7 @@ FeatureLikelihood::FeatureLikelihood(const std::vector<PointFeature>& seen, cons
   const auto& known = database.features();
   const auto isUsed = [&](const MapFeature& feature) { return feature.count >= options.minCount; };
   if (seen.empty() || std::none_of(known.begin(), known.end(), isUsed)) return;
-  share_ = 1 / static_cast<double>(seen.size());
+  share_ = 1 / std::sqrt(static_cast<double>(seen.size()));
   for (const PointFeature& feature : seen) {
     PointFeature there = transformed(feature, predicted);
     const Eigen::Matrix2d covariance = there.covariance;

@@ -1,5 +1,5 @@
 /// @file FeatureLikelihood.h
-/// @brief Likelihood of a scan's corners and arcs given a particle's pose.
+/// @brief Likelihood of a scan's corners, wall ends and arcs given a particle's pose.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,15 @@
 
 namespace hybrid_slam {
 
-/// ln p(features | pose, feature database), up to a constant:  1/n sum_i ln max(exp(-d_i^2 / 2), floor),  d_i
-/// the Mahalanobis distance of the i-th of n features from the one of the database that it matches at the
-/// predicted pose; features without match count as the floor, so that no pose gains by losing a match. In
-/// [ln floor, 0], so no scan can kill a particle; 0 if no feature was seen or none is known. Unlike lines,
-/// features inform of the position in all directions.
+/// ln p(features | pose, feature database), up to a constant:
+///
+///   1/sqrt(n) sum_i ln max(exp(-d_i^2 / 2), floor),
+///
+/// d_i the Mahalanobis distance of the i-th of n features from the one of the database that it matches at the
+/// predicted pose. The features of a scan share errors, of the map and of the walls that meet in them, so n
+/// of them weigh as much as sqrt(n) independent ones. Features without match count as the floor, so that no
+/// pose gains by losing a match. The value is in [sqrt(n) ln floor, 0]; it is 0 if no feature was seen or
+/// none is known. Unlike lines, features determine the position in all directions.
 class FeatureLikelihood {
  public:
   /// @param seen         robot frame, with the errors of the pose (`withModelError`)
@@ -32,9 +36,9 @@ class FeatureLikelihood {
     Eigen::Matrix2d information;       ///< of their difference, map frame, at the predicted pose
   };
   std::vector<Match> matches_;
-  double share_ = 0;        ///< 1/n
+  double share_ = 0;        ///< 1/sqrt(n)
   double mostSquares_ = 0;  ///< d^2 at the floor
-  double unmatched_ = 0;    ///< what the features without match contribute
+  double unmatched_ = 0;    ///< contribution of the features without match
 };
 
 }  // namespace hybrid_slam

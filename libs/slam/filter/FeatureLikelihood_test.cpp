@@ -53,6 +53,18 @@ TEST(FeatureLikelihood, InformsOfThePositionInAllDirectionsAndTheHeading) {
   EXPECT_NEAR(information(0, 2), -3 * std::sin(kPose.phi) * one, 1e-6);
 }
 
+TEST(FeatureLikelihood, FourFeaturesWeighAsMuchAsTwoIndependentOnes) {
+  const std::vector<TPoint2D> places{{3, 1}, {2, -1}, {6, 4}, {1, -5}};
+  std::vector<PointFeature> seen;
+  for (const TPoint2D& at : places) seen.push_back(cornerAt(at));
+  const TPose2D off(kPose.x + 0.1, kPose.y, kPose.phi);
+  const double one =
+      FeatureLikelihood({seen[0]}, off, kCertain, databaseOf({places[0]}), FeatureOptions())(off).value;
+  const double four = FeatureLikelihood(seen, off, kCertain, databaseOf(places), FeatureOptions())(off).value;
+  EXPECT_LT(one, -0.1);
+  EXPECT_NEAR(four, 2 * one, 1e-9);
+}
+
 TEST(FeatureLikelihood, WithoutKnownFeaturesItIsNeutral) {
   const FeatureOptions options;
   const auto expectNeutral = [&](const std::vector<PointFeature>& seen, const FeatureDatabase& database) {
@@ -76,10 +88,10 @@ TEST(FeatureLikelihood, NoPoseGainsByLosingAMatch) {
     const TPose2D pose(kPose.x + off, kPose.y, kPose.phi);
     const double value = FeatureLikelihood(seen, pose, kCertain, database, options)(pose).value;
     EXPECT_LE(value, last + 1e-12) << off;
-    EXPECT_GE(value, std::log(options.floor) - 1e-12);
+    EXPECT_GE(value, std::sqrt(3) * std::log(options.floor) - 1e-12);
     last = value;
   }
-  EXPECT_NEAR(last, std::log(options.floor), 1e-9);
+  EXPECT_NEAR(last, std::sqrt(3) * std::log(options.floor), 1e-9);
 }
 
 TEST(FeatureLikelihood, AnUncertainPoseWidensTheGateButNotTheGaussian) {

@@ -8,8 +8,8 @@ namespace hybrid_slam {
 void ParticleFilterOptions::describe(OptionTable& t) {
   using mrpt::bayes::CParticleFilter;
   t.add("particles", particles, 0, 100000, "number of particles; 0: adaptive, as many as the spread needs");
-  t.add("min_particles", minParticles, 1, 100000, "smallest number of particles, if it is adaptive");
-  t.add("max_particles", maxParticles, 1, 100000, "largest number of particles, if it is adaptive");
+  t.add("min_particles", minParticles, 1, 100000, "minimum number of particles, if adaptive");
+  t.add("max_particles", maxParticles, 1, 100000, "maximum number of particles, if adaptive");
   t.add("proposal", proposal,
         {{Proposal::standard, "standard"},
          {Proposal::improved, "improved"},

@@ -41,7 +41,7 @@ struct ParticleFilterOptions : Options {
   bool isAuxiliary() const {
     return proposal == Proposal::auxiliaryStandard || proposal == Proposal::auxiliaryOptimal;
   }
-  /// For filters whose number of particles is fixed.
+  /// Returns the number of particles for filters that cannot adapt it.
   int fixedParticles() const { return isAdaptive() ? maxParticles : particles; }
   void describe(OptionTable& table) override;
 };
@@ -91,10 +91,10 @@ struct FilterConfiguration {
     return usesMatches() ? UpdateInterval{improved.updateDistance, improved.updateAngle}
                          : UpdateInterval{filter.updateDistance, filter.updateAngle};
   }
-  /// Without grids there is nothing to match scans to, nor to close loops with.
+  /// Returns whether scans are matched to grids, which the improved proposal and loop closing need.
   bool usesMatches() const { return useGrid && filter.proposal == ParticleFilterOptions::Proposal::improved; }
   bool closesLoops() const { return useGrid && loopClosing.enabled; }
-  /// To close loops with; without grids, to show and save a map of them.
+  /// Returns whether scans are kept: to close loops, or to make a map of them where particles have no grids.
   bool keepsScans() const { return closesLoops() || !useGrid; }
   /// Settings of the particles' line databases.
   LineDatabaseOptions databaseOptions() const {

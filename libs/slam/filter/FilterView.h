@@ -54,7 +54,7 @@ struct FilterStep {
   double logLikelihood = 0;
   /// @}
 
-  /// Without `loop`, `odometry` and `motions`, which the next step replaces.
+  /// Omits `loop`, `odometry` and `motions`, which the next step replaces.
   template <class State>
   void visit(State& state) {
     state(particles, ess, resampled, stdX, stdY, stdPhi, stdAlong, stdAcross, gridWeight, lineWeight,
@@ -65,14 +65,14 @@ struct FilterStep {
 /// Stores the weighted poses and their spreads, with axes along and across `heading`.
 void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double heading);
 
-/// What a filter in a fixed map knows of the place of the robot.
+/// Knowledge of the robot's place, for a filter in a fixed map.
 struct Place {
-  bool isKnown = false;   ///< else several places are possible, or none fits
-  bool wasKnown = false;  ///< earlier: the robot was carried elsewhere, or the surroundings have changed
+  bool isKnown = false;   ///< false: several places are possible, or none fits
+  bool wasKnown = false;  ///< earlier: the robot was carried away, or the surroundings have changed
   size_t hypotheses = 0;  ///< places considered while it is unknown
 };
 
-/// A short text for the user, such as "searching the start: 12 hypotheses".
+/// Returns a short text for the user, such as "searching the start: 12 hypotheses".
 std::string describe(const Place& place);
 
 /// Read access common to our filter and MRPT's.
@@ -88,7 +88,7 @@ class FilterView {
   /// The best particle's line database; empty for a filter without lines.
   virtual std::vector<DatabaseLine> bestLines() const = 0;
   virtual std::vector<WeightedPose> particlePoses() const = 0;
-  /// The place of the robot as a filter in a fixed map knows it; empty for a filter that maps.
+  /// Returns what a filter in a fixed map knows of the robot's place; empty for a filter that maps.
   virtual std::optional<Place> place() const { return std::nullopt; }
 
   /// Times (s) of the stages of an update; off by default, negligible cost.

@@ -23,39 +23,40 @@ class HybridFilter : public Filter {
 
   size_t updates() const override { return updates_; }
   const FilterStep& lastStep() const override { return particles_.lastStep(); }
-  /// One pose for each update.
+  /// Returns one pose for each update.
   std::vector<mrpt::math::TPose2D> bestPath() const override;
   mrpt::maps::COccupancyGridMap2D bestGrid() const override;
   std::vector<DatabaseLine> bestLines() const override;
   std::vector<WeightedPose> particlePoses() const override { return particles_.poses(); }
   /// The odometry since the last update.
   const mrpt::math::TPose2D& odometry() const { return odometry_; }
-  /// Map of the best particle; without grids, its cells are those of the scans of the updates along its path.
+  /// Map of the best particle. Without grids, its cells are made from the scans along its path.
   ScanMap bestMap() const { return {bestOccupancy(), *particles_.best().lines, *particles_.best().features}; }
 
-  /// Keeps the scans at least until `joinMap`.
+  /// Keeps the scans until `joinMap` or longer.
   void expectMap() { remembersScans_ = true; }
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that
   /// map.
-  /// @param pose  of the robot now (m, rad), in that map: path and scans so far move with it
+  /// @param pose  current pose of the robot (m, rad), in that map; path and scans so far are transformed
+  /// accordingly
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   /// The map of `joinMap`.
   const std::optional<ScanMap>& base() const { return base_; }
 
   /// The scans of each update if the configuration keepsScans(); else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
-  /// Whether the map holds nothing else than these.
+  /// Returns whether the map consists of these scans only.
   bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }
 
-  /// @name The whole state (base/State.h). A filter that reads it goes on to the same bytes.
+  /// @name The whole state (base/State.h). A filter that loads it gives the same bytes as the saved one.
   /// @{
   void save(StateWriter& out);
-  /// @throws StateError; the filter is then unusable
+  /// @throws StateError; the filter is unusable then
   void load(StateReader& in);
   /// @}
 
  protected:
-  /// Discards the maps: all particles at the origin.
+  /// Discards the maps and places all particles at the origin.
   void reset();
   /// Puts scans taken at a known pose into every particle's map, before the first update.
   void insertAt(const mrpt::math::TPose2D& pose, const Scans& scans);

@@ -35,7 +35,7 @@ FilterConfiguration configuration(ParticleFilterOptions::Proposal proposal) {
   return c;
 }
 
-/// Reads the state after `step` poses into another filter; both go on to the end.
+/// Loads the state after `step` poses into another filter, and expects the same end from both.
 void expectSameEnd(const FilterConfiguration& c, const Drive& drive, size_t step) {
   HybridFilter whole(c), first(c), second(c);
   process(whole, drive, 0, drive.size());
@@ -103,7 +103,7 @@ TEST(HybridFilterState, CutBytesAreAnError) {
   }
 }
 
-/// Either an error, or a filter that works.
+/// Damaged bytes give either an error or a filter that works.
 TEST(HybridFilterState, DamagedBytesDoNoHarm) {
   Drive drive = ringDrive(0);
   drive.resize(12);

@@ -19,7 +19,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilt
   void initialize(const mrpt::maps::CSimpleMap& initialMap = mrpt::maps::CSimpleMap(),
                   const mrpt::poses::CPosePDF* x0 = nullptr) override;
 
-  /// HybridFilter::process with the odometry of `action` and all 2D scans of `observations`.
+  /// Calls HybridFilter::process with the odometry of `action` and all 2D scans of `observations`.
   /// @throws InputError if the action holds no odometry
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
@@ -37,8 +37,8 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilt
   /// The best particle's path, one pose per update.
   void getCurrentMostLikelyPath(std::deque<mrpt::math::TPose3D>& path) const;
 
-  /// Whether the scans of later updates are kept for getCurrentlyBuiltMap (default: yes); memory then grows
-  /// with the log.
+  /// Sets whether the scans of later updates are kept for getCurrentlyBuiltMap (default: yes); memory then
+  /// grows with the log.
   void rememberScans(bool remember) { remembersScans_ = remember; }
 
  private:
@@ -48,7 +48,7 @@ class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilt
   mutable mrpt::maps::CMultiMetricMap metricMap_;
 };
 
-/// The 2D scans of a sensory frame, in its order.
+/// Returns the 2D scans of a sensory frame in its order.
 Scans scansOf(const mrpt::obs::CSensoryFrame& observations);
 
 }  // namespace hybrid_slam

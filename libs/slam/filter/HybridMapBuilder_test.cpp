@@ -15,7 +15,7 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CSensoryFrame;
 using Proposal = ParticleFilterOptions::Proposal;
 
-/// The odometry increment and no scan.
+/// Passes an odometry increment without a scan.
 void feedOdometry(HybridMapBuilder& builder, const TPose2D& odometry) {
   auto action = test::actionOf(odometry);
   CSensoryFrame nothing;
@@ -32,7 +32,7 @@ void expectPose(const TPose2D& pose, const TPose2D& expected, double tolerance) 
   EXPECT_NEAR(std::remainder(pose.phi - expected.phi, 2 * M_PI), 0, tolerance);
 }
 
-/// Whether a cell within 10 cm of the point is more likely occupied than not.
+/// Returns whether a cell within 10 cm of the point is more likely occupied than not.
 bool isWallAt(const mrpt::maps::COccupancyGridMap2D& grid, double x, double y) {
   for (double dx = -0.1; dx <= 0.1; dx += 0.05)
     for (double dy = -0.1; dy <= 0.1; dy += 0.05)
@@ -254,7 +254,7 @@ TEST(HybridMapBuilder, InitializeRestarts) {
   EXPECT_EQ(builder.bestPath(), fresh.bestPath());  // nothing of the first run is left
 }
 
-/// MRPT's builder does the same: the new map holds the scans of the old one.
+/// Like MRPT's builder: the new map holds the scans of the old one.
 TEST(HybridMapBuilder, ContinuesFromAMapOfScans) {
   const auto steps = test::drive(4);
   HybridMapBuilder first(test::roomConfiguration());

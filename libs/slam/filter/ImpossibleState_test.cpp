@@ -19,7 +19,7 @@ using mrpt::math::TPose2D;
 constexpr int kLeast = std::numeric_limits<int>::min(), kMost = std::numeric_limits<int>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Whether the written values are read as `value`.
+/// Returns whether the written values can be read as `value`.
 template <class T, class... Written>
 bool canRead(T value, Written... written) {
   std::string bytes;

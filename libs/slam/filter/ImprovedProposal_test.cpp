@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
-/// The motion of the robot beyond what its odometry says.
+/// The robot's motion in addition to its odometry.
 const TPose2D kMore(0.01, -0.008, 0.01);
 const StepMotion kMotion{kOdometry, kOdometry, false};
 
@@ -101,7 +101,7 @@ TEST_P(ImprovedProposals, TheWeightIsTheIntegralOfTheTarget) {
   }
 }
 
-/// The same integral from poses of the motion model, which makes both kinds of particles comparable.
+/// Poses of the motion model give the same integral, so both kinds of particles are comparable.
 TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
   FilterConfiguration c = configuration(GetParam());
   c.improved.minFit = 1;

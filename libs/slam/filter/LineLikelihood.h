@@ -9,7 +9,7 @@
 
 namespace hybrid_slam {
 
-/// What LineLikelihood uses of the settings.
+/// Settings of LineLikelihood.
 struct LineLikelihoodOptions {
   explicit LineLikelihoodOptions(const FilterConfiguration& configuration);
   LineWeightOptions weight;  ///< with the improved proposal's line_sigma
@@ -24,8 +24,8 @@ struct LineLikelihoodOptions {
 ///   database's directions: ln w_line over these lines alone.
 /// - A line of a known wall is compared with it, by its angle and its midpoint's distance:
 ///   - l / L min(angle^2 / sigma^2 + distance^2 / sigma_rho^2, 9) / 2, l its length and L that of all lines.
-///   Its direction relative to other walls is not used again: in the long run that would rotate a wall 2 deg
-///   off the others, and the map with it.
+///   Its direction relative to other walls is not used again: over time, this would rotate a wall that is
+///   2 deg off the others, and the map with it.
 ///
 /// Lines are associated once, at the predicted pose: the motion model's mean or, after a slip, the search
 /// result.

@@ -1,5 +1,5 @@
 /// @file LineMapWeight.h
-/// @brief Weight of a particle whose map is its line database alone: beams against lines.
+/// @brief Weight of a particle whose map consists only of its line database: beams against lines.
 #pragma once
 
 #include <limits>
@@ -28,8 +28,8 @@ struct ExpectedWall {
   double sine = 0;                                         ///< of the angle between beam and line
 };
 
-/// Casts the beams against the lines of a map (m, map frame). Lines farther from the robot than `reach` (m)
-/// are left out.
+/// Casts the beams against the lines of a map (m, map frame). Ignores lines farther from the robot than
+/// `reach` (m).
 std::vector<ExpectedWall> expectedWalls(const ScanBeams& beams, const mrpt::math::TPose2D& robot,
                                         const std::vector<DatabaseLine>& lines, double reach);
 

@@ -15,8 +15,8 @@ using mrpt::bayes::INVALID_LIKELIHOOD_VALUE;
 #include "slam/filter/Resampling.h"
 
 namespace hybrid_slam {
-/// MRPT's templates require bins for KLD sampling. The number of particles is fixed here, so one bin is
-/// enough.
+/// The bins that MRPT's templates require for KLD sampling. The number of particles is fixed here, so one bin
+/// is enough.
 struct OneBin {
   struct lt_operator {
     bool operator()(const OneBin&, const OneBin&) const { return false; }

@@ -14,13 +14,13 @@
 
 namespace hybrid_slam {
 
-/// What we take from MRPT, and where it needs care (doc/mrpt-notes.md):
+/// The parts of MRPT that we use, and their pitfalls (doc/mrpt-notes.md):
 ///
-/// - `m_particles`, log-weights, ESS and four resampling schemes. MRPT leaves the weights as they were after
-///   resampling and its residual scheme is biased: performSubstitution corrects both.
-/// - MRPT draws from one generator per thread: seedStep replaces it at each step, so that a run does not
-///   depend on what else runs in the thread.
-/// - MRPT's auxiliary filters, which take the odometry as an action and draw from its Gaussian motion model.
+/// - `m_particles`, log-weights, ESS and four resampling schemes. MRPT does not reset the weights after
+///   resampling, and its residual scheme is biased: performSubstitution corrects both.
+/// - One generator of random numbers per thread: seedStep replaces it at each step, so that a run does not
+///   depend on others in the same thread.
+/// - The auxiliary filters, which take the odometry as an action and draw from its Gaussian motion model.
 class MrptParticles
     : public mrpt::bayes::CParticleFilterData<Particle>,
       public mrpt::bayes::CParticleFilterDataImpl<MrptParticles,
@@ -52,7 +52,7 @@ class MrptParticles
   /// Seeds MRPT's random numbers for a step.
   void seedStep(const RandomStream& random);
   bool isResamplingDue() const { return ESS() < options_.BETA; }
-  /// @param particles  their number afterwards
+  /// @param particles  number of particles afterwards
   void resample(size_t particles);
   bool hasResampled() const { return hasResampled_; }  ///< in this step
   /// Samples, weighs and resamples by one of MRPT's auxiliary filters.

@@ -31,7 +31,7 @@ class Particles : public MrptParticles {
     seedStep(RandomStream(1, 0, 0));
   }
   using MrptParticles::auxiliaryStep;
-  /// As MRPT weighs the first one.
+  /// Returns MRPT's weight of the first particle.
   double weigh() const {
     return PF_SLAM_computeObservationLikelihoodForParticle({}, 0, mrpt::obs::CSensoryFrame(),
                                                            mrpt::poses::CPose3D());

@@ -18,7 +18,8 @@ struct Particle {
   Path path;
   OccupancyGrid grid;
   CowPtr<LineDatabase> lines{LineDatabase()};
-  /// Not in `visit`: ParticleSet adds them if they are on, so that sessions without them stay as they are.
+  /// Not in `visit`: ParticleSet visits them if they are on, so that the bytes of sessions without them do
+  /// not change.
   CowPtr<FeatureDatabase> features{FeatureDatabase()};
   MotionBelief motion;
 

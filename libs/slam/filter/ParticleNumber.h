@@ -1,6 +1,6 @@
 /// @file ParticleNumber.h
-/// @brief How many particles a posterior needs: D. Fox, "Adapting the sample size in particle filters through
-/// KLD-sampling", IJRR 22(12), 2003.
+/// @brief Number of particles that a posterior needs: D. Fox, "Adapting the sample size in particle filters
+/// through KLD-sampling", IJRR 22(12), 2003.
 #pragma once
 
 #include <mrpt/core/bits_math.h>

@@ -25,15 +25,15 @@ class ParticleSet : public MrptParticles {
   ParticleSet(const ParticleSet&) = delete;
   ParticleSet& operator=(const ParticleSet&) = delete;
 
-  /// All particles at `start` with empty maps and equal weights.
+  /// Places all particles at `start`, with empty maps and equal weights.
   void reset(const mrpt::math::TPose2D& start);
-  /// Replaces the particles by one at each pose, with equal weights and this map, in which they are to be
-  /// localised: a robot that was carried is not searched for in the whole map.
+  /// Replaces the particles by one at each pose, with equal weights and this map, to localise in it. Disables
+  /// the search of the whole map for a robot that was carried.
   void place(const std::vector<mrpt::math::TPose2D>& poses, const OccupancyGrid& grid,
              const LineDatabase& lines);
   /// Starts the next step: new random streams, and a new record in lastStep.
   void beginStep();
-  /// Moves every particle by `motion` without sampling or weighing: while there is no map.
+  /// Moves every particle by `motion` without sampling or weighing, while there is no map.
   void appendPose(const mrpt::math::TPose2D& motion);
   /// Clears the paths but keeps the maps: every particle continues from `start`.
   void startPathAt(const mrpt::math::TPose2D& start);
@@ -43,19 +43,20 @@ class ParticleSet : public MrptParticles {
   void sampleAndWeigh(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   /// Step 3: resamples if the effective sample size is below the threshold.
   void resampleIfDue();
-  /// Step 4, map estimation: scan into the grids, lines into the databases, at each particle's pose.
+  /// Step 4, map estimation: inserts the scan into the grids and the lines into the databases, at each
+  /// particle's pose.
   void updateMaps(const PreparedScan& scan);
 
-  /// All particles become copies of the best one with this path and map.
+  /// Makes all particles copies of the best one with this path and map.
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path, const OccupancyGrid& grid,
                     const LineDatabase& lines, const FeatureDatabase& features);
-  /// Notes in lastStep that a loop was closed.
+  /// Records in lastStep that a loop was closed.
   void setLoop(const LoopClosure& closure) { step_.loop = closure; }
 
   const Particle& best() const;  ///< argmax of the weight before resampling
   const FilterStep& lastStep() const { return step_; }
   std::vector<WeightedPose> poses() const;
-  /// Whether every particle's path has this many poses.
+  /// Returns whether every particle's path has this many poses.
   bool arePathsOf(size_t length) const {
     return std::all_of(m_particles.begin(), m_particles.end(),
                        [length](const auto& particle) { return particle.d->path.size() == length; });

@@ -39,7 +39,7 @@ class Path {
     return all;
   }
 
-  /// Nodes that several paths share are written once.
+  /// Visits the nodes of the path. Nodes that several paths share are written once.
   template <class State>
   void visit(State& state) {
     uint32_t shared = 0;

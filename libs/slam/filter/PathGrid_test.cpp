@@ -14,7 +14,7 @@ bool isSame(const OccupancyGrid& a, const OccupancyGrid& b) {
   return toMrpt(a).getRawMap() == toMrpt(b).getRawMap();
 }
 
-/// Paths that grow, change in their newest poses, in their oldest, and become shorter.
+/// The paths grow, change in their newest and in their oldest poses, and become shorter.
 TEST(PathGrid, EqualsTheScansInsertedAtOnce) {
   const std::vector<DrivenPose> drive = ringDrive(0);
   std::vector<TPose2D> path;

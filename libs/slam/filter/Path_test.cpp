@@ -50,7 +50,7 @@ TEST(Path, CopiesShareUntilOneGrows) {
   EXPECT_EQ(first.poses(), second.poses());
 }
 
-/// Random ancestries against plain lists.
+/// Compares random ancestries with plain lists.
 TEST(Path, RandomCopiesAgreeWithLists) {
   RandomStream random(1, 0, 0);
   std::vector<Path> paths(10);

@@ -12,14 +12,15 @@
 
 namespace hybrid_slam {
 
-/// What all particles need of one reading.
+/// A reading, prepared for all particles.
 struct PreparedScan {
   LaserScans scans;
   ScanBeams beams;                 ///< every beam, for insertion
   ScanBeams weighedBeams;          ///< `beams` of [grid_weight] or [line_map]
   ScanBeams matchedBeams;          ///< `beams` of [scan_matcher]
   std::vector<LineSegment> lines;  ///< robot frame; empty if lines are off
-  /// Robot frame, with the errors of the pose (`withModelError`); empty if features are off.
+  /// Features in the robot frame, whose covariance includes the pose error (`withModelError`); empty if
+  /// features are off.
   std::vector<PointFeature> features = {};
 };
 
@@ -28,9 +29,9 @@ class ScanPreparation {
  public:
   explicit ScanPreparation(const FilterConfiguration& configuration);
   PreparedScan operator()(const Scans& observed) const;
-  /// Only the lines, robot frame; empty if lines are off.
+  /// Extracts only the lines, robot frame; empty if lines are off.
   std::vector<LineSegment> lines(const LaserScans& scans) const;
-  /// Only the features, as in PreparedScan.
+  /// Extracts only the features, as in PreparedScan.
   std::vector<PointFeature> features(const LaserScans& scans) const;
 
  private:

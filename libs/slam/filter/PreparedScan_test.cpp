@@ -7,7 +7,7 @@
 namespace hybrid_slam {
 namespace {
 
-/// Ranges that hold many beams close together, and bends at which lines split beam by beam.
+/// Ranges with many beams close together, and with bends at which lines split beam by beam.
 double hostileRange(int shape, size_t i) {
   switch (shape) {
     case 0:
@@ -21,8 +21,7 @@ double hostileRange(int shape, size_t i) {
   }
 }
 
-/// A time that grows with the square of the number of beams is far beyond the limit that CMake sets for a
-/// test.
+/// If the time grew with the square of the number of beams, the test would exceed its time limit in CMake.
 TEST(ScanPreparation, AMillionBeamsOfAnyShape) {
   const auto scan = test::scan(1, {}, 1000000);
   for (const LineExtractor* extractor : lineExtractors())

@@ -14,7 +14,7 @@
 
 namespace hybrid_slam {
 
-/// The scans of a reading and where the robot was.
+/// The scans of a reading and the robot's pose.
 struct PosedScans {
   Scans scans;
   mrpt::math::TPose2D pose;  ///< map frame
@@ -26,11 +26,11 @@ struct PosedScans {
   }
 };
 
-/// A map: of scans at their poses, or of an earlier run.
+/// A map made from scans at their poses, or by an earlier run.
 struct ScanMap {
   OccupancyGrid grid;
   LineDatabase lines;
-  FeatureDatabase features = {};  ///< not in `visit`: a run that maps on collects its own
+  FeatureDatabase features = {};  ///< not in `visit`: a run that continues the map collects new ones
 
   template <class State>
   void visit(State& state) {
@@ -39,14 +39,14 @@ struct ScanMap {
 };
 
 /// Builds the map from scans at their poses.
-/// @param base  map to insert them into; empty: an empty one
+/// @param base  map to insert them into; default: an empty map
 ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
               const std::optional<ScanMap>& base = {});
 
 /// Closes the loops that a finished path leaves open, from its first update to its last.
 /// @param path       a pose for each update (map frame); corrected
 /// @param scans      of each update; those of the last ones may be missing
-/// @param direction  of the walls, modulo 90 deg, rad; empty: unknown
+/// @param direction  direction of the walls modulo 90 deg, rad; empty: unknown
 std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans,
                                     const std::optional<double>& direction,
                                     const FilterConfiguration& configuration);

@@ -1,5 +1,5 @@
 /// @file Resampling.h
-/// @brief Resampling where MRPT's is wrong: by residuals, and to another number of particles
+/// @brief Resampling where MRPT's is wrong: residual resampling, and a change of the number of particles
 /// (doc/mrpt-notes.md).
 #pragma once
 

@@ -25,7 +25,8 @@ FilterConfiguration withoutLines(FilterConfiguration configuration) {
   return configuration;
 }
 
-/// A few scans must show walls and free space as clearly as the many of the filter's map.
+/// Increases the update steps: a few scans must show walls and free space as clearly as the many scans of the
+/// filter's map.
 GridOptions decisive(GridOptions options) {
   options.pHit = 0.9;
   options.pMiss = 0.4;

@@ -10,8 +10,8 @@
 
 namespace hybrid_slam {
 
-/// Matches each scan to a local map of the scans before, around the pose that the motion of the last step
-/// predicts. Where the scan says nothing, as along a corridor, the prediction remains.
+/// Matches each scan to a local map of the previous scans, around the pose that the motion of the last step
+/// predicts. In directions that the scan does not constrain, as along a corridor, the prediction remains.
 ///
 /// The map holds the last few keyframes, so that a robot that stands still does not drift. A scan that does
 /// not fit starts a new map; the filter's slip recovery then has to find this step.
@@ -19,8 +19,9 @@ class ScanOdometry {
  public:
   explicit ScanOdometry(const FilterConfiguration& configuration);
 
-  /// The motion since the previous scans, in the robot frame then (m, rad). Zero for the first scans.
-  /// @param timestamp  s; a shorter step than the last is predicted to be shorter in proportion
+  /// Returns the motion since the previous scans, in the robot frame at those (m, rad); zero for the first
+  /// scans.
+  /// @param timestamp  s; if the step is shorter than the last one, the predicted motion is scaled down
   mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp);
 
   template <class State>

@@ -9,7 +9,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// The pose after each of these true poses, relative to the first.
+/// Returns the estimate after each of these true poses, relative to the first.
 std::vector<TPose2D> tracked(const std::vector<TPose2D>& truth) {
   ScanOdometry odometry{FilterConfiguration()};
   std::vector<TPose2D> poses;

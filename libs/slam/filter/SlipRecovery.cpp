@@ -85,7 +85,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   return motions;
 }
 
-/// The rivals of the best, the best first; poses that are nearly equal count once.
+/// Returns the hypotheses that rival the best one, best first; nearly equal poses count once.
 template <class Hypothesis>
 std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
   std::stable_sort(all.begin(), all.end(),

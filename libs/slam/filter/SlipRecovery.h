@@ -28,13 +28,13 @@ struct StepMotion {
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
-/// of similar posterior are hypotheses, shared out among the particles, until later scans decide.
+/// of similar posterior are hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
  public:
   explicit SlipRecovery(const FilterConfiguration& configuration);
   /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
-  /// At least one, the most likely first.
+  /// Returns at least one hypothesis, the most likely first.
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
                                     const PreparedScan& scan);
 
@@ -54,7 +54,7 @@ class SlipRecovery {
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
-  /// Whether the contradicting scans fit the map if the newest was taken at `pose`.
+  /// Returns whether the contradicting scans fit the map if the newest was taken at `pose`.
   bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;
   double logWeight(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
 

@@ -54,7 +54,7 @@ struct Found {
   size_t most = 0;      ///< number of hypotheses in a step
 };
 
-/// The hypotheses for a robot that turns on the spot to which it was carried. The particle follows the first.
+/// Returns the hypotheses for a robot that was carried and turns on the spot. The particle follows the first.
 Found carried(const test::Walls& walls, TPose2D robot, bool useLines) {
   const FilterConfiguration c;
   const TPose2D turn(0, 0, 0.3);
@@ -77,7 +77,7 @@ Found carried(const test::Walls& walls, TPose2D robot, bool useLines) {
   return found;
 }
 
-/// Lifted, and put down elsewhere in the mapped room; with and without lines that give four headings.
+/// The robot is put down elsewhere in the mapped room, with and without lines, which give four headings.
 TEST(SlipRecovery, FindsACarriedRobot) {
   for (const bool useLines : {true, false})
     for (const TPose2D& robot : {TPose2D(5, 2, 2), TPose2D(-1.5, 4, -1), TPose2D(6.5, -1, 3)})
@@ -117,7 +117,7 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
   EXPECT_FALSE(motion.hasSlipped);
 }
 
-/// A corridor whose map ends: its new part must not pull the robot back to where it has seen walls.
+/// The map of the corridor ends: the new part must not pull the robot back to the walls it has seen.
 TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
   const FilterConfiguration c;
   const TPose2D start(0, 0.1, 0);

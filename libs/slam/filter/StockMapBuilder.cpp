@@ -18,8 +18,22 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-/// Of a cell of MRPT's grid: its value, and its likelihood, kept as a double.
+/// Memory of a cell of MRPT's grid: one byte for its value, eight for its cached likelihood.
 constexpr double kBytesPerCell = 9;
+
+/// Exchanges two generators until its end, also if MRPT throws.
+class SwappedGenerators {
+ public:
+  SwappedGenerators(mrpt::random::CRandomGenerator& a, mrpt::random::CRandomGenerator& b) : a_(a), b_(b) {
+    std::swap(a_, b_);
+  }
+  ~SwappedGenerators() { std::swap(a_, b_); }
+  SwappedGenerators(const SwappedGenerators&) = delete;
+  SwappedGenerators& operator=(const SwappedGenerators&) = delete;
+
+ private:
+  mrpt::random::CRandomGenerator &a_, &b_;
+};
 
 size_t cellsOf(const COccupancyGridMap2D& grid) { return size_t{grid.getSizeX()} * grid.getSizeY(); }
 
@@ -43,9 +57,8 @@ void StockMapBuilder::processActionObservation(mrpt::obs::CActionCollection& act
   const size_t before = mapPDF.m_particles.front().d->robotPath.size();
   oneThread_.execute([&] {
     // MRPT draws from its thread's generator.
-    std::swap(mrpt::random::getRandomGenerator(), random_);
+    const SwappedGenerators own(mrpt::random::getRandomGenerator(), random_);
     CMetricMapBuilderRBPF::processActionObservation(action, observations);
-    std::swap(mrpt::random::getRandomGenerator(), random_);
   });
   if (mapPDF.m_particles.front().d->robotPath.size() == before) return;
   ++updates_;

@@ -13,18 +13,20 @@
 
 namespace hybrid_slam {
 
+/// Runs MRPT's filter on one thread, with our motion model for the odometry.
 class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter {
  public:
-  /// @param motion     motion model of the actions that `process` makes of odometry
-  /// @param seed       same seed, same result, in any thread and beside any other filter
-  /// @param mostBytes  largest size of the maps of all particles: `process` throws std::runtime_error if they
-  ///                   are larger, or if one has over 2^28 cells
+  /// @param motion     error model of the odometry passed to `process`
+  /// @param seed       of this filter's random numbers; other filters and threads do not affect them
+  /// @param mostBytes  largest size of the maps of all particles together
   StockMapBuilder(const TConstructionOptions& construction, const MotionModelOptions& motion, uint32_t seed,
                   double mostBytes = std::numeric_limits<double>::infinity());
 
+  /// @throws std::runtime_error if the maps are larger than `mostBytes`, or one has over 2^28 cells
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
-  /// Counts the updates and makes MRPT draw from this filter's generator; the rest is MRPT's.
+  /// Calls MRPT's function with this filter's random generator, and counts the updates.
+  /// @throws std::runtime_error likewise
   void processActionObservation(mrpt::obs::CActionCollection& action,
                                 mrpt::obs::CSensoryFrame& observations) override;
 
@@ -43,15 +45,16 @@ class StockMapBuilder : public mrpt::slam::CMetricMapBuilderRBPF, public Filter 
   MotionModelOptions motion_;
   double mostBytes_;
   mrpt::random::CRandomGenerator random_;
-  tbb::task_arena oneThread_{1};  ///< MRPT 2.14.7 would weigh the particles on all cores, 2.5.8 does on one
+  tbb::task_arena oneThread_{1};  ///< MRPT 2.14.7 would use all cores, 2.5.8 uses one
   size_t updates_ = 0;
   FilterStep step_;
 };
 
-/// MRPT's settings as in its rbpf-slam: section [MappingApplication] and the sections it names.
+/// Reads the settings of MRPT's rbpf-slam: section [MappingApplication] and those that it names.
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
     const mrpt::config::CConfigFileBase& source);
-/// MRPT's standard proposal with our number of particles, resampling, update distances and cell size.
+/// Makes MRPT's settings from ours: its standard proposal, with our number of particles, resampling, update
+/// distances, cell size and maximum range.
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const FilterConfiguration& ours);
 
 }  // namespace hybrid_slam

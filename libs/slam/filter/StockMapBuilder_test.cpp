@@ -108,6 +108,17 @@ TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
   EXPECT_NE(beside.bestPath(), alone.bestPath());
 }
 
+TEST(StockMapBuilder, GivesTheThreadsGeneratorBackIfMrptFails) {
+  auto options = stockOptions(configuration());
+  options.PF_options.PF_algorithm = static_cast<mrpt::bayes::CParticleFilter::TParticleFilterAlgorithm>(7);
+  StockMapBuilder builder(options, MotionModelOptions(), 2);
+  const auto steps = test::drive(1);
+  mrpt::random::getRandomGenerator().randomize(1);
+  EXPECT_THROW(feed(builder, builder, steps), std::exception);
+  EXPECT_EQ(mrpt::random::getRandomGenerator().drawUniform32bit(),
+            mrpt::random::CRandomGenerator(1).drawUniform32bit());
+}
+
 /// MRPT 2.14.7 weighs the particles on all cores.
 TEST(StockMapBuilder, StartsNoThreads) {
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);

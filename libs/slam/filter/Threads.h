@@ -17,15 +17,15 @@
 
 namespace hybrid_slam {
 
-/// For `threads` of [particle_filter]; 0: all cores. Limited to the machine's threads: TBB ignores more, with
-/// a warning on stderr.
+/// Returns the size of a task arena for `threads` of [particle_filter]; 0: all cores. Limited to the
+/// machine's threads: TBB ignores more, with a warning on stderr.
 inline int arenaThreads(int threads) {
   const auto allowed =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   return threads > 0 ? std::min(threads, allowed) : +tbb::task_arena::automatic;
 }
 
-/// body(i) for i in [first, last), on the threads of the arena and the caller's.
+/// Calls body(i) for i in [first, last), on the threads of the arena and the caller's.
 template <class Body>
 void parallelFor(tbb::task_arena& arena, size_t first, size_t last, const Body& body) {
 #ifdef __SANITIZE_THREAD__

@@ -289,7 +289,7 @@ TEST(Tracking, AnAuxiliaryFilterLeavesEachParticleItsOwnPath) {
   }
 }
 
-/// The residual scheme in the filter: each particle has n w copies on average (see Resampling_test).
+/// Residual resampling gives each particle n w copies on average (see Resampling_test).
 TEST(Tracking, TheFiltersResidualSchemeIsNotBiased) {
   // Four particles at x = 0..3 with the weights of the pitfall in Resampling_test.
   FilterConfiguration c = test::roomConfiguration();

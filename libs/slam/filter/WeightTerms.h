@@ -1,5 +1,5 @@
 /// @file WeightTerms.h
-/// @brief The terms of a particle's weight beside w_grid: those of what its map holds besides the grid.
+/// @brief The terms of a particle's weight besides w_grid.
 #pragma once
 
 #include <cmath>

@@ -14,8 +14,8 @@ double squaredDistance(const Point& a, const Point& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/// The point 15 cm away, so that range noise turns the line between the two by only a few degrees, or the
-/// last point before an invalid beam.
+/// Returns the next point 15 cm away, so that range noise turns the line between the two by only a few
+/// degrees, or the last point before an invalid beam.
 template <class Step>
 size_t awayFrom(size_t i, const LaserScan& scan, const std::vector<Point>& points, Step next) {
   constexpr double kDistance = 0.15;

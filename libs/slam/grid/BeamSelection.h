@@ -18,7 +18,7 @@ class BeamSelection {
  public:
   explicit BeamSelection(const LaserScans& scans);
 
-  /// Ascending indices of at most `beams` valid beams (0: of all), counted through the scans.
+  /// Returns ascending indices of at most `beams` valid beams (0: all), counted through the scans.
   std::vector<size_t> take(int beams) const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 using testing::IsEmpty;
 
-/// What a laser sees at `phi` in a corridor of 2.4 m with an end 8 m ahead; 541 beams over 270 deg.
+/// A scan at heading `phi` in a corridor of 2.4 m width that ends 8 m ahead; 541 beams over 270 deg.
 LaserScan corridorScan(double phi, double noise, RandomStream& random) {
   LaserScan scan;
   for (int i = 0; i < 541; ++i) {

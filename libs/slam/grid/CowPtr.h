@@ -20,14 +20,14 @@ class CowPtr {
   const T* get() const { return shared_.get(); }
   const T& operator*() const { return *shared_; }
   const T* operator->() const { return shared_.get(); }
-  /// Whether both share one value in memory.
+  /// Returns whether both share one value in memory.
   bool sharesWith(const CowPtr& other) const { return shared_ == other.shared_; }
   template <class State>
   void visit(State& state) {
     state(shared_);
   }
 
-  /// The value for writing, unshared; default-constructed if there was none.
+  /// Returns the value for writing, unshared; default-constructed if there was none.
   T& write() {
     if (!shared_) {
       shared_ = std::make_shared<T>();
@@ -40,7 +40,7 @@ class CowPtr {
   }
 
  private:
-  /// The last other owner may have read the value on another thread just before releasing it.
+  /// Synchronises with the last other owner, which may just have read the value on another thread.
   void acquire() const {
 #ifdef __SANITIZE_THREAD__
     const std::shared_ptr<T> counted = shared_;  // the thread sanitizer does not know fences, but this order

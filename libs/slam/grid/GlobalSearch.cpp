@@ -27,7 +27,7 @@ double logOdds(double occupancy) {
   return std::log(occupancy / (1 - occupancy)) / OccupancyGrid::kLogOddsScale;
 }
 
-/// The cells of the map within kReach: a map may be kilometres long.
+/// Limits the search to cells within kReach: a map may be kilometres long.
 CellBox within(const OccupancyGrid& grid, const TPoint2D& around) {
   CellBox box = grid.tiles().bounds();
   const CellIndex low = grid.cellOf(around.x - kReach, around.y - kReach),
@@ -39,15 +39,14 @@ CellBox within(const OccupancyGrid& grid, const TPoint2D& around) {
 
 constexpr char kUnknown = 2;
 
-/// Sum of the values, each at most 2, if that is at least half of the most; else 0.
+/// Returns the sum of the values, each at most 2, if that is at least `least`; else 0.
 template <class Value>
-int reachesHalf(const std::vector<CellIndex>& ends, const Value& value) {
-  const auto half = static_cast<int>(ends.size());
-  int sum = 0, left = 2 * half;
+int sumAbove(int least, const std::vector<CellIndex>& ends, const Value& value) {
+  int sum = 0, left = 2 * static_cast<int>(ends.size());
   for (const CellIndex& end : ends) {
     sum += value(end);
     left -= 2;
-    if (sum + left < half) return 0;
+    if (sum + left < least) return 0;
   }
   return sum;
 }
@@ -132,8 +131,8 @@ GlobalSearch::GlobalSearch(const OccupancyGrid& grid, const TPoint2D& around) {
 }
 
 std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
-                                                          const std::vector<double>& headings,
-                                                          size_t count) const {
+                                                          const std::vector<double>& headings, size_t count,
+                                                          double leastScore) const {
   if (scan.rays.empty()) return {};
   const size_t every = (scan.rays.size() + kMostBeams - 1) / kMostBeams;
   std::vector<Place> places;
@@ -147,18 +146,21 @@ std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
       ends.push_back({static_cast<int>(std::floor(0.5 + frame.origin(ray).x + range * frame.dirX(ray))),
                       static_cast<int>(std::floor(0.5 + frame.origin(ray).y + range * frame.dirY(ray)))});
     }
-    // No cell of a block can reach half of the most if the highest values near it do not.
+    const int least =
+        std::max(1, static_cast<int>(std::ceil(2 * leastScore * static_cast<double>(ends.size()))));
+    // No cell of a block can reach the least score if the highest values near it do not.
     std::vector<char> isHopeless(static_cast<size_t>((width_ / kBlock + 1) * (height_ / kBlock + 1)),
                                  kUnknown);
     for (const CellIndex& cell : free_) {
       const int bx = cell.x / kBlock, by = cell.y / kBlock;
       char& block = isHopeless[static_cast<size_t>(by * (width_ / kBlock + 1) + bx)];
       if (block == kUnknown)
-        block = !reachesHalf(
-            ends, [&](const CellIndex& end) { return highest(bx * kBlock + end.x, by * kBlock + end.y); });
+        block = !sumAbove(least, ends, [&](const CellIndex& end) {
+          return highest(bx * kBlock + end.x, by * kBlock + end.y);
+        });
       if (block) continue;
       const int score =
-          reachesHalf(ends, [&](const CellIndex& end) { return wall(cell.x + end.x, cell.y + end.y); });
+          sumAbove(least, ends, [&](const CellIndex& end) { return wall(cell.x + end.x, cell.y + end.y); });
       if (score == 0) continue;
       const TPoint2D at = centre(cell);
       places.push_back(

@@ -1,5 +1,5 @@
 /// @file GlobalSearch.h
-/// @brief Where in the whole map a scan may have been taken.
+/// @brief Searches the whole map for the places where a scan may have been taken.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace hybrid_slam {
 
-/// How the beams of a scan agree with a map, each a share in [0, 1]; 0 without beams. Beams through unknown
-/// cells do neither.
+/// Agreement of a scan's beams with a map, as shares in [0, 1]; 0 without beams. Beams through unknown cells
+/// count in neither share.
 struct BeamShares {
   double explained = 0;     ///< end at a wall and pass through none
   double contradicted = 0;  ///< end where the map is free, or pass through a wall
 };
 BeamShares beamShares(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid);
 
-/// Searches a map that does not change for a scan. The constructor costs a pass over the map.
+/// Searches an unchanging map for a scan. The constructor costs a pass over the map.
 class GlobalSearch {
  public:
   /// @param around  centre of the search (m, map frame): cells within 500 m are searched
@@ -27,11 +27,12 @@ class GlobalSearch {
     double score;              ///< share of the beams that end at walls, those near a wall count half
   };
   /// The poses at which most beams end at walls, best first, on a lattice of 0.2 m and 2 deg over the free
-  /// cells of the map; at most one within 0.5 m and 10 deg. To be refined by a scan match.
+  /// cells of the map; at most one within 0.5 m and 10 deg. A scan match should refine them.
   /// @param headings  search only within 6 deg of these (rad); empty: all headings
   /// @param count     maximum number of poses
-  std::vector<Place> operator()(const ScanBeams& scan, const std::vector<double>& headings,
-                                size_t count) const;
+  /// @param leastScore  of a place, above 0
+  std::vector<Place> operator()(const ScanBeams& scan, const std::vector<double>& headings, size_t count,
+                                double leastScore = 0.5) const;
 
   /// Free places (m, map frame), at most one in a square of `spacing` (m).
   std::vector<mrpt::math::TPoint2D> freePlaces(double spacing) const;

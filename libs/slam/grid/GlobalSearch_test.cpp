@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// No two places of it look alike.
+/// A room in which no two places look alike.
 const Walls kRoom = polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {3, 6}, {3, 5}, {1, 5}, {1, 6}, {-3, 6}});
 
 LaserScan scanAt(const TPose2D& robot, RandomStream& random) {

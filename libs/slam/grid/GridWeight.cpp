@@ -42,7 +42,7 @@ mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
   return out;
 }
 
-/// Step that leaves about `beams` of `count` beams, evenly spaced; 0: all.
+/// Step that keeps about `beams` of `count` beams, evenly spaced; 0: all.
 size_t decimation(size_t count, int beams) {
   if (beams == 0) return 1;
   return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));

@@ -25,7 +25,7 @@ double castRay(double x, double y, double heading) {
   return std::min(toX, toY);
 }
 
-/// 181 beams over 180 deg, 1 cm of noise.
+/// A scan of 181 beams over 180 deg with 1 cm of noise.
 CObservation2DRangeScan scanAt(const TPose2D& robot, RandomStream& random) {
   CObservation2DRangeScan scan;
   scan.aperture = static_cast<float>(M_PI);

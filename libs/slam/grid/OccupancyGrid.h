@@ -37,7 +37,7 @@ class OccupancyGrid {
   /// wall seen at a grazing angle.
   void insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const GridOptions& options);
 
-  /// Limits every probability, so that what is seen later can change it.
+  /// Limits every probability, so that later scans can change it.
   void limit(double pMin, double pMax);
 
   const TileGrid& tiles() const { return tiles_; }

@@ -132,7 +132,7 @@ std::set<std::pair<int, int>> crossed(double x, double y, double heading, double
   return cells;
 }
 
-/// Random scans against the rules applied cell by cell to a plain map.
+/// Compares random scans with the rules applied cell by cell to a plain map.
 TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
   RandomStream random(1, 0, 0);
   const auto uniform = [&](double low, double high) { return low + (high - low) * random.uniform(); };

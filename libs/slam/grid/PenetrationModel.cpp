@@ -31,8 +31,8 @@ namespace {
 
 constexpr int kBlock = 8;  // steps at a time: skipped if all cells are free
 
-/// Whether a block of steps is free. It is no longer than a square is wide, so its cells lie in the squares
-/// at the corners of its bounding rectangle.
+/// Returns whether a block of steps is free. It is no longer than a square is wide, so its cells lie in the
+/// squares at the corners of its bounding rectangle.
 bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) {
   constexpr int kSquaresInTile = Tile::kBits - Tile::kSquareBits;
   for (const int x : {first.squareX(), last.squareX()})
@@ -44,7 +44,7 @@ bool isFree(TileReader& cells, const RaySamples& first, const RaySamples& last) 
 }
 
 /// Consecutive occupied cells on a beam.
-struct Wall {
+struct CrossedWall {
   double passes = 1;   ///< prod (1 - P)
   double stops = 0;    ///< sum P
   double density = 0;  ///< sum P exp(-(d - z)^2 / (2 sigma^2))
@@ -81,12 +81,12 @@ double PenetrationModel::beamLikelihood(double originX, double originY, double d
   const double start = range + behind_ - left + 0.5;
   RaySamples place(originX + start * dirX, originY + start * dirY, dirX, dirY);
   double passing = 1, stoppedNearRange = 0;  // product and sum of the formula
-  Wall wall;
+  CrossedWall wall;
   const auto leaveWall = [&] {
     if (wall.stops == 0) return;
     stoppedNearRange += passing * (1 - wall.passes) * wall.density / wall.stops;
     passing *= wall.passes;
-    wall = Wall();
+    wall = CrossedWall();
   };
   for (int block = (left - 1) % kBlock + 1; left > 0; left -= block, block = kBlock) {
     const double* const density =

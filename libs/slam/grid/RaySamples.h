@@ -8,7 +8,7 @@
 
 namespace hybrid_slam {
 
-/// Faster than std::floor, which cannot assume the processor's rounding instruction.
+/// Rounds down. Faster than std::floor, which cannot assume the processor's rounding instruction.
 inline int floorOf(double x) {
   const int towardsZero = static_cast<int>(x);
   return towardsZero - (x < towardsZero);

@@ -1,6 +1,5 @@
 /// @file ScanBeams.h
-/// @brief The scans of one reading prepared once for all particles: where each beam starts and where it
-/// points.
+/// @brief The scans of one reading prepared once for all particles: origin and direction of each beam.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -50,12 +49,12 @@ struct ScanBeams {
     }
   }
 
-  /// Whether no beam is longer (m): the memory for an insertion grows with the square.
+  /// Returns whether no beam is longer than `range` (m): the memory of an insertion grows with its square.
   bool areWithin(double range) const {
     return std::all_of(rays.begin(), rays.end(), [range](const Ray& ray) { return ray.range <= range; });
   }
 
-  /// The points hit, robot frame, m.
+  /// Returns the end points of the beams, robot frame, m.
   std::vector<mrpt::math::TPoint2D> endPoints() const {
     std::vector<mrpt::math::TPoint2D> points;
     points.reserve(rays.size());

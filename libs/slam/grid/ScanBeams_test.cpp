@@ -23,7 +23,7 @@ TEST(ScanBeams, AreTheValidOnesInTheRobotsFrame) {
   EXPECT_NEAR(beams.rays[1].dirY, std::sin(M_PI / 2 + 0.1), 1e-12);
 }
 
-/// Two lasers, the second backwards and with other beams: every beam starts at its own laser.
+/// There are two lasers, the second facing backwards with other beams: every beam starts at its laser.
 TEST(ScanBeams, EachBeamStartsAtItsLaser) {
   LaserScan front, rear;
   front.sensorPose = {0.3, 0, 0};

@@ -34,7 +34,7 @@ LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math:
 Eigen::Matrix3d scanInformation(ScanLikelihood& likelihood, const mrpt::math::TPose2D& pose);
 
 /// Smallest over largest eigenvalue of the information on the position, heading unknown: in [0, 1], about 0
-/// along a featureless corridor, and 0 where nothing is seen.
+/// along a featureless corridor, and 0 without beams.
 double degeneracy(const Eigen::Matrix3d& information);
 
 /// Result of a match.

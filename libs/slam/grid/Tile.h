@@ -22,7 +22,7 @@ class Tile {
     return static_cast<size_t>(((y & (kSize - 1)) << kBits) | (x & (kSize - 1)));
   }
   const Cells& cells() const { return cells_; }
-  /// Whether every cell of a square is known and more likely free than occupied.
+  /// Returns whether every cell of a square is known and more likely free than occupied.
   /// @param x,y  grid coordinates of the square: those of its cells divided by 8
   bool isFree(int x, int y) const { return isFree(x, y, x, y); }
   /// Likewise for the four corner squares of a rectangle of squares.

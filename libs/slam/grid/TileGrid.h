@@ -48,7 +48,7 @@ class TileGrid {
     const CowPtr<Block>* block = findBlock(tx >> kBlockBits, ty >> kBlockBits);
     return block && *block ? (*block)->tiles[inBlock(tx, ty)].get() : nullptr;
   }
-  /// The same tile for writing: created if missing, unshared if shared.
+  /// Returns the same tile for writing: created if missing, unshared if shared.
   /// @throws InputError if the map would be too large: 100 km x 100 km with cells of 5 cm
   Tile& writableTile(int tx, int ty);
 

@@ -1,5 +1,5 @@
 /// @file EmExtractor.cpp
-/// @brief Expectation maximisation of one line among outliers, as V. Nguyen et al. 2007: the E step gives
+/// @brief Expectation maximisation of one line among outliers, after V. Nguyen et al. 2007: the E step gives
 /// each point its probability to lie on the line, the M step fits the line to the points weighted by it.
 #include <cmath>
 
@@ -14,7 +14,7 @@ constexpr int kTrials = 20;          // random first lines
 constexpr int kMostSteps = 20;       // of EM, from each
 constexpr double kConverged = 1e-3;  // points: change of the sum of the weights
 
-/// The probability of each point to lie on the line, 1/2 at the distance `near` (2 sigma of the line).
+/// Computes each point's probability of lying on the line, 1/2 at the distance `near` (2 sigma of the line).
 /// @return their sum
 double weigh(PointRange points, const FittedLine& line, double near, std::vector<double>& weights) {
   const double c = std::cos(line.theta), s = std::sin(line.theta), outlier = std::exp(-2.0);

@@ -20,7 +20,7 @@ struct HoughOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The line with the most votes among those with |rho - rho_v| <= rhoWindow and |theta - theta_v| <=
+/// Returns the line with the most votes among those with |rho - rho_v| <= rhoWindow and |theta - theta_v| <=
 /// thetaWindow of the fitted line. It is then fitted to its voters (orthogonal least squares), so the cell
 /// size does not limit the precision.
 ///

@@ -18,7 +18,7 @@ LineSegment piece(double rho, double theta, double from = -3, double to = 3) {
                      TPoint2D(rho * c - to * s, rho * s + to * c));
 }
 
-/// Where the middle is at the foot of the perpendicular the differences are those of the parameters.
+/// If the midpoint is the foot of the perpendicular, the differences are those of the parameters.
 TEST(LineDifference, PlainDifferenceOfTheParameters) {
   const LineDifference d = difference(piece(4.1, 0.52), piece(4, 0.5));
   EXPECT_NEAR(d.theta, 0.02, 1e-12);

@@ -63,7 +63,7 @@ inline double evidence(const DatabaseLine& line) { return line.length * std::min
 /// atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Empty if there is no line or
 /// no dominating direction.
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines);
-/// The same for observed lines, which count once each.
+/// Likewise for observed lines, which count once each.
 std::optional<double> directionModuloRightAngle(const std::vector<LineSegment>& seen);
 
 /// The angle modulo 90 deg, rad in [-pi/4, pi/4].
@@ -76,8 +76,8 @@ inline double rightAngleDifference(double a, double b) {
 
 /// Sets each line's `direction`: the mean of the directions, modulo 90 deg, within `window` (rad) of its own,
 /// weighted by evidence x (1 - (difference / window)^2): one mean-shift step with the Epanechnikov kernel
-/// (Comaniciu & Meer 2002). Building wings whose directions differ by more than the window stay separate.
-/// With window 0 every line keeps its own direction.
+/// (Comaniciu & Meer 2002). Building wings whose directions differ by more than the window stay separate. If
+/// `window` is 0, every line keeps its own direction.
 void setDirections(std::vector<DatabaseLine>& lines, double window);
 
 /// The line database of one particle, in the map frame. One contiguous block, copied with its particle.
@@ -114,7 +114,7 @@ class LineDatabase {
 
  private:
   void prune(const LineDatabaseOptions& options);
-  /// Computes what follows from the lines: dominating direction and total evidence.
+  /// Computes dominating direction and total evidence of the lines.
   void sum();
 
   std::vector<DatabaseLine> lines_;

@@ -1,6 +1,6 @@
 /// @file LineExtractor.h
-/// @brief Line detection (Sec. III-B): a scan into line segments. A new method is a file that defines its
-/// LineExtractor, and its name in the list below.
+/// @brief Line detection (Sec. III-B): converts a scan to line segments. A new method needs a file that
+/// defines its LineExtractor, and an entry in the list below.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct LineExtractionOptions;
 struct LineExtractor {
   const char* name;         ///< of the key `method`
   const char* description;  ///< for the documentation of that key
-  /// The lines of at least minLength, in the robot frame, in beam order.
+  /// Returns the lines of at least minLength, in the robot frame, in beam order.
   std::vector<LineSegment> (*extract)(const LaserScan& scan, const LineExtractionOptions& options);
 };
 
@@ -39,7 +39,7 @@ struct LineExtractionOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// The lines of a scan by the chosen method.
+/// Extracts the lines of a scan by the chosen method.
 std::vector<LineSegment> extractLines(const LaserScan& scan, const LineExtractionOptions& options);
 
 /// Steps 2 and 3 of Sec. III-B: a line for each piece that is straight and long enough.

@@ -37,11 +37,11 @@ double rmsDistance(PointRange points, const FittedLine& line);
 struct LineCoefficients {
   double a = 0, b = 0, c = 0;
 };
-/// eq. (2)-(4). All three are 0 (no line) if the points lie on a line through the origin.
+/// Eq. (2)-(4). All three are 0 (no line) if the points lie on a line through the origin.
 LineCoefficients fitCoefficients(PointRange points);
-/// eq. (5): sum of the squared residuals along y, m^2. Infinite if b = 0.
+/// Eq. (5): sum of the squared residuals along y, m^2; infinite if b = 0.
 double verticalError(PointRange points, const LineCoefficients& line);
-/// eq. (6) with the signs of the Hesse normal form (doc/paper-notes.md). Empty if a = b = 0.
+/// Eq. (6) with the signs of the Hesse normal form (doc/paper-notes.md); empty if a = b = 0.
 std::optional<FittedLine> toHesse(const LineCoefficients& line);
 
 /// The fit by the chosen method; empty if there is none or its error exceeds the method's limit.

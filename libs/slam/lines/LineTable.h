@@ -9,7 +9,7 @@
 
 namespace hybrid_slam {
 
-/// Rows `rho,theta,length,x_start,y_start,x_end,y_end,count` (m, rad; map frame) below their names.
+/// Writes a header and rows `rho,theta,length,x_start,y_start,x_end,y_end,count` (m, rad; map frame).
 void writeLineTable(const std::vector<DatabaseLine>& lines, std::ostream& out);
 
 }  // namespace hybrid_slam

@@ -42,14 +42,15 @@ struct DirectionMatch {
 /// - `dominatingDirection`: exp(-d^2 / (2 sigma^2)), d the angle to LineDatabase::dominatingDirection().
 /// - `paper`, eq. (9): 1 if some d_j, to the line's theta, is below `threshold`, else 0.
 ///
-/// No match (value 0) if the database is empty or, for `dominatingDirection`, has no dominating direction.
+/// There is no match (value 0) if the database is empty or, for `dominatingDirection`, has no dominating
+/// direction.
 DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options);
 
 struct LineWeight {
   double value = 1;  ///< in [floor, 1]; 1 if no line was observed or the database has no direction yet
   double slope = 0;  ///< derivative of value with respect to the heading, 1/rad; 0 at the floor
   int seen = 0;      ///< observed lines
-  int matched = 0;   ///< of these, parallel or perpendicular to lines of the database
+  int matched = 0;   ///< those parallel or perpendicular to lines of the database
 
   template <class State>
   void visit(State& state) {

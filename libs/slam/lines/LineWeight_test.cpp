@@ -93,7 +93,7 @@ TEST(LineWeight, GradedCountsEvidence) {
   EXPECT_NEAR(lineWeight({line(60, 2)}, 0, database, {}).value, 1. / 21, 1e-9);
 }
 
-/// Not possible with eq. (9) or one dominating direction: two building directions that both count.
+/// Two building directions both count, which is impossible with eq. (9) or one dominating direction.
 TEST(LineWeight, SeveralFramesCoexist) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6), line(30, 6), line(120, 6)});
   const std::vector<LineSegment> wing{line(30, 4), line(120, 4)};

@@ -13,7 +13,7 @@ constexpr double kMostTrials = 1000;   // as Nguyen et al. 2007
 constexpr double kConfidence = 0.999;  // that one trial draws two points of the strongest line
 
 /// Number of trials that draw two of a line's points at least once, with the confidence above.
-/// @param share  of the points, on the line
+/// @param share  share of the points on the line
 double trialsFor(double share) {
   return std::min(kMostTrials, std::log(1 - kConfidence) / std::log1p(-share * share));
 }

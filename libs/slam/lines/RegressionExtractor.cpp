@@ -46,8 +46,8 @@ class Sums {
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
 };
 
-/// Whether two lines are the same: the Mahalanobis distance of their (r, alpha) at the centre of `a`, where
-/// the r and alpha of `a` are independent.
+/// Returns whether two lines are the same, by the Mahalanobis distance of their (r, alpha) at the centre of
+/// `a`, where the r and alpha of `a` are independent.
 /// @param sigma  m, of a point across its line
 bool agree(const Regression& a, const Regression& b, double sigma) {
   if (a.spread <= 0 || b.spread <= 0) return false;
@@ -67,8 +67,8 @@ Regression regressionOf(PointRange points) {
   return sums.line();
 }
 
-/// Appends the lines of a run. A window stands for the point in its middle, those at the ends of the run for
-/// half of their points.
+/// Appends the lines of a run. A window represents the point in its middle; those at the ends of the run
+/// represent half of their points.
 void regress(PointRange run, double sigma, std::vector<PointRange>& pieces) {
   if (run.size() < kWindow) return;
   const size_t first = pieces.size();

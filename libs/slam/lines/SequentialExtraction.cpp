@@ -15,7 +15,7 @@ constexpr size_t kMostMissing = 2;  // beams in a row that miss a line without d
 using Points = std::vector<TPoint2D>;
 using Places = std::vector<size_t>;  // of points in a run, ascending
 
-/// Whether a point is within `near` (m) of a line.
+/// Tests whether a point is within `near` (m) of a line.
 class IsNear {
  public:
   IsNear(const FittedLine& line, double near)
@@ -41,7 +41,7 @@ Places placesNear(PointRange run, const Places& places, const FittedLine& line, 
   return result;
 }
 
-/// Divides places where more than kMostMissing in a row are missing.
+/// Splits places where more than kMostMissing in a row are missing.
 std::vector<Places> stretches(const Places& places) {
   std::vector<Places> result;
   for (const size_t i : places) {

@@ -37,14 +37,8 @@ constexpr double kMargin = 10;     // other places are less likely by this ln of
 constexpr double kSearched = 0.1;  // and all with a score within this of the best were looked at.
 constexpr double kExplained = 0.7, kContradicted = 0.15;  // share of the beams of an explained scan
 
-TPoint2D centreOf(const OccupancyGrid& grid) {
-  const CellBox box = grid.tiles().bounds();
-  return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
-          0.5 * (box.min.y + box.max.y) * grid.resolution()};
-}
-
-/// The newest scans count: those before would hide that the robot was carried elsewhere, and those outside
-/// the map that it has come back.
+/// Considers the newest scans: earlier ones would hide that the robot was carried elsewhere, and scans
+/// outside the map would hide its return.
 bool explains(const Hypothesis& hypothesis) {
   const auto& evidence = hypothesis.evidence;
   if (evidence.size() < kScans) return false;
@@ -60,6 +54,12 @@ bool isSamePlace(const TPose2D& a, const TPose2D& b) {
 }
 
 }  // namespace
+
+TPoint2D centreOf(const OccupancyGrid& grid) {
+  const CellBox box = grid.tiles().bounds();
+  return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
+          0.5 * (box.min.y + box.max.y) * grid.resolution()};
+}
 
 bool isExplained(const BeamShares& scan) {
   return scan.explained > kExplained && scan.contradicted < kContradicted;

@@ -1,5 +1,5 @@
 /// @file GlobalLocalization.h
-/// @brief Where in a fixed map a robot of unknown pose may be.
+/// @brief Finds a robot of unknown pose in a fixed map.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -16,13 +16,16 @@
 
 namespace hybrid_slam {
 
-/// How a scan agrees with the map at a pose.
+/// Agreement of a scan with the map at a pose.
 struct ScanEvidence {
   double logGrid = 0;  ///< ln w_grid before tempering
   BeamShares shares;
 };
 
-/// Whether most of the beams end at walls of the map and few contradict it.
+/// Returns the middle of the map (m, map frame).
+mrpt::math::TPoint2D centreOf(const OccupancyGrid& grid);
+
+/// Returns whether most of the beams end at walls of the map and few contradict it.
 bool isExplained(const BeamShares& scan);
 
 /// A place where the robot may be.
@@ -35,24 +38,23 @@ struct Hypothesis {
 /// Hypotheses over the whole map, each followed by scan matching and weighed by the same window of scans.
 ///
 /// The scans of the window are searched for together in the whole map. Each place found is a new hypothesis;
-/// the older scans are matched one by one backwards along the odometry, so that it competes on equal terms
-/// with those that have been followed. The robot is found when one place explains the scans and no other does
-/// nearly as well.
+/// the older scans are matched one by one backwards along the odometry, so that it is comparable with those
+/// followed so far. The robot is found when one place explains the scans and no other does nearly as well.
 class GlobalLocalization {
  public:
   GlobalLocalization(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines);
 
   /// Forgets the hypotheses.
   void clear() { hypotheses_.clear(), isFound_ = false; }
-  /// Uses the newest of the recent scans; to be called for each scan added.
+  /// Uses the newest of the recent scans. Call it for each scan added.
   void update(const RecentScans& recent, tbb::task_arena& arena);
-  /// Whether one place explains the scans and no other does nearly as well.
+  /// Returns whether one place explains the scans and no other does nearly as well.
   bool isFound() const { return isFound_; }
-  /// Whether another place explains the recent scans much better than the robot at `pose`.
+  /// Returns whether another place explains the recent scans much better than the robot at `pose`.
   bool refutes(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
   /// The hypotheses, best first.
   const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
-  /// The belief: the hypotheses, and places all over the map for the chance that none of them is right.
+  /// The belief: the hypotheses, and places all over the map in case none of them is right.
   /// @param since  motion since the newest scan
   std::vector<WeightedPose> poses(const mrpt::math::TPose2D& since) const;
 
@@ -66,7 +68,7 @@ class GlobalLocalization {
   Hypothesis judged(const mrpt::math::TPose2D& pose, const RecentScans& recent) const;
   void weigh(Hypothesis& hypothesis) const;
   bool decide() const;
-  /// ln of the weight that this number of scans would have at a place outside the map.
+  /// Log-weight of this number of scans at a place outside the map.
   double unexplained(size_t scans) const;
 
   OccupancyGrid grid_;

@@ -23,7 +23,7 @@ constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams o
 constexpr size_t kWindow = 8;                            // remembered while the place is known
 constexpr long kDoubtful = 2;  // of these that are not explained: other places may fit
 
-/// Completes the settings by the map's.
+/// Completes the settings with those of the map.
 const FilterConfiguration& checked(FilterConfiguration& configuration, const OccupancyGrid& grid) {
   configuration.grid.resolution = grid.resolution();
   if (configuration.filter.isAuxiliary())

@@ -13,10 +13,10 @@
 
 namespace hybrid_slam {
 
-/// The particle filter of HybridFilter in a map that it does not change. While the place of the robot is
-/// unknown, GlobalLocalization takes the place of the particles: at the beginning without a start, and when
-/// several successive scans contradict the map because the robot was carried elsewhere, has left the map, or
-/// the surroundings have changed.
+/// The particle filter of HybridFilter in a map that does not change. While the robot's place is unknown,
+/// GlobalLocalization replaces the particles: at the beginning if no start is given, and after several
+/// successive scans that contradict the map because the robot was carried elsewhere, has left the map, or the
+/// surroundings have changed.
 class Localizer : public Filter {
  public:
   /// The resolution is that of the map, not `resolution` of [grid].
@@ -29,7 +29,7 @@ class Localizer : public Filter {
 
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
-  /// Whether the place of the robot is known. If not, several places are possible, or none fits; the poses
+  /// Returns whether the robot's place is known. If not, several places are possible, or none fits; the poses
   /// and their spreads then cover all of them.
   bool isLocalized() const { return isTracking_; }
 
@@ -38,7 +38,7 @@ class Localizer : public Filter {
 
   size_t updates() const override { return path_.size(); }
   const FilterStep& lastStep() const override { return step_; }
-  /// The best estimate at each update, as known then.
+  /// Returns the best estimate at each update, not corrected later.
   std::vector<mrpt::math::TPose2D> bestPath() const override { return path_; }
   mrpt::maps::COccupancyGridMap2D bestGrid() const override;
   std::vector<DatabaseLine> bestLines() const override { return lines_.lines(); }

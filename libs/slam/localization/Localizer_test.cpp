@@ -18,7 +18,7 @@ struct Map {
   LineDatabase lines;
 };
 
-/// The map made of scans from all over an area of 8 m x 5 m.
+/// A map made of scans from all over an area of 8 m x 5 m.
 Map mapOf(const Walls& walls) {
   Map map;
   RandomStream random(1, 0, 0);
@@ -33,7 +33,7 @@ Map mapOf(const Walls& walls) {
   return map;
 }
 
-/// Looks the same from its other side.
+/// A room with rotational symmetry.
 const Walls kSymmetric = polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {-3, 6}});
 
 double offBy(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -53,7 +53,7 @@ class Drive {
     localizer.process({1.03 * motion.x + 0.01 * random_.gaussian(), 0.01 * random_.gaussian(), motion.phi},
                       scans);
   }
-  /// Puts the robot elsewhere; the odometry does not see it.
+  /// Puts the robot elsewhere, unnoticed by the odometry.
   void carry(const Walls& walls, const TPose2D& to) { walls_ = walls, at_ = to; }
   const TPose2D& at() const { return at_; }
 

@@ -16,20 +16,11 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr double kReach = 1;                           // m: farthest wall of a point
-constexpr double kVoxel = 0.25;                        // m: of points nearer to each other one is used
+constexpr double kVoxel = 0.25;                        // m: side of a square of which one point is used
 constexpr double kSigma = 0.05;                        // m per metre of wall: error of a plan
 constexpr double kScaleSigma = 0.02;                   // a priori
 constexpr double kMostStretched = 0.1, kFarthest = 1;  // m: beyond, the fit has failed
 constexpr int kIterations = 30;
-
-/// One point of each square.
-std::vector<TPoint2D> thinned(const std::vector<TPoint2D>& points) {
-  std::set<std::pair<long, long>> taken;
-  std::vector<TPoint2D> result;
-  for (const TPoint2D& p : points)
-    if (taken.emplace(std::lround(p.x / kVoxel), std::lround(p.y / kVoxel)).second) result.push_back(p);
-  return result;
-}
 
 /// The point of a wall nearest to p.
 TPoint2D nearest(const PlanLine& wall, const TPoint2D& p) {
@@ -38,7 +29,7 @@ TPoint2D nearest(const PlanLine& wall, const TPoint2D& p) {
   return wall.start + d * std::clamp(t, 0.0, 1.0);
 }
 
-/// The walls around the points; the rest of a large plan stays out of the index.
+/// An index of the walls around the points; it omits the rest of a large plan.
 class Walls {
  public:
   Walls(const std::vector<PlanLine>& walls, const TPoint2D& centre, double radius)
@@ -70,6 +61,19 @@ class Walls {
 };
 
 }  // namespace
+
+double PlanFit::share() const {
+  const auto count = std::count(isOnWall.begin(), isOnWall.end(), true);
+  return static_cast<double>(count) / static_cast<double>(std::max<size_t>(1, isOnWall.size()));
+}
+
+std::vector<TPoint2D> thinned(const std::vector<TPoint2D>& points) {
+  std::set<std::pair<long, long>> taken;
+  std::vector<TPoint2D> result;
+  for (const TPoint2D& p : points)
+    if (taken.emplace(std::lround(p.x / kVoxel), std::lround(p.y / kVoxel)).second) result.push_back(p);
+  return result;
+}
 
 PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>& walls,
                 const PlanFit& first) {
@@ -105,9 +109,17 @@ PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>
     }
     const Eigen::Vector4d step = information.ldlt().solve(gradient);
     at += TPoint2D(step[0], step[1]), phi += step[2], scale += step[3];
-    if (!(std::abs(scale - 1) < kMostStretched && (at - start).norm() < kFarthest)) return first;
+    if (!(std::abs(scale - 1) < kMostStretched && (at - start).norm() < kFarthest))
+      return {first.pose, first.scale, std::vector<bool>(chosen.size())};
   }
-  return {{at.x * scale, at.y * scale, std::remainder(phi, 2 * M_PI)}, scale};
+  PlanFit fit{{at.x * scale, at.y * scale, std::remainder(phi, 2 * M_PI)}, scale};
+  const TPose2D drawn(at.x, at.y, phi);
+  for (const TPoint2D& p : chosen) {
+    const TPoint2D q = drawn.composePoint(p * (1 / scale));
+    const PlanLine* wall = near.nearestTo(q);
+    fit.isOnWall.push_back(wall && (q - nearest(*wall, q)).norm() < 3 * kSigma);
+  }
+  return fit;
 }
 
 }  // namespace hybrid_slam

@@ -1,10 +1,15 @@
 #include "slam/localization/PlanSearch.h"
 
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/Errors.h"
-#include "slam/localization/PlanFit.h"
+#include "slam/grid/CorrelativeSearch.h"
+#include "slam/localization/GlobalLocalization.h"
 
 namespace hybrid_slam {
 namespace {
@@ -12,15 +17,27 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kScales[] = {1, 0.99, 1.01, 0.98, 1.02, 0.97, 1.03};  // the nearest to 1 first
-constexpr double kCell = 0.1;                                          // m, coarser than the plan's error
+constexpr double kScales[] = {1, 0.98, 1.02};  // between them the fit finds the scale
+constexpr double kCell = 0.1;                  // m, coarser than the plan's error
 constexpr double kMostCells = 1 << 25;
-constexpr double kLeastLength = 1;      // m, of a line of the database
-constexpr int kCount = 3;               // observations that a line of the plan counts as
-constexpr size_t kLongestSearch = 100;  // scans; each takes a second in a large building
+constexpr double kLeastLength = 1;  // m, of a line of the database
+constexpr int kCount = 3;           // observations that a line of the plan counts as
+constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};
+constexpr size_t kNearStart = 8;        // places there
+constexpr size_t kLongestSearch = 400;  // scans
+constexpr size_t kWindow = 80;          // scans that are searched for together, each half a metre further
+constexpr size_t kEvery = 4;            // of these to the next search
+constexpr size_t kPlaces = 200;         // of a scale
+constexpr size_t kFitted = 40;          // best of all scales
+constexpr double kLeastScore = 0.2;     // of a place
+// The robot is found at a place if, in two searches in succession,
+constexpr double kLeastShare = 0.65;  // of the points lie on walls,
+constexpr double kMargin = 4;         // and more than at any other place, by these standard deviations;
+constexpr double kElsewhere = 1,
+                 kElsewhereAngle = mrpt::DEG2RAD(10.0);  // m, rad: places further apart are two
 constexpr int8_t kFree = -32, kOccupied = 48;
 
-/// The walls as occupied cells in a free rectangle.
+/// Draws the walls as occupied cells in a free rectangle.
 OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale) {
   OccupancyGrid grid(kCell);
   TPoint2D low = walls.front().start * scale, high = low;
@@ -59,21 +76,55 @@ LineDatabase linesOf(const std::vector<PlanLine>& walls, double scale, double wi
   return LineDatabase(std::move(lines));
 }
 
+/// Returns the points as beams of one laser at the origin.
+ScanBeams beamsTo(const std::vector<TPoint2D>& points) {
+  ScanBeams beams;
+  beams.origins.emplace_back();
+  for (const TPoint2D& p : points)
+    if (const double range = p.norm(); range > 0) beams.rays.push_back({p.x / range, p.y / range, range, 0});
+  return beams;
+}
+
+bool isElsewhere(const PlanFit& a, const PlanFit& b) {
+  return std::hypot(a.pose.x / a.scale - b.pose.x / b.scale, a.pose.y / a.scale - b.pose.y / b.scale) >
+             kElsewhere ||
+         std::abs(mrpt::math::wrapToPi(a.pose.phi - b.pose.phi)) > kElsewhereAngle;
+}
+
+/// Returns by how many standard deviations more points lie on walls at `a` than at `b`: McNemar's test, with
+/// the points that lie on no wall at both places as further noise.
+double advantage(const PlanFit& a, const PlanFit& b) {
+  int difference = 0, informative = 0;
+  for (size_t i = 0; i < a.isOnWall.size(); ++i) {
+    difference += a.isOnWall[i] - b.isOnWall[i];
+    informative += !(a.isOnWall[i] && b.isOnWall[i]);
+  }
+  return difference / std::sqrt(std::max(1, informative));
+}
+
 }  // namespace
 
 PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
                        std::optional<TPose2D> start)
     : cell_(configuration.grid.resolution),
       directionWindow_(configuration.database.directionWindow),
-      walls_(std::move(walls)) {
+      walls_(std::move(walls)),
+      start_(start),
+      prepare_(configuration),
+      recent_(configuration, kWindow) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
     throw InputError("floor plan without walls of 1 m", "option --prior-plan",
                      "expected coordinates in metres");
+  if (configuration.filter.isAuxiliary())
+    throw InputError("MRPT's auxiliary filters do not take a floor plan",
+                     "section [particle_filter], key `proposal`", "expected improved or standard");
+  lines_ = linesOf(walls_, 1, directionWindow_);
+  grid_ = gridOf(walls_, 1);
+  if (start_) return;
   for (const double scale : kScales) {
-    if (start && scale != 1) continue;
-    candidates_.push_back(
-        {scale, std::make_unique<Localizer>(configuration, gridOf(walls_, scale), LineDatabase(), start)});
+    const OccupancyGrid grid = gridOf(walls_, scale);
+    plans_.push_back({scale, GlobalSearch(grid, centreOf(grid))});
   }
 }
 
@@ -81,17 +132,57 @@ bool PlanSearch::isOver() const { return found_ || scans_ >= kLongestSearch; }
 
 void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   if (isOver()) return;
+  odometry_ = odometry_ + odometry;
+  if (scans.empty()) return;
   ++scans_;
-  for (Candidate& candidate : candidates_) {
-    candidate.localizer->process(odometry, scans);
-    if (found_ || !candidate.localizer->isLocalized()) continue;
-    const RecentScans& recent = candidate.localizer->recentScans();
-    const TPose2D newest = candidate.localizer->bestPath().back() + (TPose2D() - recent.since());
-    const PlanFit fit = fitPlan(recent.joined().endPoints(), walls_, {newest, candidate.scale});
-    found_ = Found{fit.scale,
-                   fit.pose + recent.since(),
-                   {OccupancyGrid(cell_), linesOf(walls_, fit.scale, directionWindow_)}};
+  if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
+  if (!start_ && ++added_ % kEvery != 0) return;
+  if (start_) return accept(fitAtStart());
+  const TPose2D now = recent_.scans().back().pose;
+  const std::optional<PlanFit> fit = fitAnywhere();
+  if (fit && last_ && !isElsewhere(*fit, {last_->pose + (now - at_), last_->scale})) accept(*fit);
+  last_ = fit, at_ = now;
+}
+
+void PlanSearch::accept(const PlanFit& fit) {
+  found_ = Found{fit.scale, fit.pose, {OccupancyGrid(cell_), linesOf(walls_, fit.scale, directionWindow_)}};
+}
+
+PlanFit PlanSearch::fitAtStart() const {
+  const ScanBeams& scan = recent_.scans().back().scan.matchedBeams;
+  std::vector<TPose2D> places = correlativeSearch(scan, *start_, grid_, kStartWindow, kNearStart);
+  places.push_back(*start_);
+  PlanFit best;
+  for (const TPose2D& place : places)
+    if (PlanFit fit = fitPlan(scan.endPoints(), walls_, {place});
+        best.isOnWall.empty() || fit.share() > best.share())
+      best = fit;
+  return best;
+}
+
+std::optional<PlanFit> PlanSearch::fitAnywhere() const {
+  const std::vector<TPoint2D> points = thinned(recent_.endPoints());
+  const std::vector<double> headings = alignedHeadings(recent_.lines(), lines_);
+  struct Candidate {
+    double score;
+    PlanFit fit;
+  };
+  std::vector<Candidate> places;
+  for (const ScaledPlan& plan : plans_)
+    for (const auto& place : plan.search(beamsTo(points), headings, kPlaces, kLeastScore))
+      places.push_back({place.score, {place.pose, plan.scale}});
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  places.resize(std::min(places.size(), kFitted));
+  const PlanFit* best = nullptr;
+  for (Candidate& place : places) {
+    place.fit = fitPlan(points, walls_, place.fit);
+    if (!best || place.fit.share() > best->share()) best = &place.fit;
   }
+  if (!best || best->share() < kLeastShare) return std::nullopt;
+  for (const Candidate& place : places)
+    if (isElsewhere(place.fit, *best) && advantage(*best, place.fit) < kMargin) return std::nullopt;
+  return *best;
 }
 
 }  // namespace hybrid_slam

@@ -2,52 +2,67 @@
 /// @brief Finds the robot in a floor plan of unknown scale.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "slam/filter/Refinement.h"
-#include "slam/localization/Localizer.h"
+#include "slam/grid/GlobalSearch.h"
+#include "slam/lines/LineDatabase.h"
+#include "slam/localization/PlanFit.h"
+#include "slam/localization/RecentScans.h"
 #include "slam/plan/PlanLine.h"
 
 namespace hybrid_slam {
 
-/// A localiser for each scale from 0.97 to 1.03, in a grid of the plan in which everything but walls is free.
-/// Several may find the robot; where one does, the recent scans are fitted to the plan, which gives the scale
-/// (PlanFit.h).
+/// Searches the plan for the end points of the recent scans and fits pose and scale at the best places
+/// (PlanFit.h). The robot is where most points lie on walls of the plan, if there are clearly fewer at every
+/// other place. Points without a wall, and walls that the scans contradict, do not rule a place out: a plan
+/// may be wrong in parts.
 class PlanSearch {
  public:
-  /// @param start  pose of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the scale is
-  ///               then fitted from 1; empty: anywhere
-  /// @throws InputError for a plan without walls of 1 m or of more than 2^25 cells, and for settings that
-  ///         Localizer rejects
+  /// @param start  pose of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the first
+  ///               scan is then fitted there; empty: anywhere
+  /// @throws InputError for a plan without walls of 1 m or of more than 2^25 cells, and for MRPT's auxiliary
+  ///         filters
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
              std::optional<mrpt::math::TPose2D> start);
 
-  /// Searches with the first 100 scans.
+  /// Searches with the first 400 scans.
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans);
 
   struct Found {
     double scale;              ///< of the plan
-    mrpt::math::TPose2D pose;  ///< of the robot now, in the scaled plan
+    mrpt::math::TPose2D pose;  ///< current pose of the robot, in the scaled plan
     ScanMap map;               ///< no cells, and the scaled plan's lines as if each had been seen three times
   };
-  /// Set once the robot has been found; of several scales the one nearest to 1.
+  /// Set once the robot has been found.
   const std::optional<Found>& found() const { return found_; }
-  /// Whether the robot has been found or the last scan of the search has passed. Further scans change
-  /// nothing.
+  /// Returns whether the robot has been found or the last scan of the search has passed. Further scans have
+  /// no effect.
   bool isOver() const;
 
  private:
-  struct Candidate {
+  struct ScaledPlan {
     double scale;
-    std::unique_ptr<Localizer> localizer;
+    GlobalSearch search;
   };
+  std::optional<PlanFit> fitAnywhere() const;
+  PlanFit fitAtStart() const;
+  void accept(const PlanFit& fit);
+
   double cell_, directionWindow_;  ///< m, rad
   std::vector<PlanLine> walls_;
-  std::vector<Candidate> candidates_;
+  std::optional<mrpt::math::TPose2D> start_;
+  LineDatabase lines_;
+  OccupancyGrid grid_;  ///< of the plan as drawn
+  std::vector<ScaledPlan> plans_;
+  ScanPreparation prepare_;
+  RecentScans recent_;
+  mrpt::math::TPose2D odometry_;  ///< since the last scan
+  size_t scans_ = 0, added_ = 0;
+  std::optional<PlanFit> last_;  ///< of the last search, if its best place was clear
+  mrpt::math::TPose2D at_;       ///< of the robot then, frame of the recent scans
   std::optional<Found> found_;
-  size_t scans_ = 0;
 };
 
 }  // namespace hybrid_slam

@@ -6,6 +6,7 @@
 
 #include "base/Errors.h"
 #include "testing/MappedRoom.h"
+#include "testing/RingDrive.h"
 
 namespace hybrid_slam {
 namespace {
@@ -35,14 +36,23 @@ TEST(PlanSearch, WithoutScansNothingIsFound) {
   EXPECT_FALSE(search.found());
 }
 
-// A plan in its own frame, whose scale is 2 % off.
-TEST(PlanSearch, FindsTheRobotAndTheScale) {
-  const TPose2D frame(3, -2, 0.7);  // of the room in the plan
+/// Draws walls in a plan of its own frame, whose coordinates must be multiplied by `scale`.
+std::vector<PlanLine> drawn(const test::Walls& walls, double scale, const TPose2D& frame = {3, -2, 0.7}) {
   std::vector<PlanLine> plan;
-  for (const auto& wall : test::room())
+  for (const auto& wall : walls)
     plan.push_back(
-        {frame.composePoint(wall.first) * (1 / 1.02), frame.composePoint(wall.second) * (1 / 1.02)});
-  PlanSearch search(configuration(), plan, {});
+        {frame.composePoint(wall.first) * (1 / scale), frame.composePoint(wall.second) * (1 / scale)});
+  return plan;
+}
+
+void expectNear(const PlanSearch::Found& found, const TPose2D& expected) {
+  EXPECT_NEAR(found.pose.x, expected.x, 0.1);
+  EXPECT_NEAR(found.pose.y, expected.y, 0.1);
+  EXPECT_NEAR(std::remainder(found.pose.phi - expected.phi, 2 * M_PI), 0, 0.03);
+}
+
+TEST(PlanSearch, FindsTheRobotAndTheScale) {
+  PlanSearch search(configuration(), drawn(test::room(), 1.02), {});
   RandomStream random(1, 0, 0);
   TPose2D at(3, 0.5, 0.4);
   for (int i = 0; i < 60 && !search.found(); ++i) {
@@ -53,11 +63,65 @@ TEST(PlanSearch, FindsTheRobotAndTheScale) {
   }
   ASSERT_TRUE(search.found());
   EXPECT_NEAR(search.found()->scale, 1.02, 0.005);
-  const TPose2D expected = frame + at;
-  EXPECT_NEAR(search.found()->pose.x, expected.x, 0.1);
-  EXPECT_NEAR(search.found()->pose.y, expected.y, 0.1);
-  EXPECT_NEAR(std::remainder(search.found()->pose.phi - expected.phi, 2 * M_PI), 0, 0.03);
+  expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
   EXPECT_FALSE(search.found()->map.lines.lines().empty());
+}
+
+TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
+  RandomStream random(1, 0, 0);
+  const TPose2D at(3, 0.5, 0.4), truth = TPose2D(3, -2, 0.7) + at;
+  PlanSearch search(configuration(), drawn(test::room(), 1.01),
+                    TPose2D(truth.x + 0.3, truth.y - 0.3, truth.phi + 0.2));
+  search.process(
+      {},
+      {std::make_shared<mrpt::obs::CObservation2DRangeScan>(test::observationOf(test::room(), at, random))});
+  ASSERT_TRUE(search.found());
+  EXPECT_NEAR(search.found()->scale, 1.01, 0.01);
+  expectNear(*search.found(), truth);
+}
+
+/// Drives until the robot is found. @return its true pose then, frame of the walls
+TPose2D drive(PlanSearch& search, const std::vector<test::DrivenPose>& steps) {
+  for (const test::DrivenPose& step : steps) {
+    search.process(step.motion, test::observed(step.scans[0]));
+    if (search.found()) return step.truth;
+  }
+  return {};
+}
+
+// Every fourth wall is missing, and every fifth is 0.4 m aside.
+TEST(PlanSearch, FindsTheRobotInAPartlyWrongPlan) {
+  test::Walls halls =
+      test::polygon({{0, 0}, {20, 0}, {20, 6}, {14, 6}, {14, 12}, {9, 12}, {9, 6}, {4, 6}, {4, 15}, {0, 15}});
+  test::append(halls, test::box(6, 2, 8, 3));
+  test::append(halls, test::box(16, 2.5, 17, 4));
+  std::vector<PlanLine> plan;
+  const std::vector<PlanLine> right = drawn(halls, 1);
+  for (size_t i = 0; i < right.size(); ++i) {
+    const auto& [start, end] = right[i];
+    const mrpt::math::TPoint2D d = end - start, aside = mrpt::math::TPoint2D(-d.y, d.x) * (0.4 / d.norm());
+    if (i % 4 == 2) continue;
+    plan.push_back(i % 5 == 4 ? PlanLine{start + aside, end + aside} : right[i]);
+  }
+  PlanSearch search(configuration(), plan, {});
+  const TPose2D at = drive(
+      search,
+      test::driveAlong(halls, {{2, 1}, {18, 1}, {18, 5}, {12, 5}, {12, 11}, {12, 5}, {2, 5}, {2, 13}}, 0));
+  ASSERT_TRUE(search.found());
+  expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
+}
+
+// The mirrored ring differs from the ring by nothing but cupboards, at two places equally.
+TEST(PlanSearch, RefusesThePlanOfAnotherBuilding) {
+  test::Walls mirrored = test::ring();
+  for (auto& wall : mirrored) wall.first.x *= -1, wall.second.x *= -1;
+  std::vector<test::DrivenPose> steps = test::ringDrive(0);
+  steps.resize(150);
+  for (const test::Walls& other : {mirrored, test::room()}) {
+    PlanSearch search(configuration(), drawn(other, 1), {});
+    drive(search, steps);
+    EXPECT_FALSE(search.found());
+  }
 }
 
 }  // namespace

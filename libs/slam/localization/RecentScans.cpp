@@ -12,14 +12,13 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kSpacing = 0.5, kSpacingAngle = mrpt::DEG2RAD(20.0);
-constexpr size_t kMost = 40;
 constexpr size_t kLocal = 8;  // scans of the local map
 constexpr size_t kStride = 2;
 
 }  // namespace
 
-RecentScans::RecentScans(const FilterConfiguration& c)
-    : grid_(c.grid), motion_(c.motion), minFit_(c.improved.minFit), matcher_(c.matcher) {
+RecentScans::RecentScans(const FilterConfiguration& c, size_t most)
+    : grid_(c.grid), motion_(c.motion), minFit_(c.improved.minFit), most_(most), matcher_(c.matcher) {
   grid_.pHit = 0.9, grid_.pMiss = 0.4;  // a few scans must show walls clearly
 }
 
@@ -31,7 +30,7 @@ bool RecentScans::add(const TPose2D& odometry, const PreparedScan& scan) {
     if (since_.norm() < kSpacing && std::abs(since_.phi) < kSpacingAngle) return false;
     scans_.push_back({matched(scans_.back().pose + since_, scan), scan});
   }
-  if (scans_.size() > kMost) scans_.pop_front();
+  if (scans_.size() > most_) scans_.pop_front();
   since_ = {};
   return true;
 }
@@ -88,6 +87,14 @@ std::vector<LineSegment> RecentScans::lines() const {
   for (const size_t i : spread())
     for (const LineSegment& line : scans_[i].scan.lines)
       all.push_back(transformed(line, motion(scans_.size() - 1, i)));
+  return all;
+}
+
+std::vector<mrpt::math::TPoint2D> RecentScans::endPoints() const {
+  std::vector<mrpt::math::TPoint2D> all;
+  for (size_t i = scans_.size(); i-- > 0;)
+    for (const mrpt::math::TPoint2D& p : scans_[i].scan.matchedBeams.endPoints())
+      all.push_back(motion(scans_.size() - 1, i).composePoint(p));
   return all;
 }
 

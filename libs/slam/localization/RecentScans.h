@@ -1,5 +1,5 @@
 /// @file RecentScans.h
-/// @brief The last scans of a robot whose place in the map is unknown, and its motion between them.
+/// @brief The recent scans of a robot whose place in the map is unknown, and its motion between them.
 #pragma once
 
 #include <deque>
@@ -15,13 +15,14 @@ struct RecentScan {
   PreparedScan scan;
 };
 
-/// Scans at least 0.5 m or 20 deg apart, oldest first; the last 40.
+/// The last scans at least 0.5 m or 20 deg apart, oldest first.
 ///
-/// Each is matched to a local map of the few before it, so that errors of the odometry in turns do not bend
+/// Each is matched to a local map of the few previous scans, so that odometry errors in turns do not distort
 /// the window.
 class RecentScans {
  public:
-  explicit RecentScans(const FilterConfiguration& configuration);
+  /// @param most  remembers at most this number of scans
+  explicit RecentScans(const FilterConfiguration& configuration, size_t most = 40);
 
   /// @param odometry  since the previous call (m, rad)
   /// @return whether the scan was far enough from the last one to be added
@@ -35,10 +36,12 @@ class RecentScans {
   /// Odometry since the newest scan.
   const mrpt::math::TPose2D& since() const { return since_; }
 
-  /// Some of the newest scans as one, in the robot frame of the newest, each of them another laser of it.
+  /// Joins some of the newest scans in the robot frame of the newest, each as another laser.
   ScanBeams joined() const;
-  /// Their lines, in the same frame.
+  /// Returns their lines, in the same frame.
   std::vector<LineSegment> lines() const;
+  /// Returns the end points of all scans in the robot frame of the newest (m), those of the newest first.
+  std::vector<mrpt::math::TPoint2D> endPoints() const;
 
  private:
   mrpt::math::TPose2D matched(const mrpt::math::TPose2D& expected, const PreparedScan& scan) const;
@@ -47,6 +50,7 @@ class RecentScans {
   GridOptions grid_;
   MotionModelOptions motion_;
   double minFit_;
+  size_t most_;
   ScanMatcher matcher_;
   std::deque<RecentScan> scans_;
   mrpt::math::TPose2D since_;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// Drives a circle in the room; the odometry turns by `error` too little in each step.
+/// Drives a circle in the room; in each step, the odometry's turn is too small by `error`.
 struct Driven {
   explicit Driven(int steps, double error = 0) : recent(FilterConfiguration()) {
     RandomStream random(1, 0, 0);

@@ -1,5 +1,5 @@
 /// @file LocalMap.h
-/// @brief A short part of the path with what was seen there, taken as rigid.
+/// @brief A short part of the path and the map made there, taken as rigid.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam {
 
-/// What the closer keeps of an update: a place of the path and its beams.
+/// The data of an update that LoopCloser keeps: its index and its beams.
 struct Keyframe {
   size_t update = 0;  ///< index of the path
   ScanBeams beams;
@@ -21,7 +21,7 @@ struct Keyframe {
 
 /// The map of some keyframes, in the frame of one of them.
 struct LocalMap {
-  size_t reference = 0;  ///< the keyframe of the frame
+  size_t reference = 0;  ///< keyframe that defines the frame
   OccupancyGrid grid;
   ScanBeams ends;  ///< one beam end for each occupied cell, from the reference
 };

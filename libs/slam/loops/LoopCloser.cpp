@@ -31,7 +31,7 @@ constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
 double distanceOf(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 double angleOf(const TPose2D& a, const TPose2D& b) { return std::abs(mrpt::math::wrapToPi(a.phi - b.phi)); }
 
-/// The direction of the walls in the lines of a scan, modulo 90 deg.
+/// Returns the direction of the walls in the lines of a scan, modulo 90 deg.
 std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
   double length = 0;
   for (const LineSegment& line : lines) length += line.length;

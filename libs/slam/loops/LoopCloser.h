@@ -36,7 +36,7 @@ class LoopCloser {
   /// without lines).
   void add(const mrpt::math::TPose2D& motion, const LaserScans& scans, const std::vector<LineSegment>& lines,
            bool hasSlipped);
-  /// Whether the path has grown enough since the last attempt.
+  /// Returns whether the path has grown enough since the last attempt.
   bool isDue() const { return toAttempt_ <= 0; }
   /// Tries to close a loop at the end of the path.
   /// @param path       a pose for each update, map frame

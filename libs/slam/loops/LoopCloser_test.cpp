@@ -14,7 +14,7 @@ struct Driven {
   std::vector<LoopClosure> closures;
 };
 
-/// Drives with the closer, as the filter does: after a closure it goes on from the corrected path.
+/// Drives with the closer, as the filter does: after a closure it continues from the corrected path.
 Driven closed(const std::vector<DrivenPose>& drive,
               const LoopClosingOptions& options = LoopClosingOptions()) {
   LoopCloser closer(options, GridOptions());

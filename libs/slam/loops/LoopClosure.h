@@ -1,5 +1,5 @@
 /// @file LoopClosure.h
-/// @brief What the closing of a loop did to the path, and why.
+/// @brief A closed loop: the corrected path and the evidence.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>

@@ -1,5 +1,5 @@
 /// @file LoopMatch.h
-/// @brief Where one local map lies in another, and how well they agree there.
+/// @brief Finds one local map in another, and measures their agreement.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,8 +10,8 @@
 
 namespace hybrid_slam {
 
-/// How two local maps agree at a relative pose. A cell on which one of them has a wall and the other free
-/// space contradicts; where one of them knows nothing, nothing is compared.
+/// Agreement of two local maps at a relative pose. A cell with a wall in one map and free space in the other
+/// is a contradiction; cells unknown to one map are not compared.
 struct Agreement {
   double fit = 0;      ///< share of the compared walls on which both agree
   double overlap = 0;  ///< share of the newer map's walls that are compared

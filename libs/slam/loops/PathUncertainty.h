@@ -1,5 +1,5 @@
 /// @file PathUncertainty.h
-/// @brief How far one pose of a path may be off as seen from another.
+/// @brief Uncertainty of a pose of a path relative to another one.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -14,7 +14,7 @@ struct StepVariance {
   double position = 0;  ///< m^2, in x and in y
   double heading = 0;   ///< rad^2
   static constexpr double kMost = 1e6;
-  /// Whether it has an inverse: of a motion, not of none.
+  /// Returns whether it is invertible: it is of a motion, not zero.
   bool isOfMotion() const { return position > 1e-9 && heading > 1e-9; }
 
   template <class State>
@@ -25,8 +25,8 @@ struct StepVariance {
   }
 };
 
-/// The error model: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a rotation. Where the odometry
-/// slipped, and a search replaced it, 0.3 m and 5 deg more.
+/// The error model: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a rotation. Another 0.3 m and
+/// 5 deg if the odometry slipped and a search replaced it.
 StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 
 /// Two poses of the path whose relative pose has been measured.
@@ -43,8 +43,8 @@ struct KnownPair {
   }
 };
 
-/// Accumulates the errors of a path's motions. A heading error moves all that follows about the place where
-/// it happened.
+/// Accumulates the errors of a path's motions. A heading error rotates the rest of the path about the place
+/// where it occurred.
 class PathUncertainty {
  public:
   /// @param path   map frame

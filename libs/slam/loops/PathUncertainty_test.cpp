@@ -7,7 +7,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// 0, 1, ... 100 m along the x axis, each motion with a variance of 1e-4 m^2 and 1e-6 rad^2.
+/// A path of 100 m along the x axis, each motion of 1 m with variances of 1e-4 m^2 and 1e-6 rad^2.
 PathUncertainty straight() {
   std::vector<TPose2D> path;
   for (int i = 0; i <= 100; ++i) path.emplace_back(i, 0, 0);

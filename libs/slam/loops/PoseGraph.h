@@ -1,5 +1,5 @@
 /// @file PoseGraph.h
-/// @brief The poses of a path from relative poses, robust against false ones.
+/// @brief Optimises the poses of a path by relative poses, robust against false ones.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -35,8 +35,8 @@ struct OptimizedGraph {
   std::vector<double> loopWeights;  ///< of each loop edge: 0 if it was dropped as false, else 1
 };
 
-/// Least squares by mrpt::graphslam's sparse Levenberg-Marquardt. The loop with the largest residual is
-/// dropped until the others agree with each other and with the motions; at most four are dropped.
+/// Solves for least squares by mrpt::graphslam's sparse Levenberg-Marquardt. The loop with the largest
+/// residual is dropped until the others agree with each other and with the motions; at most four are dropped.
 OptimizedGraph optimized(const PoseGraph& graph);
 
 }  // namespace hybrid_slam

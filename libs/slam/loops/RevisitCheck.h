@@ -1,5 +1,5 @@
 /// @file RevisitCheck.h
-/// @brief Whether scans contradict what was mapped earlier along the same path.
+/// @brief Checks whether scans contradict the map made earlier along the same path.
 #pragma once
 
 #include <deque>
@@ -9,13 +9,13 @@
 
 namespace hybrid_slam {
 
-/// A scan that sees places mapped before.
+/// A scan of places mapped before.
 struct Revisit {
   mrpt::math::TPose2D pose;     ///< of the robot, map frame
   size_t update = 0;            ///< index of the path
   double distance = 0;          ///< m, along the path
-  size_t compared = 0;          ///< beams that end or pass where the earlier map knows something
-  size_t contradicted = 0;      ///< of these, beams that end in its free space or pass through its walls
+  size_t compared = 0;          ///< beams that end in or cross known cells of the earlier map
+  size_t contradicted = 0;      ///< of these, beams that end in free space or cross walls of that map
   bool isContradicted() const;  ///< more than 30 % of the compared beams
 };
 
@@ -23,7 +23,7 @@ struct Revisit {
 /// and doors contradict with some beams; a doubled wall or a room on top of another one contradicts with
 /// most.
 ///
-/// Beams up to 8 m on cells of 0.1 m: a wall may be off by 0.1 m to 0.2 m.
+/// Uses beams up to 8 m on cells of 0.1 m, so that a wall may be off by 0.1 m to 0.2 m.
 class RevisitCheck {
  public:
   /// @param delay  m of path
@@ -50,12 +50,12 @@ class RevisitCheck {
   std::vector<Revisit> revisits_;
 };
 
-/// Share of the compared beams that contradict what was mapped 20 m of path before; 0 without any.
+/// Share of the compared beams that contradict the map from 20 m of path before; 0 without any.
 /// @param path   a pose for each update, map frame
 /// @param scans  of each update; those of the last ones may be missing
 double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);
 
-/// At most 90 of the beams.
+/// Selects at most 90 beams.
 ScanBeams beamsToCompare(const LaserScans& scans);
 
 }  // namespace hybrid_slam

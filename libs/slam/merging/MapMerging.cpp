@@ -16,7 +16,7 @@ constexpr int kPasses = 3;                               // of the scans over th
 constexpr size_t kMostWalls = 5000;                      // matched
 constexpr double kExplained = 0.7, kContradicted = 0.1;  // shares of the beams of a scan in the older map
 
-/// The placement on the cells of the maps themselves.
+/// Refines the placement on the maps at their own resolution.
 TPose2D precise(const TPose2D& frame, const OccupancyGrid& newer, const OccupancyGrid& older,
                 const ScanMatcherOptions& options) {
   const MapPatch whole = wholeMap(newer, {middleOf(newer).x, middleOf(newer).y, 0});
@@ -41,7 +41,7 @@ void append(std::vector<PosedScans>& all, const std::vector<Scans>& scans, const
   for (size_t i = 0; i < scans.size(); ++i) all.push_back({scans[i], path[i], true});
 }
 
-/// The newer path filtered once more, in the older map from the first scan on that this map explains.
+/// Filters the newer path again, in the older map from the first scan on that this map explains.
 std::vector<TPose2D> filteredIn(const ScanMap& older, const std::vector<TPose2D>& path,
                                 const std::vector<Scans>& scans, FilterConfiguration configuration) {
   for (double* const least : {&configuration.filter.updateDistance, &configuration.filter.updateAngle,

@@ -1,5 +1,5 @@
 /// @file MapMerging.h
-/// @brief One map of two.
+/// @brief Merges two maps.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace hybrid_slam {
 
-/// A map and, if it is ours, how it was made.
+/// A map with its path and scans, if it is ours.
 struct MapPart {
   ScanMap map;
   std::vector<mrpt::math::TPose2D> path;  ///< a pose for each update, map frame (m, rad); may be empty
@@ -23,10 +23,9 @@ struct MergedMap {
 
 /// Joins two maps.
 ///
-/// Where the newer scans are known, the filter runs over them once more. From the first scan that the older
-/// map explains, it continues that map. This removes the drift between the maps, which a rigid motion cannot.
-/// All known scans are then matched to the common map. A map without scans keeps its shape: its cells are
-/// added.
+/// If the newer scans are known, the filter runs over them again. From the first scan that the older map
+/// explains, it continues that map. This removes the drift between the maps, which a rigid motion cannot. All
+/// known scans are then matched to the common map. A map without scans keeps its shape: its cells are added.
 ///
 /// @param placement      of the newer map in the older
 /// @param configuration  of the older map

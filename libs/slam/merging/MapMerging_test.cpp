@@ -12,7 +12,7 @@ using namespace test;
 
 using Corners = std::vector<TPoint2D>;
 
-/// The map of a drive in a frame whose origin is its first pose, with a heading of its own.
+/// The map of a drive, in a rotated frame whose origin is the first pose.
 struct Drive {
   MapPart part;
   TPose2D frame;  ///< of the map, in the world
@@ -41,7 +41,7 @@ MapPart withoutScans(MapPart part) {
   return part;
 }
 
-/// Within a cell of a place.
+/// Returns whether there is a wall within a cell of a place.
 bool hasWall(const OccupancyGrid& grid, double x, double y) {
   const CellIndex at = grid.cellOf(x, y);
   for (int k = 0; k < 9; ++k)

@@ -24,7 +24,7 @@ struct KnownCell {
   int8_t value;
 };
 
-/// The known cells of a box, row by row. By the tiles that exist: a map may have few, far apart.
+/// Returns the known cells of a box, row by row. Visits existing tiles only: a map may have few, far apart.
 std::vector<KnownCell> knownCells(const TileGrid& tiles, const CellBox& box) {
   std::vector<KnownCell> cells;
   tiles.forEachTile([&](int tx, int ty, const Tile& tile) {
@@ -38,7 +38,7 @@ std::vector<KnownCell> knownCells(const TileGrid& tiles, const CellBox& box) {
   return cells;
 }
 
-/// The known cells of a box, and their walls as beam ends.
+/// Cuts out the known cells of a box, with their walls as beam ends.
 MapPatch cut(const OccupancyGrid& grid, const CellBox& box, const CellIndex& origin) {
   const double size = grid.resolution();
   MapPatch patch{{origin.x * size, origin.y * size, 0}, {0, OccupancyGrid(size), ScanBeams()}};

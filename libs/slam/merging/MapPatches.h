@@ -14,12 +14,12 @@ struct MapPatch {
   LocalMap map;
 };
 
-/// The whole map as one patch.
+/// Returns the whole map as one patch.
 /// @param place  the origin of its frame
 MapPatch wholeMap(const OccupancyGrid& grid, const mrpt::math::TPose2D& place);
 
-/// Squares of 12 m around free places, about 4 m apart, at most 250 of them. Those with less than 4 m of wall
-/// are left out.
+/// Returns squares of 12 m around free places about 4 m apart, at most 250. Omits those with less than 4 m of
+/// wall.
 std::vector<MapPatch> patchesOf(const OccupancyGrid& grid);
 
 /// The middle of the bounding box of the mapped tiles (m, map frame).

@@ -81,7 +81,7 @@ class Placer {
     return all;
   }
 
-  /// The places that the patches suggest, each once.
+  /// Returns the places that the patches suggest, without duplicates.
   std::vector<Place> places(const std::vector<PatchMatch>& matches) {
     std::vector<Place> all;
     for (const PatchMatch& match : matches) {
@@ -98,7 +98,7 @@ class Placer {
     return all;
   }
 
-  /// Those that agree with a place.
+  /// Returns the matches that agree with a place.
   std::vector<PatchMatch> supporting(const Place& place, const std::vector<PatchMatch>& matches) const {
     const TPose2D frame = place.middle + inverse(newer_.place);
     std::vector<PatchMatch> some;
@@ -138,7 +138,7 @@ class Placer {
   tbb::task_arena arena_;
 };
 
-/// At which the directions of the walls agree; empty where one of the maps has none.
+/// Headings at which the directions of the walls agree; empty if one of the maps has none.
 std::vector<double> alignedFrames(const LineDatabase& newer, const LineDatabase& older) {
   std::vector<double> headings;
   if (newer.dominatingDirection() && older.dominatingDirection())

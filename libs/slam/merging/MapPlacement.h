@@ -1,5 +1,5 @@
 /// @file MapPlacement.h
-/// @brief Where a map lies in another one.
+/// @brief Finds a map in another one.
 #pragma once
 
 #include <vector>
@@ -20,22 +20,22 @@ struct PatchMatch {
 struct MapPlacement {
   mrpt::math::TPose2D frame;        ///< of the newer map in that of the older (m, rad)
   Agreement agreement;              ///< of the whole maps
-  double compared = 0;              ///< m of wall of the newer map where the older knows something
+  double compared = 0;              ///< m of wall of the newer map in known cells of the older
   double second = 0;                ///< highest score elsewhere, as a fraction of this one's
-  std::vector<PatchMatch> patches;  ///< that agree with it
-  double patchFit = 0;              ///< their median share of walls that agree: not affected by drift
+  std::vector<PatchMatch> patches;  ///< matches that agree with it
+  double patchFit = 0;              ///< median `fit` of these, which drift does not affect
 
-  /// Whether at least three patches match, with a median fit of 95 %, and at least 20 m of wall are compared,
-  /// of which 75 % agree.
+  /// Returns whether at least three patches match with a median fit of 95 %, and at least 20 m of wall are
+  /// compared, of which 75 % agree.
   bool hasEvidence() const;
-  /// Whether another place is nearly as good.
+  /// Returns whether another place is nearly as good.
   bool isAmbiguous() const;
   bool isFound() const { return hasEvidence() && !isAmbiguous(); }
 };
 
-/// Searches all of the older map for patches of the newer one, by the directions of the walls in the line
-/// databases, and at all headings where this finds nothing. The places that the patches suggest are judged by
-/// the whole maps, on cells of at least 0.1 m; patches count that agree on the place.
+/// Searches the whole older map for patches of the newer one, at the headings that align the walls in the
+/// line databases; at all headings if this finds nothing. The suggested places are judged by the whole maps,
+/// on cells of at least 0.1 m; only patches that agree on the place count.
 /// @param threads  0: all cores
 MapPlacement placementOf(const ScanMap& newer, const ScanMap& older, int threads);
 

@@ -10,7 +10,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-/// The cells of the new grid that a tile of the old one may touch.
+/// Returns the cells of the new grid that a tile of the old one may touch.
 CellBox boxOf(int tx, int ty, double size, const TPose2D& frame, const OccupancyGrid& target) {
   CellBox box;
   for (int corner = 0; corner < 4; ++corner) {

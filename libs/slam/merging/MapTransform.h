@@ -1,17 +1,17 @@
 /// @file MapTransform.h
-/// @brief A map in another frame and with other cells.
+/// @brief Transforms a map to another frame and resolution.
 #pragma once
 
 #include "slam/filter/Refinement.h"
 
 namespace hybrid_slam {
 
-/// A grid seen from another frame. A cell takes the highest occupancy of the known cells under it.
+/// Transforms a grid to another frame. A cell gets the highest occupancy of the known cells under it.
 /// @param frame  the grid's frame in the new one (m, rad)
 /// @param cell   size of the new cells, m
 OccupancyGrid resampled(const OccupancyGrid& grid, const mrpt::math::TPose2D& frame, double cell);
 
-/// The lines of a database likewise.
+/// Likewise, the lines of a database.
 std::vector<DatabaseLine> transformed(const std::vector<DatabaseLine>& lines,
                                       const mrpt::math::TPose2D& frame);
 

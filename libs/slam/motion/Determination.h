@@ -21,8 +21,8 @@ struct Undetermined {
   std::string keys, why;
 };
 
-/// Which of the regressors d, t (means) and d^2, t^2 (variances) the log determines. This depends on the
-/// odometry alone, so it is the same for D, C, T and every iteration.
+/// The regressors that the log determines, of d, t (means) and d^2, t^2 (variances). They depend on the
+/// odometry only, so they are the same for D, C, T and every iteration.
 struct Determination {
   bool meanD = true, meanT = true, varianceD = true, varianceT = true;
   std::vector<Undetermined> lacks;

@@ -21,7 +21,7 @@ class MotionBelief {
   void learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
              const MotionModelOptions& options);
 
-  /// Whether model() is that of a robot: what damaged bytes say may not be.
+  /// Returns whether model() is plausible for a robot; one read from damaged bytes may not be.
   bool isPlausible(const MotionModelOptions& options) const;
 
   template <class State>

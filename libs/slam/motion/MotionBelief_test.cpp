@@ -106,7 +106,7 @@ TEST(MotionBelief, LearnsNothingIfTheMeansAreKnown) {
   EXPECT_EQ(model.turn.varianceD, options.turn.varianceD);
 }
 
-/// A turn by half a circle may come back as one the other way.
+/// A half turn may be returned with the other sign.
 TEST(MotionBelief, TurnsAreTakenTheShorterWay) {
   const MotionModelOptions options;
   MotionBelief belief;

@@ -34,7 +34,7 @@ struct Rows {
   std::vector<Row> distance, drift, turn;
 };
 
-/// (1 um, 1 urad)^2: a noise-free model has no likelihood.
+/// Least variance, (1 um)^2 or (1 urad)^2: a noise-free model has no likelihood.
 constexpr double kLeastVariance = 1e-12;
 
 double varianceOf(const MotionTerm& term, const Row& row, double minStd) {
@@ -82,7 +82,7 @@ struct Quadratic {
   bool isHeld[2] = {false, false};
 };
 
-/// Exact: the likelihood is quadratic in the means.
+/// Sets the means to their maximum, which is exact: the likelihood is quadratic in the means.
 void fitMeans(MotionTerm& term, const std::vector<Row>& rows, double minStd,
               const Determination& determined) {
   Quadratic q;

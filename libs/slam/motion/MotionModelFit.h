@@ -8,14 +8,14 @@
 
 namespace hybrid_slam {
 
-/// Mean over the steps of ln p(motion | odometry), in D, C and T, whose volume element is that of the
-/// increments.
+/// Mean over the steps of ln p(motion | odometry), as a density of D, C and T, whose volume element equals
+/// that of the increments.
 double logLikelihood(const std::vector<MotionSample>& samples, const MotionModelOptions& model);
 
 /// Starts from `present` and keeps its minimum deviations and the parameters the log does not determine.
 /// Never lowers the likelihood of `samples`.
 ///
-/// For each of D, C, T: the means are the weighted least-squares fit of the motion, along the heading halfway
+/// The means of each of D, C, T are the weighted least-squares fit of the motion, along the heading halfway
 /// through its turn, to (d, t) without intercept; the variances are the fit of the squared residuals to (d^2,
 /// t^2), at least 0. The paper weights all steps equally; the longest steps then dominate and the likelihood
 /// may fall. Here each step has weight 1 / v for the means and 1 / v^2 for the variances, v its variance in

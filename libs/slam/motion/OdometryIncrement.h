@@ -10,7 +10,7 @@ class CActionCollection;
 
 namespace hybrid_slam {
 
-/// The increment (m, rad) that an action holds: the raw odometry where there is one, else the mean.
+/// Returns the increment (m, rad) of an action: the raw odometry if there is one, else the mean.
 /// @throws InputError if it holds neither
 mrpt::math::TPose2D odometryIncrement(const mrpt::obs::CActionCollection& action);
 

@@ -1,5 +1,5 @@
 /// @file OrthoAssociation.h
-/// @brief Lines parallel to an axis of the building, and which of them are pieces of one wall.
+/// @brief Associates lines that are parallel to an axis of the building.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct SeenOrthoLine {
   int side = 0;                 ///< as in OrthoLine
 };
 
-/// The lines of a scan that deviate from an axis by at most `maxAngle` (rad).
+/// Returns the lines of a scan that deviate from an axis by at most `maxAngle` (rad).
 /// @param seen     robot frame
 /// @param heading  of the robot in the building's frame, rad
 std::vector<SeenOrthoLine> orthogonalLines(const std::vector<LineSegment>& seen, double heading,
@@ -48,11 +48,11 @@ struct PlacedLine {
 OrthoState::Measurement measurementOf(const PlacedLine& placed, size_t line, const OrthoState& state,
                                       double variance);
 
-/// Whether two extents are at most `maxGap` (m) apart.
+/// Returns whether two extents are at most `maxGap` (m) apart.
 bool areNear(double low, double high, const OrthoLine& line, double maxGap);
 
-/// The line of the map that a seen line is a piece of: of the same side, at most maxGap away along the wall,
-/// and nearest by its Mahalanobis distance, which the gate limits. Empty if there is none.
+/// Returns the line of the map that a seen line belongs to: of the same side, at most maxGap away along the
+/// wall, and nearest by Mahalanobis distance, within the gate. Empty if there is none.
 std::optional<size_t> associate(const SeenOrthoLine& seen, const PlacedLine& placed,
                                 const std::vector<OrthoLine>& lines, const OrthoState& state,
                                 const OrthoOptions& options);

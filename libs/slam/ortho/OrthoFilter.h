@@ -19,9 +19,9 @@ class OrthoFilter : public Filter {
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans) override;
 
   size_t updates() const override { return path_.size(); }
-  /// Its `poses` have the mean and the covariance of the pose.
+  /// Returns the last step. Its `poses` have the mean and the covariance of the pose.
   const FilterStep& lastStep() const override { return step_; }
-  /// Each pose as it was estimated at its update.
+  /// Returns each pose as estimated at its update.
   std::vector<mrpt::math::TPose2D> bestPath() const override { return path_; }
   mrpt::maps::COccupancyGridMap2D bestGrid() const override;
   std::vector<DatabaseLine> bestLines() const override { return map_.lines(); }

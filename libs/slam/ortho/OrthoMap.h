@@ -34,7 +34,7 @@ class OrthoMap {
   size_t bytes() const { return state_.bytes() + lines_.size() * sizeof(OrthoLine); }
 
  private:
-  /// The lines that may be parallel to an axis, by the heading and its uncertainty.
+  /// Returns the lines that may be parallel to an axis, given the heading and its uncertainty.
   std::vector<SeenOrthoLine> parallels(const std::vector<LineSegment>& seen) const;
   void findDirection(const std::vector<LineSegment>& seen);
   void correctHeading(const std::vector<LineSegment>& seen);

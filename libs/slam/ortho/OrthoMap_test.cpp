@@ -48,7 +48,7 @@ TEST(OrthoMap, ATurnedBuilding) {
               1e-9);
 }
 
-/// Odometry 3 deg and 20 cm off: heading and position come from the walls.
+/// The odometry is 3 deg and 20 cm off: heading and position come from the walls.
 TEST(OrthoMap, CorrectsTurnAndPosition) {
   MotionModelOptions motion;
   OrthoOptions options;
@@ -66,7 +66,7 @@ TEST(OrthoMap, CorrectsTurnAndPosition) {
   EXPECT_LT(std::sqrt(room.poseCovariance()(0, 0)), 0.005);
 }
 
-/// What no line shows stays uncertain: the position along a corridor.
+/// The position along a corridor, which no line determines, stays uncertain.
 TEST(OrthoMap, ACorridorSaysNothingAlongIt) {
   OrthoMap corridor = map();
   const std::vector<LineSegment> walls{makeSegment(TPoint2D(-9, 1), TPoint2D(9, 1)),

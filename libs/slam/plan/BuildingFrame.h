@@ -1,5 +1,5 @@
 /// @file BuildingFrame.h
-/// @brief The directions of a building's walls, and which walls have them.
+/// @brief The directions of a building's walls.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,8 @@ struct BuildingDirection {
   double variance = 0;  ///< rad^2, of the mean
 };
 
-/// The directions, modulo 90 deg, of at least 6 % of the walls' length and 5 m each; the longest first.
+/// Finds the directions, modulo 90 deg, that each have at least 6 % of the walls' length and 5 m; the longest
+/// first.
 std::vector<BuildingDirection> buildingDirections(const std::vector<WallLine>& lines);
 
 /// Turns a line to a direction or its perpendicular if both agree within three standard deviations.

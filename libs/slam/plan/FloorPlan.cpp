@@ -51,7 +51,8 @@ void extend(Stretch& stretch, const Stretch& by) {
   stretch.backwards += by.backwards;
 }
 
-/// Whether the gap is a way through a wall, not the mouth of an alcove or the space between two things.
+/// Returns whether the gap is a passage through a wall, not the opening of an alcove or the space between two
+/// objects.
 bool isDoor(const Stretch& a, const Stretch& b, const LineEstimate& line, const GridProbe& probe) {
   const double width = b.from - a.to;
   if (width < kNarrowestDoor || width > kWidestDoor) return false;
@@ -63,7 +64,7 @@ bool isDoor(const Stretch& a, const Stretch& b, const LineEstimate& line, const 
          probe.freeShare(middle - across, middle + across) > 0.9;
 }
 
-/// The walls of a line: overlapping stretches joined, and gaps closed unless they are free.
+/// Returns the walls of a line: joins overlapping stretches, and closes gaps unless they are free.
 std::vector<Stretch> joined(const WallLine& group, const GridProbe& probe) {
   std::vector<Stretch> result;
   for (const Stretch& next : stretchesOf(group)) {

@@ -28,7 +28,7 @@ struct PaintedGrid {
   void free(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, -20); }
   void unknown(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, 0); }
   void wall(double x0, double y0, double x1, double y1) { paint(x0, y0, x1, y1, 30); }
-  /// A wall of one cell along any line.
+  /// Draws a wall of one cell along any line.
   void slantedWall(double x0, double y0, double x1, double y1) {
     const int steps = static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 0.01);
     for (int i = 0; i <= steps; ++i) {
@@ -114,7 +114,7 @@ TEST(FloorPlan, TheTwoFacesOfAWallArePaired) {
   }
 }
 
-/// Whether an end of a wall along x and one of a wall along y coincide.
+/// Returns whether an end of a wall along x and one of a wall along y coincide.
 bool hasCorner(const FloorPlan& plan) {
   for (const Wall& a : plan.walls)
     for (const Wall& b : plan.walls)

@@ -27,7 +27,7 @@ struct Side {
   int direction = 0;
 
   CellIndex to() const { return {from.x + kStep[direction].x, from.y + kStep[direction].y}; }
-  /// On the right: occupied; on the left: not.
+  /// Returns the cell on the right, which is occupied; the one on the left is not.
   CellIndex right() const {
     constexpr std::array<CellIndex, 4> kRight{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
     return {from.x + kRight[direction].x, from.y + kRight[direction].y};
@@ -59,7 +59,8 @@ class Borders {
   }
 
  private:
-  /// Occupied, or a gap of one cell between two occupied ones: far beams leave gaps.
+  /// Returns whether a cell is occupied, or a gap of one cell between two occupied ones: far beams leave
+  /// gaps.
   bool isWall(const CellIndex& c) const {
     const int value = probe_.at(c.x, c.y);
     if (value > 0) return true;
@@ -91,7 +92,7 @@ class Borders {
     }
   }
 
-  /// Free within three cells in front of the wall.
+  /// Returns whether there is free space within three cells in front of the wall.
   bool facesFree(const Side& side) const {
     const CellIndex up = kStep[(side.direction + 1) % 4];
     CellIndex c = side.left();

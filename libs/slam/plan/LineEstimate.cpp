@@ -9,7 +9,7 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-/// What the line b says of the line a: offset and angle of b, as linear functions of those of a.
+/// Offset and angle of line b as linear functions of those of line a.
 struct Innovation {
   Eigen::Matrix2d model, covariance;
   Eigen::Vector2d difference;
@@ -31,6 +31,14 @@ double LineEstimate::along(const TPoint2D& p) const {
 
 double LineEstimate::offset(const TPoint2D& p) const {
   return (p.y - at.y) * std::cos(angle) - (p.x - at.x) * std::sin(angle);
+}
+
+Eigen::Matrix2d LineEstimate::covarianceAt(const TPoint2D& p) const {
+  const Eigen::Matrix2d& c = covariance;
+  const double s = along(p), cross = c(0, 1) + s * c(1, 1);
+  Eigen::Matrix2d result;
+  result << c(0, 0) + 2 * s * c(0, 1) + s * s * c(1, 1), cross, cross, c(1, 1);
+  return result;
 }
 
 LineEstimate LineEstimate::reversed() const {

@@ -10,7 +10,7 @@
 namespace hybrid_slam {
 
 /// A directed line as an estimate of two numbers: its offset to the left (m) at a point of it, and its angle
-/// (rad). Offset and angle are hardly correlated at the middle of what was seen of the line.
+/// (rad). Offset and angle are hardly correlated at the middle of the observed part.
 struct LineEstimate {
   mrpt::math::TPoint2D at;                                   ///< m, on the line
   double angle = 0;                                          ///< rad, of its direction
@@ -20,6 +20,7 @@ struct LineEstimate {
   double along(const mrpt::math::TPoint2D& p) const;   ///< m from `at`
   double offset(const mrpt::math::TPoint2D& p) const;  ///< m, positive on the left
   mrpt::math::TPoint2D point(double along) const { return at + direction() * along; }
+  Eigen::Matrix2d covarianceAt(const mrpt::math::TPoint2D& p) const;  ///< of (offset beside p, angle)
   /// The same line in the other direction.
   LineEstimate reversed() const;
 };
@@ -32,7 +33,7 @@ LineEstimate lineThrough(const mrpt::math::TPoint2D& middle, double angle, doubl
 /// at b.at.
 double squaredDistance(const LineEstimate& a, const LineEstimate& b);
 
-/// The estimate from both: a Kalman update of `a`. Its `at` is where offset and angle are uncorrelated.
+/// Fuses both: a Kalman update of `a`. Offset and angle are uncorrelated at the new `at`.
 LineEstimate fused(const LineEstimate& a, const LineEstimate& b);
 
 /// The estimate given a direction (rad) that is known with a variance (rad^2).

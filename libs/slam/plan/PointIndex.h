@@ -1,5 +1,5 @@
 /// @file PointIndex.h
-/// @brief Spatial index of numbers, such as those of walls: which of them lie near a point.
+/// @brief Spatial index: finds numbers, such as those of walls, near a point.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>

@@ -17,7 +17,7 @@ using mrpt::math::TPoint2D;
 constexpr double kReach = 0.3;                      // m: longest move of an end
 constexpr double kLeastTurn = mrpt::DEG2RAD(20.0);  // rad: between the two walls
 
-/// Where the lines of two walls meet, as metres along each.
+/// Intersection of the lines of two walls, as distances (m) along each.
 struct Meeting {
   TPoint2D point;
   double alongA, alongB;

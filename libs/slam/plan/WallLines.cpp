@@ -30,7 +30,7 @@ bool isOneLine(const LineEstimate& a, const LineEstimate& b, double cell) {
   return squaredDistance(a, other) < kMostDifferent;
 }
 
-/// Occupied in the cell of a point or beside it.
+/// Returns whether the cell of a point or one beside it is occupied.
 bool isOccupied(const GridProbe& probe, const TPoint2D& p, const TPoint2D& normal) {
   for (const double side : {0.0, 1.0, -1.0})
     if (probe.at(p + normal * (side * probe.cell())) > 0) return true;

@@ -15,8 +15,8 @@ struct WallLine {
   std::vector<Face> faces;
 };
 
-/// The stretches of a database line along which the grid is occupied. A line is at least as long as what was
-/// seen of it: merging takes the two farthest ends, also across doors.
+/// The stretches of a database line along which the grid is occupied. A line may be longer than what was seen
+/// of it: merging takes the two farthest ends, also across doors.
 std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid);
 
 /// Groups faces whose lines agree (squared Mahalanobis distance with 2 degrees of freedom below 13.8, the

@@ -16,13 +16,13 @@ using mrpt::math::TPoint2D;
 constexpr double kThickest = 0.4;                 // m
 constexpr double kSteepest = mrpt::DEG2RAD(5.0);  // rad: allowed for short faces, beyond their covariance
 
-/// m by which the faces overlap.
+/// Length (m) by which the faces overlap.
 double overlap(const Wall& a, const Wall& b) {
   const double from = a.line.along(b.end), to = a.line.along(b.start);
   return std::min(to, a.line.along(a.end)) - std::max(from, a.line.along(a.start));
 }
 
-/// m between two faces that may belong to one wall; 0 if they cannot.
+/// Distance (m) between two faces that may belong to one wall; 0 if they cannot.
 double thickness(const Wall& a, const Wall& b, const GridProbe& probe) {
   if (std::abs(std::remainder(a.line.angle - b.line.angle + M_PI, 2 * M_PI)) > kSteepest) return 0;
   const double shared = overlap(a, b);

@@ -41,7 +41,7 @@ pid_t start(const Command& command) {
   _exit(127);
 }
 
-/// The last line containing `error`, else the last line.
+/// Returns the last line containing `error`, else the last line.
 std::string lastError(const std::filesystem::path& messages) {
   std::ifstream in(messages);
   std::string last, error;

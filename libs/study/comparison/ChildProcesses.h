@@ -20,7 +20,7 @@ using CommandEnd = std::function<void(size_t command, const std::string& error)>
 
 /// Runs all commands in their order, at most `atOnce` at a time; `onStart` before each, `onEnd` after each.
 /// Children do not receive the terminal's signals (the caller handles Ctrl-C) and do not outlive the caller.
-/// @param stop  set externally: running children are killed, without `onEnd`
+/// @param stop  set from outside: running children are killed, without `onEnd`
 /// @returns whether all commands ran
 bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std::atomic<bool>& stop,
                  const std::function<void(size_t)>& onStart, const CommandEnd& onEnd);

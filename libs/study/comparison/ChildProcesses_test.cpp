@@ -78,7 +78,7 @@ TEST_F(ChildProcessesTest, StoppingEndsTheChildrenAndStartsNoMore) {
   EXPECT_EQ(kill(child, 0), -1);
 }
 
-/// As for a program started with SIGCHLD ignored: the system keeps no exit status.
+/// If a program is started with SIGCHLD ignored, the system keeps no exit status.
 TEST_F(ChildProcessesTest, AnUnknownExitStatusIsAFailure) {
   const auto before = signal(SIGCHLD, SIG_IGN);
   EXPECT_TRUE(run({"exit 3"}, 1));

@@ -61,7 +61,7 @@ class Images {
   }
   bool empty() const { return at_.empty(); }
 
-  /// Whether they are too far apart for one wall. Passes with too few scans are ignored.
+  /// Returns whether they are too far apart for one wall. Ignores passes with too few scans.
   bool areSpread() const {
     const TPoint2D across = normal_ * (1 / std::max(normal_.norm(), 1e-9));
     double low = INFINITY, high = -INFINITY;  // m, of the passes' medians

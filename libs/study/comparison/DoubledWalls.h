@@ -14,7 +14,7 @@
 
 namespace hybrid_slam::comparison {
 
-/// Which scans of a log saw which wall sample, from the true poses; computed once per log.
+/// The scans of a log that saw each wall sample, from the true poses; computed once per log.
 ///
 /// Walls are sampled every 0.1 m. A scan sees a sample if it is the nearest one to an end point of the scan
 /// at the true pose, within 0.15 m. Scans less than 0.2 m and 10 deg from the previous one are skipped.

@@ -46,7 +46,7 @@ simulation::FloorPlan room(double length, double width) {
                                 simulation::Wall::straight({0, width}, {0, 0})});
 }
 
-/// Along a corridor of 20 m x 3 m, and `pause` s later once more with poses that are `shift` off.
+/// Drives along a corridor of 20 m x 3 m, and again `pause` s later with poses that are `shift` off.
 Drive twiceAlongACorridor(const TPoint2D& shift, double pause = 100) {
   Drive drive{room(20, 3)};
   for (int pass = 0; pass < 2; ++pass)

@@ -41,7 +41,7 @@ struct FigureName {
   const char* unit;    ///< "m", "deg", ...; empty for shares and counts
   bool isError;        ///< smaller is better; tested between groups
 };
-/// In column order.
+/// Names of the figures in column order.
 extern const std::array<FigureName, kFigures> kFigureNames;
 
 /// Result of one run.
@@ -57,7 +57,7 @@ struct RunResult {
 
 const char* statusName(RunResult::Status status);
 
-/// A number for tables: 6 significant digits, empty if missing.
+/// Formats a number for tables: 6 significant digits, empty if missing.
 std::string cell(const std::optional<double>& value);
 
 /// `method,variant,particles,seed,status`, then one column per figure; one row per run.

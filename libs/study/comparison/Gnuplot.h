@@ -8,9 +8,9 @@
 namespace hybrid_slam::comparison {
 
 struct Plot {
-  std::string description;    ///< for those who cannot see it, and for scripts/report-figure.py
+  std::string description;    ///< alternative text, and for scripts/report-figure.py
   int width = 0, height = 0;  ///< pixels
-  std::string script;         ///< gnuplot commands; empty if there is nothing to show
+  std::string script;         ///< gnuplot commands; empty for no plot
 };
 
 /// A string literal for gnuplot.
@@ -38,7 +38,7 @@ class Gnuplot {
   /// failure it is not called again.
   std::string draw(const std::vector<Plot>& plots);
 
-  /// Why plots are missing, in one line; empty if none are.
+  /// Says in one line why plots are missing; empty if none are.
   const std::string& error() const { return error_; }
 
  private:

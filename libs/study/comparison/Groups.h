@@ -28,9 +28,9 @@ struct Group {
   Variant variant;  ///< without a name: the plain INI file
   int particles = 0;
 
-  /// "hybrid-eq9": method and variant.
+  /// Returns method and variant: "hybrid-eq9".
   std::string label() const { return variant.name.empty() ? method : method + "-" + variant.name; }
-  /// "hybrid-eq9-20"
+  /// Returns "hybrid-eq9-20".
   std::string name() const { return label() + "-" + std::to_string(particles); }
 };
 

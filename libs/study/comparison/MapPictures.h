@@ -11,7 +11,7 @@ namespace hybrid_slam::comparison {
 /// The map of the median run and of the worst run of each group, as `<figure>` elements: `map.png`, reduced.
 std::string mapPictures(const ReportInput& input);
 
-/// Reduces a PNG to at most 700 pixels a side and 16 levels per colour; a large one shrinks to a tenth of its
+/// Reduces a PNG to at most 700 pixels a side and 16 levels per colour; large ones shrink to a tenth of their
 /// bytes.
 /// @returns the PNG; empty if the input is not a picture
 std::string reducedPicture(const std::string& png);

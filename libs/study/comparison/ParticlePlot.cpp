@@ -72,7 +72,8 @@ const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run
 
 namespace {
 
-/// Distance of the ticks (m): 1, 2 or 5 times a power of ten, so that at most four labels stand side by side.
+/// Distance of the ticks (m): 1, 2 or 5 times a power of ten, so that there are at most four labels side by
+/// side.
 double ticStep(double side) {
   for (double power = std::pow(10, std::floor(std::log10(side / 4)));; power *= 10)
     for (const double factor : {1, 2, 5})

@@ -17,7 +17,7 @@ double length(const files::Trajectory& trajectory) {
   return sum;
 }
 
-/// The first pose, the last, and between them those at least `step` (m) from the one before.
+/// Adds the first pose, the last, and between them those at least `step` (m) from the previous one.
 void addThinned(DataBlock& block, const files::Trajectory& trajectory, double step) {
   const files::StampedPose* drawn = nullptr;
   for (const files::StampedPose& p : trajectory) {

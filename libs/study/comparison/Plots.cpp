@@ -35,8 +35,8 @@ struct Range {
   bool isEmpty() const { return low > high; }
 };
 
-/// The axis starts at zero, unless the values span decades, like the errors of runs that close the loop and
-/// of runs that do not.
+/// Starts the axis at zero, unless the values span decades, like the errors of runs that close the loop and
+/// runs that do not.
 std::string verticalAxis(const Range& range) {
   if (range.low <= 0 || range.high / range.low <= 20)
     return "set yrange [" + shortNumber(std::min(0.0, range.low)) + ":" + (range.high > 0 ? "*" : "1") +

@@ -1,5 +1,5 @@
 /// @file RankedRuns.h
-/// @brief Which runs of a group the report shows: the median and the worst.
+/// @brief Ranks the runs of a group, whose median and worst the report shows.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ std::optional<Figure> rankingFigure(const ReportInput& input);
 /// them.
 std::vector<const RunResult*> rankedRuns(const ReportInput& input, size_t group);
 
-/// Null if the group has no finished run.
+/// Returns the median run; null if the group has no finished run.
 const RunResult* medianRun(const ReportInput& input, size_t group);
 
 /// Pose of a run's map frame in the reference's frame; zero without a reference.

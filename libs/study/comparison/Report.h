@@ -29,8 +29,7 @@ struct ReportInput {
 std::string runName(const Group& group, int seed);
 
 /// Writes XHTML. Trajectories, spreads and maps are read from the folders of the finished runs.
-/// @returns one line that says why the plots are missing, for example without gnuplot; empty if they are
-/// there
+/// @returns one line that says why plots are missing, such as for lack of gnuplot; empty if none are
 std::string writeReport(const ReportInput& input, std::ostream& out);
 
 }  // namespace hybrid_slam::comparison

@@ -37,9 +37,9 @@ struct GroundTruth {
   std::optional<WallSightings> sightings;  ///< of the same scans, for the share of doubled wall
   SuccessCriterion criterion;
 
-  /// s; largest time difference between a pose and its reference pose
+  /// Largest time difference (s) between a pose and its reference pose.
   static constexpr double kReferenceTolerance = 0.02;
-  /// s; largest time difference between a relation and a pose or odometry row
+  /// Largest time difference (s) between a relation and a pose or odometry row.
   static constexpr double kRelationTolerance = 0.006;
 
   /// @throws InputError if the reference does not overlap `trajectory` in time, or no relation is usable with

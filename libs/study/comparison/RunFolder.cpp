@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "base/Errors.h"
@@ -39,6 +40,23 @@ std::map<std::string, std::string> settingsOf(std::istream& text) {
                    "expected the same settings and log, or a different -o");
 }
 
+struct Origin {
+  uintmax_t logSize;
+  int64_t logTime;
+  std::string otherSections;
+};
+
+/// Reads origin.json; empty if it is broken.
+std::optional<Origin> originIn(const fs::path& file) {
+  std::ifstream in(file);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  const auto member = [&](const char* key) { return json.value(key, nlohmann::json()); };
+  const auto size = member("log_size"), time = member("log_time_ns"), sections = member("other_sections");
+  if (!size.is_number_unsigned() || !time.is_number_integer() || !sections.is_string()) return std::nullopt;
+  return Origin{size.get<uintmax_t>(), time.get<int64_t>(), sections.get<std::string>()};
+}
+
 std::string canonical(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)).string(); }
 
 }  // namespace
@@ -66,14 +84,12 @@ void RunFolder::expect(const RunIdentity& identity) const {
     if (expected.count(key) == 0)
       differs(folder_, "config.ini: " + key + " = " + value + ", now no such key");
 
-  std::ifstream originFile(file(kOrigin));
-  if (!originFile) return;
-  const auto origin = nlohmann::json::parse(originFile, nullptr, false);
-  if (!origin.is_object()) differs(folder_, std::string(kOrigin) + " is broken");
-  if (origin.value("other_sections", "") != identity.otherSections)
+  if (!fs::exists(file(kOrigin))) return;
+  const auto origin = originIn(file(kOrigin));
+  if (!origin) differs(folder_, std::string(kOrigin) + " is broken");
+  if (origin->otherSections != identity.otherSections)
     differs(folder_, "MRPT's sections of the INI file have changed");
-  if (origin.value("log_size", uintmax_t{0}) != identity.logSize ||
-      origin.value("log_time_ns", int64_t{0}) != identity.logTime)
+  if (origin->logSize != identity.logSize || origin->logTime != identity.logTime)
     differs(folder_, "the log " + identity.log + " has changed since");
 }
 
@@ -103,6 +119,7 @@ void RunFolder::finish() const {
 }
 
 std::string RunFolder::damage() const {
+  if (fs::exists(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
   if (!fs::exists(file(kChecksums))) return {};
   std::ifstream in(file(kChecksums));
   const auto checksums = nlohmann::json::parse(in, nullptr, false);

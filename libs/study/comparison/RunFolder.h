@@ -33,15 +33,16 @@ class RunFolder {
   const std::filesystem::path& partial() const { return partial_; }
 
   bool isFinished() const { return std::filesystem::exists(file("metrics.json")); }
-  /// @throws InputError with the folder and the first difference if the finished run is another one. The
-  ///         log's size and time are compared if recorded; runs not started by slam-compare lack them.
+  /// @throws InputError with the folder and the first difference if the finished run has another identity.
+  ///         Log size and time are compared if recorded; runs not started by slam-compare lack them.
   void expect(const RunIdentity& identity) const;
 
   /// Recreates the partial folder and records the identity.
   void begin(const RunIdentity& identity) const;
   /// Records checksums of the partial folder's files, and renames it to its final name.
   void finish() const;
-  /// The first file of the run that has changed since; empty if none has, or there are no checksums.
+  /// The first file of the run that is broken or has changed since; empty if there is none. Without
+  /// checksums, only origin.json is checked.
   std::string damage() const;
   /// Removes the run.
   void discard() const { std::filesystem::remove_all(folder_); }

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A log, and a run on it as hybrid-slam leaves it.
+/// A log, and a run on it as written by hybrid-slam.
 struct RunFolderTest : testing::Test {
   files::TemporaryFolder temporary;
   RunFolder folder{fs::path(temporary.path("runs")), "hybrid-20-1"};
@@ -110,6 +110,19 @@ TEST_F(RunFolderTest, WithoutARecordOfItsOriginComparesSettingsAndPathOnly) {
   EXPECT_EQ(difference(other), "none");
   other.configuration = configuration("0.1");
   EXPECT_THAT(difference(other), HasSubstr("resolution"));
+}
+
+TEST_F(RunFolderTest, ARecordOfItsOriginWithWrongTypesIsDamage) {
+  finishRun();
+  fs::remove(folder.file("checksums.json"));
+  for (const char* origin : {"{", "[]", "{}", R"({"log_size": "5", "log_time_ns": 1, "other_sections": ""})",
+                             R"({"log_size": 5, "log_time_ns": {}, "other_sections": ""})",
+                             R"({"log_size": 5, "log_time_ns": 1, "other_sections": 7})",
+                             R"({"log_size": -5, "log_time_ns": 1, "other_sections": ""})"}) {
+    std::ofstream(folder.file("origin.json")) << origin;
+    EXPECT_EQ(folder.damage(), "origin.json") << origin;
+    EXPECT_THAT(difference(identity), HasSubstr("origin.json is broken")) << origin;
+  }
 }
 
 TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {

@@ -33,7 +33,7 @@ struct SpreadBands {
   std::array<std::vector<Quartiles>, kSpreads> bands;
 };
 
-/// At each time a run contributes its last update so far, if any.
+/// Computes the bands. At each time, a run contributes its last update so far, if any.
 SpreadBands spreadBands(const std::vector<std::vector<SpreadStep>>& runs, size_t times);
 
 }  // namespace hybrid_slam::comparison

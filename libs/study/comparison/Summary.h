@@ -17,7 +17,8 @@ namespace hybrid_slam::comparison {
 struct FigureSummary {
   size_t runs = 0;
   std::optional<Quartiles> quartiles;  ///< empty without runs
-  /// Errors only: the successful ones of these runs. A median over successes and failures describes neither.
+  /// For errors only: number and median of the successful runs. A median over successes and failures
+  /// describes neither.
   size_t successfulRuns = 0;
   std::optional<double> successfulMedian;
 };
@@ -31,7 +32,8 @@ struct PairedComparison {
 
 struct GroupSummary {
   size_t done = 0, failed = 0;
-  /// Over finished and failed runs: a failed run is not a success. Empty without a criterion.
+  /// Number of successes among finished and failed runs: a failed run is not a success. Empty without a
+  /// criterion.
   std::optional<size_t> successes;
   double successRate = 0;
   Interval successInterval;  ///< Wilson, 95 %

@@ -2,6 +2,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include <cmath>
+
 #include "base/Errors.h"
 #include "files/NumberTable.h"
 #include "study/evaluation/Association.h"
@@ -13,13 +15,19 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kChiSquare95 = 7.815;  // three degrees of freedom
+constexpr double kChiSquare95 = 7.815;         // three degrees of freedom
+constexpr double kLargestCovariance = 1e14;    // m^2: of coordinates up to 1e7 m, as files::checkPose
+constexpr double kLargestSquaredError = 1e30;  // the sum of all must be a number
 
 }  // namespace
 
 std::vector<Eigen::Matrix3d> loadCovariances(const std::string& file) {
   std::vector<Eigen::Matrix3d> all;
   for (const files::NumberRow& row : files::readNumberTable(file, "timestamp,xx,xy,yy,xphi,yphi,phiphi")) {
+    for (size_t i = 1; i < row.values.size(); ++i)
+      if (!(std::abs(row.values[i]) <= kLargestCovariance))
+        throw InputError("broken line", "file `" + file + "`, line " + std::to_string(row.line),
+                         "expected covariances in -1e14..1e14 (m, rad)");
     const double xx = row.values[1], xy = row.values[2], yy = row.values[3];
     const double xphi = row.values[4], yphi = row.values[5], phiphi = row.values[6];
     all.emplace_back() << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
@@ -47,6 +55,9 @@ NormalizedErrors normalizedErrors(const files::Trajectory& estimate,
       throw InputError("covariance without inverse", "row " + std::to_string(i + 1),
                        "expected a positive definite matrix");
     const double squared = error.dot(factor.solve(error));
+    if (!(squared < kLargestSquaredError))
+      throw InputError("covariance too small", "row " + std::to_string(i + 1),
+                       "expected an error below 1e15 standard deviations");
     ++result.pairs;
     result.mean += squared;
     result.inside95 += squared < kChiSquare95 ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
@@ -35,6 +36,21 @@ TEST(NormalizedError, FramesBeginAtTheFirstPose) {
 TEST(NormalizedError, WrongCovariances) {
   EXPECT_THROW(normalizedErrors(line(4, 0), {}, line(4, 0), 0.01), InputError);
   EXPECT_THROW(normalizedErrors(line(1, 0), {Eigen::Matrix3d::Zero()}, line(1, 0), 0.01), InputError);
+}
+
+TEST(NormalizedError, ACovarianceTooSmallForItsErrorIsNamed) {
+  const Eigen::Matrix3d tiny = 1e-300 * Eigen::Matrix3d::Identity();
+  const std::vector<Eigen::Matrix3d> covariances{Eigen::Matrix3d::Identity(), tiny};
+  EXPECT_EQ(test::errorOf([&] { normalizedErrors(line(2, 1), covariances, line(2, 0), 0.01); }),
+            "covariance too small: row 2; expected an error below 1e15 standard deviations");
+}
+
+TEST(NormalizedError, CovariancesThatCannotBeTrueAreNamed) {
+  const files::TemporaryFolder folder;
+  const std::string file =
+      folder.write("c.csv", "timestamp,xx,xy,yy,xphi,yphi,phiphi\n1,1,0,1,0,0,1\n2,1e200,0,1,0,0,1\n");
+  EXPECT_EQ(test::errorOf([&] { loadCovariances(file); }),
+            "broken line: file `" + file + "`, line 3; expected covariances in -1e14..1e14 (m, rad)");
 }
 
 TEST(NormalizedError, ReadsAFile) {

@@ -17,15 +17,16 @@ namespace hybrid_slam::evaluation {
 /// Order is the odometry's file order, since timestamps may step back.
 class OdometryBridge {
  public:
-  /// s. Dense odometry has a row at each queried time, and the next row is often only 0.01 s away: a larger
-  /// tolerance would match the wrong reading.
+  /// Largest tolerance (s). Dense odometry has a row at each queried time, and the next one is often only
+  /// 0.01 s away: a larger tolerance would match the wrong row.
   static constexpr double kWidestTolerance = 0.006;
 
   /// @param odometry   `t x y theta` rows in log order; must outlive the bridge
   /// @param tolerance  s; largest time difference to an odometry row, at most kWidestTolerance
   OdometryBridge(const files::Trajectory& trajectory, const files::Trajectory& odometry, double tolerance);
 
-  /// Empty without an odometry row within the tolerance, and before the first trajectory pose.
+  /// Returns the pose at a time (s); empty without an odometry row within the tolerance, and before the first
+  /// trajectory pose.
   std::optional<mrpt::math::TPose2D> poseAt(double timestamp) const;
 
  private:

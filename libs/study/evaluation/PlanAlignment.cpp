@@ -27,7 +27,7 @@ double directionOf(const std::vector<PlanLine>& walls) {
   return directionModuloRightAngle(segments).value_or(0);
 }
 
-/// Walls by their offset along one axis (0: x, 1: y), as length a cell.
+/// Histogram of the walls' length by their offset along one axis (0: x, 1: y).
 struct Offsets {
   std::vector<double> length;
   double first = 0;  ///< m
@@ -46,7 +46,7 @@ struct Offsets {
   }
 };
 
-/// The shift of the plan (m) under which most of both have the same offset.
+/// Returns the shift of the plan (m) at which the offsets of both agree best.
 double bestShift(const std::vector<WallPoint>& plan, const std::vector<WallPoint>& truth, int axis,
                  double cell) {
   const Offsets a(plan, axis, cell), b(truth, axis, cell);
@@ -69,7 +69,7 @@ struct Fit {
   size_t agreeing = 0;
 };
 
-/// Gauss-Newton on the distances to the nearest walls.
+/// Refines the pose by Gauss-Newton on the distances to the nearest walls.
 Fit refined(TPose2D pose, const std::vector<WallPoint>& plan, const WallSearch& search) {
   Fit fit{pose};
   for (int pass = 0; pass < 20; ++pass) {

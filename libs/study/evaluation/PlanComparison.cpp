@@ -22,7 +22,7 @@ double lengthOf(const std::vector<PlanLine>& walls) {
   return sum;
 }
 
-/// The median; of an even number of values, the upper of the two in the middle; 0 if there are none.
+/// Returns the median; for an even number of values, the upper of the two middle ones; 0 if there are none.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -34,7 +34,7 @@ double percent(size_t part, size_t whole) {
   return whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Whether enough end points are near each point.
+/// Returns whether enough end points are near each point.
 std::vector<bool> seen(const std::vector<WallPoint>& points, const std::vector<TPoint2D>& ends) {
   PointIndex index(kSeenWithin);
   for (size_t i = 0; i < points.size(); ++i) index.add(points[i].at, static_cast<int>(i));

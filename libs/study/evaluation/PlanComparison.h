@@ -1,5 +1,5 @@
 /// @file PlanComparison.h
-/// @brief A floor plan against the true one.
+/// @brief Compares a floor plan with the true one.
 #pragma once
 
 #include <mrpt/core/bits_math.h>
@@ -15,8 +15,8 @@
 
 namespace hybrid_slam::evaluation {
 
-/// Two walls agree at a point of the one if the other passes within `distance` (m) and their directions
-/// differ by at most `angle` (rad).
+/// Two walls agree at a point of one if the other passes within `distance` (m) and their directions differ by
+/// at most `angle` (rad).
 struct AgreementOptions {
   double distance = 0.1;
   double angle = mrpt::DEG2RAD(15.0);
@@ -33,16 +33,16 @@ struct PlanErrors {
   double medianAngle = 0;             ///< rad, of the rest to the true walls
 };
 
-/// The laser's end points in the frame of the reference: of the scans with a true pose within 0.001 s.
+/// Returns the end points of the scans that have a true pose within 0.001 s, in the frame of the reference.
 std::vector<mrpt::math::TPoint2D> placedEndPoints(const std::vector<readings::EndPoints>& scans,
                                                   const files::Trajectory& reference);
 
-/// The rigid motion of the plan's frame into the truth's under which most of the plan agrees: of four
+/// Returns the pose of the plan's frame in the truth's at which most of the plan agrees. Tries the four
 /// headings that align the walls' directions, each with the translation that aligns most of their offsets,
-/// the best after least squares on the nearest walls.
+/// and returns the best after least squares on the nearest walls.
 mrpt::math::TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth);
 
-/// @param ends  what the laser saw: a piece of a true wall was seen if three of these lie within 0.05 m
+/// @param ends  end points of the laser: a piece of a true wall was seen if three of them lie within 0.05 m
 PlanErrors comparePlans(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth,
                         const std::vector<mrpt::math::TPoint2D>& ends, const AgreementOptions& options = {});
 

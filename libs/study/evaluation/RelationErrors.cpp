@@ -54,8 +54,10 @@ RelationErrors evaluateNearest(files::Trajectory trajectory, const std::vector<R
 
 std::vector<Relation> loadRelations(const std::string& file) {
   std::vector<Relation> relations;
-  for (const files::NumberRow& row : files::readNumberTable(file, "t1 t2 x y z roll pitch yaw"))
+  for (const files::NumberRow& row : files::readNumberTable(file, "t1 t2 x y z roll pitch yaw")) {
+    files::checkPose(row, file, {2, 3, 4}, {5, 6, 7});
     relations.push_back({row.values[0], row.values[1], {row.values[2], row.values[3], row.values[7]}});
+  }
   return relations;
 }
 

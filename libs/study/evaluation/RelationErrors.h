@@ -20,7 +20,8 @@ struct Relation {
 };
 
 /// Reads `t1 t2 x y z roll pitch yaw` (s, m, rad); z, roll and pitch are not used.
-/// @throws InputError for an unreadable or empty file or a broken line.
+/// @throws InputError for an unreadable or empty file, a broken line, a coordinate beyond 10,000 km or
+///         an angle beyond 1e7 rad.
 std::vector<Relation> loadRelations(const std::string& file);
 
 struct RelationErrors {
@@ -30,7 +31,8 @@ struct RelationErrors {
   ErrorStatistics rotation;     ///< rad
 };
 
-/// The errors inverse(motion) + (inverse(p1) + p2) over the relations with known poses p1, p2 at t1, t2.
+/// Computes the errors inverse(motion) + (inverse(p1) + p2) over the relations with known poses p1, p2 at t1,
+/// t2.
 ///
 /// Without odometry, a pose is the trajectory pose nearest in time within the tolerance; of several with the
 /// same timestamp, the last in (x, y, phi) order. With odometry, OdometryBridge gives the pose.

@@ -12,6 +12,8 @@
 
 #include "base/Errors.h"
 #include "base/RandomStream.h"
+#include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
@@ -100,6 +102,18 @@ TEST(RelationErrors, NoUsableRelation) {
               HasSubstr("no usable relation: trajectory 10.000..11.000 s, relations 10.000..12.000 s; "));
   EXPECT_THAT(errorOf({{11, {}}}, &odometry), HasSubstr("after the first pose"));
   EXPECT_THAT(errorOf({}, nullptr), HasSubstr("no usable relation: trajectory without poses"));
+}
+
+TEST(RelationErrors, ValuesThatCannotBeTrueAreNamed) {
+  const files::TemporaryFolder folder;
+  const auto errorOf = [&](const std::string& row) {
+    const std::string file = folder.write("relations", "5 7 1 2 3 4 5 6\n" + row + "\n");
+    return test::errorOf([&] { loadRelations(file); });
+  };
+  const std::string line = "broken line: file `" + folder.path("relations") + "`, line 2; expected ";
+  for (const char* xyz : {"1e200 0 0", "0 -10000001 0", "0 0 1e8"})
+    EXPECT_EQ(errorOf("5 7 " + std::string(xyz) + " 0 0 0"), line + "coordinates in -1e7..1e7 m") << xyz;
+  EXPECT_EQ(errorOf("5 7 0 0 0 0 0 1e200"), line + "angles in -1e7..1e7 rad");
 }
 
 TEST(RelationErrors, LoadsTheYawFromTheLastColumn) {

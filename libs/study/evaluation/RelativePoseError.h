@@ -22,10 +22,10 @@ struct RpeErrors {
   ErrorStatistics rotation;     ///< rad
 };
 
-/// The errors inverse(inverse(r_i) + r_j) + (inverse(p_i) + p_j) of the estimate p against the reference r.
-/// Each pose i is paired with the later pose j whose time, or distance along the reference, from i is closest
-/// to delta. A pair counts if it is within 10 % of delta and the trajectory does not end before. Distance
-/// adds up in file order.
+/// Computes the errors inverse(inverse(r_i) + r_j) + (inverse(p_i) + p_j) of the estimate p against the
+/// reference r. Each pose i is paired with the later pose j whose time, or distance along the reference, from
+/// i is closest to delta. A pair counts if it is within 10 % of delta and the trajectory does not end before.
+/// Distance is summed in file order.
 /// @param tolerance  s; largest time difference between a pose and its reference pose
 /// @throws InputError if the two do not overlap in time or have no poses that far apart.
 RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Trajectory& reference,

@@ -15,7 +15,7 @@ namespace {
 using mrpt::math::TPose2D;
 using Unit = RpeDelta::Unit;
 
-/// A pose each 0.1 s and 0.05 m along x.
+/// A pose every 0.1 s and 0.05 m along x.
 files::Trajectory straight(int poses) {
   files::Trajectory t;
   for (int i = 0; i < poses; ++i) t.push_back({i * 0.1, {i * 0.05, 0, 0}});

@@ -61,8 +61,8 @@ Drive twoLaps(double shift) {
   return drive;
 }
 
-/// `length` m along a corridor 3 m wide, a scan every 0.21 m, and back. On the way back the trajectory is
-/// shifted sideways by `shift`.
+/// A drive of `length` m along a corridor 3 m wide and back, with a scan every 0.21 m. On the way back, the
+/// trajectory is shifted sideways by `shift`.
 Drive outAndBack(double length, double shift) {
   Drive drive;
   for (int i = 0; i * 0.21 <= 2 * length; ++i) {

@@ -16,8 +16,8 @@ class StampIndex {
  public:
   explicit StampIndex(const files::Trajectory& trajectory);
 
-  /// The row nearest to `timestamp` within `tolerance` (both in s). Of two rows at equal distance, the
-  /// earlier; of rows with the same timestamp, the last if it is not after `timestamp`, else the first.
+  /// Returns the row nearest to `timestamp` within `tolerance` (both in s). Of two rows at equal distance,
+  /// the earlier; of rows with the same timestamp, the last if it is not after `timestamp`, else the first.
   std::optional<size_t> nearest(double timestamp, double tolerance) const;
 
  private:

@@ -20,7 +20,7 @@ class FloorPlan {
   ///         zero-length wall, unclosed polygon, door not on a wall, no walls
   static FloorPlan load(const std::string& file);
 
-  /// This plan with more walls.
+  /// Returns this plan with additional walls.
   FloorPlan with(const std::vector<Wall>& more) const;
 
   const std::vector<Wall>& walls() const { return index_.walls(); }

@@ -19,7 +19,7 @@ std::vector<Wall> rectangle(double x0, double y0, double x1, double y1) {
           Wall::straight({x1, y1}, {x0, y1}), Wall::straight({x0, y1}, {x0, y0})};
 }
 
-/// Any heading, every fourth time along an axis.
+/// Returns a random heading, every fourth time along an axis.
 double randomHeading(RandomStream& random) {
   return random.uniform() < 0.25 ? std::floor(random.uniform() * 4) * M_PI / 2
                                  : random.uniform() * 2 * M_PI - M_PI;

@@ -61,11 +61,11 @@ class Laser {
   size_t beamCount() const { return beamCount_; }
   /// The robot's pose (frame of the plan) after a time (s) since the first beam.
   using Motion = std::function<mrpt::math::TPose2D(double)>;
-  /// A scan by a robot that moves, label LASER, right to left, without timestamp. Beams
-  /// without a return have the maximum range and are marked invalid.
+  /// Returns the scan of a moving robot, with label LASER, right to left, without timestamp. Beams without a
+  /// return have the maximum range and are marked invalid.
   mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const Motion& motion,
                                           RandomStream& random) const;
-  /// Likewise by a robot that stands.
+  /// Likewise for a robot that stands still.
   mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
                                           RandomStream& random) const;
 

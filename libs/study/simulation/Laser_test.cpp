@@ -46,7 +46,7 @@ TEST(Laser, BeamCountsApertureAndRangeAreTheSensors) {
   check(LaserType::lms200, 0.5, 361, 180, 80);
 }
 
-/// Read with toLaserScan: every beam's end point is on a wall.
+/// By toLaserScan, every beam's end point is on a wall.
 TEST(Laser, WithoutNoiseEveryBeamEndsOnAWall) {
   const FloorPlan plan(room());
   LaserOptions options = exactLms100();

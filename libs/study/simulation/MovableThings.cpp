@@ -26,7 +26,7 @@ std::vector<Wall> rectangle(const TPoint2D& low, const TPoint2D& size) {
   return sides;
 }
 
-/// Whether a wall crosses the rectangle's sides or stands inside.
+/// Returns whether a wall crosses the rectangle's sides or lies inside.
 bool touchesWall(const FloorPlan& plan, const TPoint2D& low, const TPoint2D& high) {
   for (const Wall& side : rectangle(low, {high.x - low.x, high.y - low.y})) {
     const double dx = side.end.x - side.start.x, dy = side.end.y - side.start.y;

@@ -32,10 +32,11 @@ class MovableThings {
   static MovableThings load(const std::string& file, const FloorPlan& plan);
 
   bool empty() const { return doors_.empty() && boxes_.empty(); }
-  /// Closed doors and all boxes of a session. The same seed and session give the same result; each thing has
-  /// its own random stream.
+  /// Returns the closed doors and all boxes of a session. The same seed and session give the same result;
+  /// each thing has its own random stream.
   std::vector<PlacedThing> inSession(uint64_t seed, uint64_t session) const;
-  /// All doors closed and every box at all its places: what a route has to avoid in any session.
+  /// Returns all doors, closed, and every box at all its places: the obstacles that a route must avoid in any
+  /// session.
   std::vector<Wall> everywhere() const;
 
  private:

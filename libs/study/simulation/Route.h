@@ -38,7 +38,7 @@ class Route {
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   double duration() const;  ///< s
-  /// Times before the start and after the end are clamped.
+  /// Returns the pose at a time (s), clamped to the duration of the route.
   mrpt::math::TPose2D poseAt(double time) const;
   Progress progressAt(double time) const;
 

@@ -39,7 +39,7 @@ std::vector<Event> eventsOf(const Route& route, const std::vector<Slip>& slips, 
   return events;
 }
 
-/// All readings are in memory until they are written.
+/// Limits the number of readings, which are in memory until they are written.
 void expectBounded(const Route& route, int scans, double scanRate, size_t beamsOfScan, double odometryRate) {
   constexpr double kMostBeams = 2e8, kMostReadings = 1e7, kLongestPath = 1e5;  // m
   const double metres = route.progressAt(route.duration()).distance;

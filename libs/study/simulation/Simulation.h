@@ -48,8 +48,8 @@ struct SimulationOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// Scans at 0, 1/rate, 2/rate ... s; odometry readings at their own rate with a phase offset of 30 ms, as for
-/// two devices. The same options (with seed and session) give the same log.
+/// Scans at 0, 1/rate, 2/rate ... s; odometry readings have a separate rate and a phase offset of 30 ms, as
+/// with two devices. The same options (with seed and session) give the same log.
 /// @throws InputError for a route that touches walls, or is too short for the number of scans
 SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
                       const LaserOptions& laser, const OdometryOptions& odometry);

@@ -26,7 +26,7 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-/// The action with the increment between two odometry poses.
+/// Returns an action with the increment between two odometry poses.
 mrpt::obs::CActionCollection actionBetween(const mrpt::math::TPose2D& before,
                                            const mrpt::math::TPose2D& after,
                                            mrpt::Clock::time_point timestamp) {
@@ -103,7 +103,7 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
 
 namespace {
 
-/// A gzip file in memory, best compression, without name and time in the header.
+/// Compresses to a gzip file in memory, best compression, without name and time in the header.
 bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
   z_stream z{};
   constexpr int kGzip = 15 + 16, kMemoryLevel = 8;
@@ -149,7 +149,7 @@ void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& fil
 
 namespace {
 
-/// A line of a floor plan file, to 1 um.
+/// Formats a line of a floor plan file, to 1 um.
 std::string planLine(const Wall& wall) {
   const auto line = [](std::string text, std::initializer_list<double> numbers) {
     for (const double number : numbers) text += ' ' + fixedText(number, 6);

@@ -15,22 +15,21 @@ namespace hybrid_slam::simulation {
 class FloorPlan;
 struct PlacedThing;
 
-/// Observations in order of time, or one (action, observation) pair per scan; the first action is empty.
+/// Returns observations in order of time, or one (action, observation) pair per scan; the first action is
+/// empty.
 mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form);
 
-/// Compressed with gzip, without a timestamp in the header. @throws std::runtime_error if it cannot be
-/// written
+/// Writes a gzip file without a timestamp in the header. @throws std::runtime_error if it cannot be written
 void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file);
 
-/// Rows `timestamp x y z qx qy qz qw` (s, m). @throws std::runtime_error if it cannot be written
+/// Writes rows `timestamp x y z qx qy qz qw` (s, m). @throws std::runtime_error if it cannot be written
 void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file);
 
-/// A floor plan file of single walls, with the name of the thing as a comment after the walls of a door or
-/// box.
+/// Writes a floor plan file of single walls; the walls of a door or box have its name as a comment.
 /// @throws std::runtime_error if it cannot be written
 void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& things, const std::string& file);
 
-/// PNG: walls black, path blue, start green, end red, grid lines every 5 m.
+/// Writes a PNG: walls black, path blue, start green, end red, grid lines every 5 m.
 /// @throws std::runtime_error if it cannot be written
 void writePicture(const FloorPlan& plan, const std::vector<TruePose>& poses, const std::string& file);
 

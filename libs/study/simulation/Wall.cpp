@@ -29,7 +29,7 @@ double rayToSegment(const Wall& wall, const TPoint2D& origin, const TPoint2D& di
   return t >= 0 && s >= -kSlack && s <= length + kSlack ? t : kNoHit;
 }
 
-/// Whether an angle lies within the arc, with kSlack of length at both ends.
+/// Returns whether an angle lies within the arc, with kSlack of length at both ends.
 bool onArc(const Wall& wall, double angle) {
   double turned = std::fmod(angle - wall.startAngle, 2 * M_PI);
   if (turned < 0) turned += 2 * M_PI;

@@ -25,7 +25,7 @@ struct Wall {
   double distance(const mrpt::math::TPoint2D& p) const;  ///< m, from p to the nearest point of the wall
 };
 
-/// Distance to a wall that is not there, m.
+/// Distance (m) for a ray that hits no wall.
 constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
 /// Distance (m, >= 0) from `origin` along the unit vector `direction` to the wall; kNoHit for a miss. A ray

@@ -58,7 +58,7 @@ int WallIndex::rowOf(double y) const {
   return static_cast<int>(std::clamp(std::floor((y - low_.y) / cellSize_), 0.0, rows_ - 1.0));
 }
 
-/// No false negatives: tests the cell's circumscribed circle.
+/// Returns whether the wall may touch the cell. No false negatives: tests the cell's circumscribed circle.
 bool WallIndex::mayTouch(const Wall& wall, int column, int row) const {
   const TPoint2D centre(low_.x + (column + 0.5) * cellSize_, low_.y + (row + 0.5) * cellSize_);
   return wall.distance(centre) <= cellSize_ * M_SQRT1_2 + 1e-6;

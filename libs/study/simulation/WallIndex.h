@@ -21,10 +21,10 @@ class WallIndex {
   const mrpt::math::TPoint2D& low() const { return low_; }    ///< m, lower left corner of all walls
   const mrpt::math::TPoint2D& high() const { return high_; }  ///< m, upper right corner
 
-  /// m; infinity without a hit within maxRange
+  /// Returns the distance (m) to the first wall along the ray; infinity without a hit within maxRange.
   double rayDistance(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& direction,
                      double maxRange) const;
-  /// m; infinity without walls
+  /// Returns the distance (m) to the nearest wall; infinity without walls.
   double nearestDistance(const mrpt::math::TPoint2D& p) const;
 
  private:

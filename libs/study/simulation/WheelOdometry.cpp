@@ -55,7 +55,7 @@ void WheelOdometry::move(double d, double t, RandomStream& random) {
   advance(forwards, sideways, rotation);
 }
 
-/// Along an arc, so that error-free odometry is exact in curves.
+/// Moves the pose along an arc, so that error-free odometry is exact in curves.
 void WheelOdometry::advance(double forwards, double sideways, double rotation) {
   const double half = rotation / 2;
   const double chord = std::abs(half) < 1e-9 ? 1 : std::sin(half) / half;

@@ -37,7 +37,8 @@ struct OdometryOptions : Options {
   void describe(OptionTable& table) override;
 };
 
-/// At `time` (s from the start) the odometry gains this rotation (rad) and forward motion (m).
+/// A slip at `time` (s from the start), which adds this rotation (rad) and forward motion (m) to the
+/// odometry.
 struct Slip {
   double time = 0, rotation = 0, distance = 0;
 };
@@ -50,13 +51,13 @@ class WheelOdometry {
  public:
   explicit WheelOdometry(const OdometryOptions& options) : options_(options) {}
 
-  /// The robot moved `distance` (m) along an arc of `rotation` (rad).
+  /// Moves the robot by `distance` (m) along an arc of `rotation` (rad).
   void move(double distance, double rotation, RandomStream& random);
-  /// Only the wheels moved.
+  /// Moves only the wheels.
   void slip(const Slip& slip) { advance(slip.distance, 0, slip.rotation); }
 
   const mrpt::math::TPose2D& pose() const { return pose_; }
-  /// The pose as the robot's controller reports it: whole millimetres, and 4096 units per turn.
+  /// Returns the pose as the robot's controller reports it: whole millimetres, and 4096 units per turn.
   mrpt::math::TPose2D reading() const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file EventList.h
-/// @brief What has happened in a run, a line each, the newest last.
+/// @brief List of the events of a run, one per line, newest last.
 #pragma once
 
 #include <wx/listbox.h>
@@ -18,6 +18,10 @@ class EventList : public wxListBox {
   EventList(wxWindow* parent, const wxSize& size, const wxString& help)
       : wxListBox(parent, wxID_ANY, wxDefaultPosition, parent->FromDIP(size)) {
     explain(this, help);
+    Bind(wxEVT_MOTION, [this](wxMouseEvent& event) {
+      showWhole(HitTest(event.GetPosition()));
+      event.Skip();
+    });
   }
 
   void show(const std::vector<std::string>& events) {
@@ -29,6 +33,12 @@ class EventList : public wxListBox {
   }
 
  private:
+  /// A line may be longer than the list is wide: the tooltip is the whole line under the mouse pointer.
+  void showWhole(int line) {
+    const wxString text = line == wxNOT_FOUND ? wxString() : GetString(static_cast<unsigned>(line));
+    if (text != GetToolTipText()) SetToolTip(text);
+  }
+
   std::vector<std::string> shown_;
 };
 

@@ -2,9 +2,27 @@
 
 #include <wx/utils.h>
 
+#include <system_error>
+
 #include "base/Errors.h"
 
 namespace hybrid_slam::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of an installation, or of the sources around the program's build folder or the working folder; empty if
+/// the page is in none.
+std::string fileOf(const std::string& page, const fs::path& bin) {
+  if (const std::string installed = files::withInstalledPages(page, bin); installed != page) return installed;
+  std::error_code ignored;
+  for (fs::path folder : {bin, fs::current_path(ignored)})
+    for (; folder.has_relative_path(); folder = folder.parent_path())
+      if (fs::exists(folder / page, ignored)) return (folder / page).string();
+  return {};
+}
+
+}  // namespace
 
 const std::vector<HelpPage>& helpPages() {
   static const std::vector<HelpPage> pages{{"This &window\tF1", "doc/gui.md"},
@@ -16,9 +34,9 @@ const std::vector<HelpPage>& helpPages() {
 }
 
 void openPage(const std::string& page, const std::filesystem::path& bin) {
-  const std::string file = files::withInstalledPages(page, bin);
-  if (file == page)
-    throw InputError("page not installed", page, "expected the package's documentation, or see the sources");
+  const std::string file = fileOf(page, bin);
+  if (file.empty())
+    throw InputError("page not found", page, "expected the package's documentation, or the sources");
   if (!wxLaunchDefaultApplication(wxString::FromUTF8(file)))
     throw InputError("no program to show the page", file, "expected xdg-open (Debian: xdg-utils)");
 }

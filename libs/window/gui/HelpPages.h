@@ -15,12 +15,12 @@ struct HelpPage {
   const char* page;
 };
 
-/// In the order of the commands from kFirstPage on.
+/// Returns the pages in the order of the commands from kFirstPage on.
 const std::vector<HelpPage>& helpPages();
 
-/// Opens an installed page with the desktop's program for such files.
+/// Opens a page, of the installation or else of the sources, with the desktop's program for such files.
 /// @param bin  folder of the program
-/// @throws InputError if the page is not installed, or no program shows it
+/// @throws InputError if the page is in neither, or no program shows it
 void openPage(const std::string& page, const std::filesystem::path& bin = files::programFolder());
 
 }  // namespace hybrid_slam::window

@@ -70,6 +70,13 @@ void LivePage::connectOrStop() {
   orTell(this, [this] { start(); });
 }
 
+std::string LivePage::end() {
+  if (!isRunning()) return {};
+  session_->finish();
+  const auto last = session_->snapshot();
+  return last->state == State::failed ? last->message : "";
+}
+
 void LivePage::start() {
   const std::string server = server_->GetValue().utf8_string();
   live::hostAndPort(server, "the live view's server");

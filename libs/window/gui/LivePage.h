@@ -25,6 +25,8 @@ class LivePage : public wxPanel {
   void setSettings(std::shared_ptr<const Settings> settings);
   /// Starts a run with the server in the text field, or ends the current run.
   void connectOrStop();
+  /// Ends the current run and waits for its results. @return why it failed; empty if it did not
+  std::string end();
   /// Called with the recording of each finished run.
   void setOnRecording(std::function<void(const std::string&)> action) { onRecording_ = std::move(action); }
   /// Polls the session; call several times per second.
@@ -37,7 +39,7 @@ class LivePage : public wxPanel {
   void setOutput(const wxString& folder) { output_->SetValue(folder); }
   MapCanvas* canvas() const { return canvas_; }
   wxWindow* connectButton() const { return button_; }
-  /// The newest event of the run; empty without one.
+  /// Returns the newest event of the run; empty without one.
   std::string note() const { return shown_ && !shown_->events.empty() ? shown_->events.back() : ""; }
   std::string state() const { return text_->GetLabel().utf8_string(); }
   LiveSession* session() const { return session_.get(); }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRefreshInterval = 40;  // ms
 
-/// 1240 x 720, or what the screen has room for beside title bar, menus and status bar.
+/// Returns 1240 x 720, or less if the screen has no room for this and title bar, menus and status bar.
 wxSize startSize() {
   wxSize size = wxWindow::FromDIP(wxSize(1240, 720), nullptr);
   const wxSize border = wxWindow::FromDIP(wxSize(20, 120), nullptr);
@@ -121,7 +121,8 @@ void MainFrame::bindKeys() {
   });
 }
 
-/// At once, not when a menu is opened: keys use the entries as well.
+/// Enables the commands that are possible, at once and not when a menu is opened: keys use the entries as
+/// well.
 void MainFrame::enableCommands() {
   const bool isPlayable = replay_->hasLog();
   const auto enable = [this](int command, bool isEnabled) {
@@ -174,7 +175,7 @@ void MainFrame::bindViewMenu() {
       wxEVT_MENU, [this](wxCommandEvent& event) { replay_->showGeneral(event.IsChecked()); }, kGeneral);
 }
 
-/// The newest event, the place in the map of an earlier run, and what is under the mouse pointer.
+/// Shows the newest event, the place in an earlier map, and the cell under the mouse pointer.
 void MainFrame::showState() {
   const auto note = wxString::FromUTF8(isReplayShown() ? replay_->note() : live_->note());
   if (note != note_) SetStatusText(note_ = note);

@@ -27,7 +27,7 @@ class MainFrame : public wxFrame {
   /// @param changes  SECTION.KEY=VALUE each
   void open(const std::string& ini, const std::string& rawlog, const MapChoice& map = {},
             const std::vector<std::string>& changes = {});
-  /// Later runs continue or localise in this map, or begin with this floor plan.
+  /// Makes later runs continue or localise in this map, or begin with this floor plan.
   void useMap(const MapChoice& map);
   /// @param changes  SECTION.KEY=VALUE each @param resets  SECTION.KEY each, which get their defaults
   void applyChanges(const std::vector<std::string>& changes, const std::vector<std::string>& resets = {});
@@ -38,7 +38,7 @@ class MainFrame : public wxFrame {
   void saveIniTo(const std::string& file) const;
   void exportPictureTo(const std::string& file) const;  ///< PNG, 1600 x 1200
   void exportResultsTo(const std::string& folder);
-  void saveReplayMapTo(const std::string& folder);  ///< the replay goes on
+  void saveReplayMapTo(const std::string& folder);  ///< the replay continues
   /// @}
 
   ReplayPage* replay() const { return replay_; }
@@ -46,7 +46,7 @@ class MainFrame : public wxFrame {
   const Settings* settings() const { return settings_.get(); }
 
  private:
-  /// A log or INI file that is dropped on the window is opened.
+  /// Opens a log or INI file that is dropped on the window.
   class FileDrop : public wxFileDropTarget {
    public:
     explicit FileDrop(MainFrame& frame) : frame_(frame) {}

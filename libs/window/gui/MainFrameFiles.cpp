@@ -16,7 +16,7 @@
 namespace hybrid_slam::window {
 namespace {
 
-/// Of a file dialog.
+/// Returns the filter of a file dialog for logs.
 std::string logFilter() {
   std::string names;
   for (const std::string& ending : readings::logEndings()) names += (names.empty() ? "*" : ";*") + ending;
@@ -49,13 +49,13 @@ void MainFrame::use(const std::shared_ptr<Settings>& settings) {
   settings_ = settings;
   live_->setSettings(settings);
   SetTitle("hybrid-slam: " + (rawlog.empty() ? "no log" : std::filesystem::path(rawlog).filename().string()));
-  if (rawlog.empty()) return;
+  if (rawlog.empty()) return replay_->showWarnings(settings_->configuration.warnings);
   replay_->open(settings->configuration);
   enableCommands();
   recent_->add(rawlog);
 }
 
-/// The replay reads the log in its own thread: only then is it known which settings follow from it.
+/// Applies the settings that follow from the log, once the replay's thread has read it.
 void MainFrame::followLog() {
   const auto read = replay_->ofLog();
   if (!read || read == followed_) return;

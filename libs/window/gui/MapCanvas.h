@@ -32,15 +32,15 @@ class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
             std::function<void()> onChange);
 
   void show(const std::shared_ptr<const FilterSnapshot>& filter);
-  /// Shown while there is no map.
+  /// Sets the text shown while there is no map.
   void setTitle(const std::string& title);
   const std::string& title() const { return title_; }
   void zoom(double factor);
-  /// The place under the mouse pointer and its cell; empty outside the pane, and without a map.
+  /// Describes the place under the mouse pointer and its cell; empty outside the pane, and without a map.
   std::string cursorText() const;
   const std::shared_ptr<const FilterSnapshot>& shown() const { return filter_; }
   MapView view() const;
-  /// In window units, which are larger than pixels on a high-DPI screen.
+  /// Returns the size in window units, which are larger than pixels on a high-DPI screen.
   PictureSize size() const;
 
  private:

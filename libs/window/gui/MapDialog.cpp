@@ -18,7 +18,7 @@ namespace {
 
 using Use = MapChoice::Use;
 
-/// By the end of its name, as run/PlanFiles.h tells the kinds of plans apart.
+/// Returns whether a file is a floor plan, by the ending of its name as in run/PlanFiles.h.
 bool isPlan(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   return ending == ".geojson" || ending == ".dxf" || ending == ".svg";

@@ -1,5 +1,5 @@
 /// @file MapDialog.h
-/// @brief Asks for the map of an earlier run or a floor plan, what it is used for, and the start in it.
+/// @brief Asks for the map of an earlier run or a floor plan, its use, and the start in it.
 #pragma once
 
 #include <wx/dialog.h>
@@ -16,9 +16,9 @@ class MapDialog : public wxDialog {
   MapDialog(wxWindow* parent, const MapChoice& now);
 
   void set(const MapChoice& map);
-  /// @throws InputError for a file that is missing, or a start that is no pose
+  /// @throws InputError for a missing file, or a start that is not a pose
   MapChoice choice() const;
-  /// "X, Y, DEG" (m, deg) as a pose; empty for blanks.
+  /// Parses "X, Y, DEG" (m, deg) as a pose; empty for blanks.
   /// @throws InputError for anything else
   static std::optional<mrpt::math::TPose2D> startOf(const std::string& text);
 

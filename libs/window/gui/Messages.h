@@ -11,7 +11,8 @@
 
 namespace hybrid_slam::window {
 
-/// As shown to the user: with the pages that are installed. @param bin  folder of the program
+/// Returns a message as shown to the user, with the paths of installed pages. @param bin  folder of the
+/// program
 inline wxString shownText(const std::string& message,
                           const std::filesystem::path& bin = files::programFolder()) {
   return wxString::FromUTF8(files::withInstalledPages(message, bin));

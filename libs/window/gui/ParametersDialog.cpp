@@ -131,7 +131,7 @@ void ParametersDialog::addControls() {
   SetSizer(column);
 }
 
-/// Of each section, the keys with all the words.
+/// Shows the keys of each section that contain all the words.
 void ParametersDialog::showMatches() {
   grid_->ClearSelection(true);
   const wxArrayString words = wxStringTokenize(search_->GetValue().Lower());
@@ -150,7 +150,7 @@ void ParametersDialog::showMatches() {
   showHelp();
 }
 
-/// Of the selected key.
+/// Shows the help of the selected key.
 void ParametersDialog::showHelp() {
   const wxPGProperty* const key = grid_->GetSelection();
   const bool isKey = key && !key->IsCategory();
@@ -191,7 +191,7 @@ bool ParametersDialog::isDefault(const wxPGProperty* key) const {
   return value == standard || (number && other && *number == *other);
 }
 
-/// Bold, which the grid itself uses for any key that was edited.
+/// Shows a changed key in bold, which the grid itself uses for any edited key.
 void ParametersDialog::mark(wxPGProperty* key) {
   key->SetModifiedStatus(!isDefault(key));
   grid_->RefreshProperty(key);

@@ -22,11 +22,11 @@ class ParametersDialog : public wxDialog {
  public:
   ParametersDialog(wxWindow* parent, const Settings& settings);
 
-  /// The edits, as SECTION.KEY=VALUE.
+  /// Returns the edits as SECTION.KEY=VALUE.
   const std::vector<std::string>& changes() const { return changes_; }
-  /// Keys that are to get their defaults, as SECTION.KEY.
+  /// Returns the keys to reset to their defaults, as SECTION.KEY.
   std::vector<std::string> resets() const { return {resets_.begin(), resets_.end()}; }
-  /// Error text for a value, empty if valid.
+  /// Returns the error text for a value; empty if it is valid.
   static std::string fault(const Settings& settings, const std::string& section, const std::string& key,
                            const std::string& value);
 

@@ -24,7 +24,7 @@ const Plot kPlots[] = {{"std x (m)", [](const PlotRow& r) { return r.stdX; }, 0.
 
 wxColour colourOf(size_t filter) { return filter == 0 ? wxColour(0, 90, 200) : wxColour(230, 110, 0); }
 
-/// The value rounded up to 1, 2 or 5 times a power of ten.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 double roundedUp(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0})

@@ -45,7 +45,7 @@ std::string RecentFiles::file(int command) const {
   return i < history_.GetCount() ? history_.GetHistoryFile(i).utf8_string() : "";
 }
 
-/// A folder that cannot be written is no reason to disturb the user.
+/// Saves the list; ignores a folder that cannot be written.
 void RecentFiles::save() {
   const wxLogNull quiet;
   wxFileName::Mkdir(wxFileName(configurationFile()).GetPath(), wxS_DIR_DEFAULT, wxPATH_MKDIR_FULL);

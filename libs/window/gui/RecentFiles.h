@@ -18,7 +18,7 @@ class RecentFiles {
 
   void add(const std::string& file);
   void remove(const std::string& file);
-  /// The file of an entry. @param command  wxID_FILE1 to wxID_FILE9
+  /// Returns the file of an entry. @param command  wxID_FILE1 to wxID_FILE9
   std::string file(int command) const;
   bool isEmpty() const { return history_.GetCount() == 0; }
 

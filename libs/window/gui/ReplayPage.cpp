@@ -98,7 +98,7 @@ void ReplayPage::enableControls() {
     if (control->IsThisEnabled() != hasLog()) control->Enable(hasLog());
 }
 
-/// What to do, while there is no map.
+/// Shows what to do while there is no map.
 void ReplayPage::showTitles() {
   std::string hint = "File, Open log, or drop a log here";
   if (session_) hint = "reading the log";
@@ -120,6 +120,13 @@ void ReplayPage::open(const run::Configuration& configuration) {
   showTitles();
   events_->show({});
   for (MapCanvas* canvas : canvases_) canvas->show(nullptr);
+}
+
+void ReplayPage::showWarnings(const std::vector<std::string>& warnings) {
+  if (session_) return;
+  std::vector<std::string> lines;
+  for (const std::string& warning : warnings) lines.push_back("warning: " + warning);
+  events_->show(lines);
 }
 
 void ReplayPage::refresh() {

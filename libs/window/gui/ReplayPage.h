@@ -24,6 +24,10 @@ class ReplayPage : public wxPanel {
 
   /// Starts reading configuration.run.rawlog.
   void open(const run::Configuration& configuration);
+  /// Lists the warnings on an INI file, until a log is opened. Changes nothing if one is.
+  void showWarnings(const std::vector<std::string>& warnings);
+  /// Closes the log, after an export that is being written.
+  void end() { session_.reset(); }
   /// Polls the session; call several times per second.
   void refresh();
 
@@ -37,12 +41,12 @@ class ReplayPage : public wxPanel {
   void toggle(bool Layers::*layer);
   void showGeneral(bool isShown);
   MapCanvas* canvas(size_t i) const { return canvases_.at(i); }
-  /// The newest note of the replay; empty without one.
+  /// Returns the newest note of the replay; empty without one.
   std::string note() const { return shown_ ? shown_->note : ""; }
-  /// Whether a log can be played; false while it is read.
+  /// Returns whether a log can be played; false while it is read.
   bool hasLog() const { return shown_ && shown_->state != ReplaySnapshot::State::loading; }
   std::string speed() const { return speed_->GetStringSelection().utf8_string(); }
-  /// Null without a log, and until it has been read.
+  /// Returns the settings that follow from the log; null without one, and until it has been read.
   std::shared_ptr<const run::LogSettings> ofLog() const { return shown_ ? shown_->ofLog : nullptr; }
   wxWindow* stepButton() const { return step_; }
   const wxSlider* slider() const { return place_; }

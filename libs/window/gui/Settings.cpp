@@ -8,7 +8,7 @@
 namespace hybrid_slam::window {
 namespace {
 
-/// The settings without these keys. @param names  SECTION.KEY each
+/// Returns the settings without these keys. @param names  SECTION.KEY each
 std::string textWithout(const mrpt::config::CConfigFileBase& settings,
                         const std::vector<std::string>& names) {
   mrpt::config::CConfigFileMemory left;
@@ -91,7 +91,9 @@ std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes
       resets.empty() ? configuration.source.getContent() : textWithout(configuration.source, resets);
   const files::TemporaryFolder folder;
   const std::string file = text.empty() ? text : folder.write("settings.ini", text);
-  return std::shared_ptr<Settings>(new Settings(file, changes, this));
+  std::shared_ptr<Settings> copied(new Settings(file, changes, this));
+  copied->configuration.warnings = configuration.warnings;  // with the name of the user's file
+  return copied;
 }
 
 }  // namespace hybrid_slam::window

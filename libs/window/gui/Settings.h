@@ -28,22 +28,21 @@ struct Settings {
   live::LiveOptions live;
   run::Configuration configuration;
 
-  /// Reads no log, which takes time: see withLog.
+  /// Loads the settings of an INI file, without reading its log, which takes time (see withLog).
   /// @param file  empty: the defaults
   /// @throws InputError as Configuration does
   static std::shared_ptr<Settings> fromFile(const std::string& file,
                                             const std::vector<std::string>& changes = {});
-  /// A modified copy. It keeps what follows from the log if it names the same one.
+  /// Returns a modified copy. It keeps the settings that follow from the log unless it names another log.
   /// @param changes  SECTION.KEY=VALUE each
-  /// @param resets  SECTION.KEY each, which are no longer set: they get their defaults, or follow from the
-  /// log
+  /// @param resets  SECTION.KEY each, which are reset to their defaults or to what follows from the log
   std::shared_ptr<Settings> copy(const std::vector<std::string>& changes = {},
                                  const std::vector<std::string>& resets = {}) const;
-  /// What the settings are if only the log is set.
+  /// Returns the settings with only the log set.
   std::shared_ptr<Settings> defaults() const;
-  /// A copy for runs in another map, or in a new one.
+  /// Returns a copy for runs in another map, or in a new one.
   std::shared_ptr<Settings> inMap(const MapChoice& map) const;
-  /// A copy in which these settings hold that the user has not set. @param log  null: none
+  /// Returns a copy in which these settings apply where the user has not set them. @param log  null: none
   std::shared_ptr<Settings> withLog(const std::shared_ptr<const run::LogSettings>& log) const;
   MapChoice map() const { return MapChoice::of(configuration.run); }
 

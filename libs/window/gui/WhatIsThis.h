@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::window {
 
-/// wxSimpleHelpProvider breaks its lines after 100 pixels.
+/// Shows wider lines than wxSimpleHelpProvider, which breaks them after 100 pixels.
 class WideHelp : public wxSimpleHelpProvider {
  public:
   bool ShowHelp(wxWindowBase* window) override {
@@ -19,13 +19,13 @@ class WideHelp : public wxSimpleHelpProvider {
   }
 };
 
-/// Shown when the user asks what a control is.
+/// Sets the text shown when the user asks what a control is.
 inline void explain(wxWindow* control, const wxString& text) {
   if (!wxHelpProvider::Get()) wxHelpProvider::Set(new WideHelp);  // wxWidgets deletes it
   control->SetHelpText(text);
 }
 
-/// Also shown as a tooltip.
+/// Likewise, and also as a tooltip.
 inline void explainWithTip(wxWindow* control, const wxString& text) {
   explain(control, text);
   control->SetToolTip(text);

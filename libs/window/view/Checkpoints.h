@@ -11,7 +11,7 @@
 
 namespace hybrid_slam::window {
 
-/// A replay after some scans.
+/// State of a replay after some scans.
 struct Checkpoint {
   struct Lane {
     std::string run;  ///< FilterRun::state
@@ -33,10 +33,10 @@ class Checkpoints {
   /// @param mostBytes  of all checkpoints; the newest one may exceed it
   explicit Checkpoints(size_t mostBytes = kMostBytes) : mostBytes_(mostBytes) {}
 
-  /// Whether one should be added after this scan.
+  /// Returns whether one should be added after this scan.
   bool isDue(size_t scans) const;
   void add(size_t scans, Checkpoint checkpoint);
-  /// The last one not after this scan, with its number of scans; null if there is none.
+  /// Returns the last one up to this scan, with its number of scans; null if there is none.
   const std::pair<const size_t, Checkpoint>* upTo(size_t scans) const;
   size_t every() const { return every_; }
   size_t size() const { return all_.size(); }

@@ -21,7 +21,7 @@ using mrpt::opengl::CTexturedPlane;
 
 namespace {
 
-/// Seen from above, without perspective; a viewport of `size` shows `scale` pixels per m.
+/// Sets a view from above, without perspective, in which a viewport of `size` shows `scale` pixels per m.
 void lookDown(COpenGLViewport& viewport, double x, double y, double scale, PictureSize size) {
   // MRPT's orthogonal camera shows half its distance across the shorter side.
   const double distance = 2 * std::min(size.width, size.height) / scale;
@@ -82,7 +82,7 @@ class ScenePainter {
     all.ellipse(TPoint2D(pose), radius, radius, 0);
     all.segment(TPoint2D(pose), ahead(TPoint2D(pose), pose.phi, radius));
   }
-  /// A compass in the upper right corner: the two dominating directions.
+  /// Draws a compass in the upper right corner: the two dominating directions.
   void dominatingDirection() {
     if (!filter_.dominatingDirection) return;
     const double radius = 24 * pixel_;

@@ -11,15 +11,15 @@
 
 namespace hybrid_slam::window {
 
-/// What is written over the map, a line each: updates, place, lines, verdict. The lines that match are those
-/// drawn as such.
+/// Returns the caption of the map, one item per line: updates, place, lines, verdict. It counts as matched
+/// the lines drawn as such.
 std::vector<std::string> captionOf(const FilterSnapshot& filter);
 
-/// The view of the whole map, between the caption and room for the whole legend: side by side, maps of the
-/// same size are drawn alike.
+/// Returns a view of the whole map, between the caption and room for the complete legend, so that maps of the
+/// same size have the same scale side by side.
 MapView wholeMap(const MapImage& map, const Layers& layers, PictureSize size);
 
-/// The grid as a plane, reusable in many scenes: its texture is uploaded once. Null for an empty map.
+/// Returns the grid as a plane, reusable in many scenes: its texture is uploaded once. Null for an empty map.
 mrpt::opengl::CTexturedPlane::Ptr mapPlane(const MapImage& map);
 
 /// Grid, path (red), particles (red), line database (green) with the dominating direction, lines of the scan
@@ -32,7 +32,7 @@ mrpt::opengl::COpenGLScene::Ptr filterScene(const FilterSnapshot& filter,
                                             const mrpt::opengl::CTexturedPlane::Ptr& map, const MapView& view,
                                             const Layers& layers, PictureSize size, double density = 1);
 
-/// The whole map as a picture of this size, rendered off-screen.
+/// Renders the whole map off-screen as a picture of this size.
 /// @throws std::runtime_error if there is no OpenGL
 mrpt::img::CImage pictureOf(const FilterSnapshot& filter, PictureSize size, const Layers& layers);
 

@@ -105,7 +105,7 @@ TEST(FilterScene, AnEmptyMapGivesNoPlane) {
   EXPECT_TRUE(filterScene(nothing, nullptr, {}, {}, {200, 100}));
 }
 
-/// Rendered off-screen and checked.
+/// Renders the picture off-screen.
 TEST(FilterScene, ThePictureShowsEverythingInItsPlace) {
   const FilterSnapshot filter = room();
   const PictureSize size{600, 481};  // odd, so that the path is in the middle of a row of pixels
@@ -138,6 +138,34 @@ TEST(FilterScene, ThePictureShowsEverythingInItsPlace) {
   EXPECT_THAT(colourAt(9.5, 5.25), ElementsAre(80, 180, 255)) << "the robot";
   EXPECT_THAT(colourAt(11 + 0.6, 5), ElementsAre(150, 0, 180)) << "three sigma";
   EXPECT_THAT(colourAt(11.02, 5.3), ElementsAre(220, 0, 0)) << "a particle";
+}
+
+/// Of the smallest window, 800 pixels wide.
+TEST(FilterScene, TheCaptionOfANarrowPaneEndsBeforeTheCompass) {
+  FilterSnapshot filter = room();
+  filter.method = "general";
+  filter.updates = 99999;
+  filter.step.ess = 1;
+  filter.lines.resize(999, filter.lines.at(0));
+  filter.scanLines.resize(99, filter.scanLines.at(0));
+  filter.verdict.emplace().level = run::Verdict::Level::consistent;
+  Layers layers;
+  layers.lines = false;  // no compass
+  const PictureSize size{392, 260};
+  mrpt::img::CImage picture;
+  try {
+    picture = pictureOf(filter, size, layers);
+  } catch (const std::exception& e) {
+    GTEST_SKIP() << "no OpenGL without a screen: " << e.what();
+  }
+  size_t text = 0, beside = 0;
+  for (unsigned y = 0; y < 60; ++y)
+    for (unsigned x = 0; x < 392; ++x) {
+      const int grey = picture.at<uint8_t>(x, y, 0);
+      if (grey < 100 || grey > 155) ++(x < 392 - 64 ? text : beside);
+    }
+  EXPECT_GT(text, 1000u);
+  EXPECT_EQ(beside, 0u);
 }
 
 }  // namespace

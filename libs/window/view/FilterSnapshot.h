@@ -21,7 +21,7 @@
 
 namespace hybrid_slam::window {
 
-/// One filter update in the plots, with a known place.
+/// One filter update in the plots, at which the place was known.
 struct PlotRow {
   double time = 0;                        ///< s since the first scan
   double stdX = 0, stdY = 0, stdPhi = 0;  ///< m, m, rad
@@ -45,18 +45,18 @@ struct FilterSnapshot {
   std::string method;  ///< as in `--method`
   size_t updates = 0;
   MapImage map;  ///< of the best particle, like the next three
-  /// One pose per update; the last is the current one. In a fixed map: since the place has been known, empty
+  /// One pose per update; the last is the current one. In a fixed map, only since the place is known; empty
   /// while it is not.
   std::vector<mrpt::math::TPose2D> path;
   std::vector<DatabaseLine> lines;
   std::optional<double> dominatingDirection;  ///< rad, modulo a right angle
-  std::vector<WeightedPose> particles;        ///< places that are possible, while the place is unknown
+  std::vector<WeightedPose> particles;        ///< possible places, while the place is unknown
   std::optional<Place> place;                 ///< in a fixed map
   std::vector<ScanLine> scanLines;            ///< of the last update
   UncertaintyEllipse ellipse;
   std::vector<PlotRow> plot;
   FilterStep step;                      ///< the last update
-  std::optional<run::Verdict> verdict;  ///< on the path so far; empty in a fixed map, or if not asked for
+  std::optional<run::Verdict> verdict;  ///< on the path so far; empty in a fixed map, or if not requested
 };
 
 /// Collects snapshots of one filter in its thread.
@@ -71,7 +71,7 @@ class FilterWatch {
   /// Copies the grid, which takes some ms: call only when needed for display.
   /// @param withVerdict  compares the scans along the path, which may take 0.1 s
   std::shared_ptr<FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
-  /// The verdict on the path so far: a function to be called in any thread.
+  /// Returns a function that judges the path so far. Any thread may call it.
   std::function<run::Verdict()> judge(const FilterView& view) const { return mapSoFar_.judge(view); }
 
  private:

@@ -15,8 +15,8 @@ namespace {
 
 constexpr size_t kEvents = 200;
 
-/// Finds the verdict on the map so far in another thread, so that no scan waits for it. A copy of the map is
-/// made to show it, so at most once per second.
+/// Finds the verdict on the map so far in another thread, so that no scan waits for it. At most once per
+/// second, since showing it takes a copy of the map.
 class LiveVerdict {
  public:
   using Show = std::function<void(const run::Verdict&)>;
@@ -55,9 +55,11 @@ LiveSession::LiveSession(const run::Configuration& configuration, const live::Li
            }),
       thread_([this] { work(); }) {}
 
-LiveSession::~LiveSession() {
+LiveSession::~LiveSession() { finish(); }
+
+void LiveSession::finish() {
   stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 std::shared_ptr<const LiveSnapshot> LiveSession::snapshot() const {
@@ -83,7 +85,7 @@ void LiveSession::work() {
   }
 }
 
-/// In the picture that is shown; the following ones keep it.
+/// Sets the verdict in the snapshot on display; later snapshots keep it.
 void LiveSession::showVerdict(const run::Verdict& verdict) {
   publish([&](LiveSnapshot& next) {
     if (!next.filter) return;
@@ -94,6 +96,7 @@ void LiveSession::showVerdict(const run::Verdict& verdict) {
 }
 
 std::string LiveSession::run() {
+  for (const std::string& warning : configuration_.warnings) log_.report("warning", warning);
   FilterWatch watch(configuration_, true);
   LiveVerdict verdict([this](const run::Verdict& found) { showVerdict(found); });
   auto lastPicture = std::chrono::steady_clock::time_point{};

@@ -26,8 +26,8 @@ struct LiveSnapshot {
   std::shared_ptr<const FilterSnapshot> filter;  ///< null before the first update
 };
 
-/// hybrid-slam-live in two threads: one receives cycles, the other filters. Recording and results go to the
-/// configuration's folder.
+/// Runs like hybrid-slam-live in two threads: one receives cycles, the other filters. Recording and results
+/// go to the configuration's folder.
 class LiveSession {
  public:
   /// @param server  HOST:PORT @throws InputError if malformed
@@ -40,6 +40,8 @@ class LiveSession {
 
   /// Ends the run; the state becomes done after the results are written.
   void stop() { isStopping_ = true; }
+  /// Likewise, and waits for it.
+  void finish();
   /// Saves map and session to a dated subfolder after the next scan; an event names it.
   void saveMap() { wantsSave_ = true; }
   std::shared_ptr<const LiveSnapshot> snapshot() const;

@@ -21,14 +21,14 @@ struct MapImage {
   double top() const { return bottom + height * resolution; }
 };
 
-/// A place with what the map has there: "x 1.25 m, y -3.00 m: occupied 0.98". The value is the probability
-/// that the cell is occupied; "unknown" for cells that no beam has reached, and outside the map.
+/// Describes a place of the map: "x 1.25 m, y -3.00 m: occupied 0.98". The value is the probability that the
+/// cell is occupied; "unknown" for cells that no beam has reached, and outside the map.
 /// @param x,y  m, map frame
 std::string describeCell(const MapImage& map, double x, double y);
 
-/// The known cells with a margin of 10 cells; an empty picture if there are none. A pixel is a cell, or the
-/// most occupied of n x n cells, with the smallest n for at most 8192 pixels on a side, which graphics cards
-/// can show.
+/// Returns the known cells with a margin of 10 cells; an empty picture if there are none. A pixel is a cell,
+/// or the most occupied of n x n cells, with the smallest n for at most 8192 pixels per side, which graphics
+/// cards can show.
 MapImage mapImage(const mrpt::maps::COccupancyGridMap2D& grid);
 
 }  // namespace hybrid_slam::window

@@ -1,12 +1,12 @@
 /// @file MapView.h
-/// @brief Which part of the map a picture shows, and what is drawn over it.
+/// @brief The part of the map that a picture shows, and the layers drawn over it.
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
 
 namespace hybrid_slam::window {
 
-/// Pixels.
+/// Size in pixels.
 struct PictureSize {
   int width = 0, height = 0;
 };

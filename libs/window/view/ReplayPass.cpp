@@ -7,7 +7,8 @@
 namespace hybrid_slam::window {
 namespace {
 
-/// A filter without lines, or with others, maps without a floor plan beside the hybrid one with it.
+/// Only the hybrid filter begins with the floor plan; one without lines, or with other lines, maps without
+/// it.
 run::Configuration withMethod(run::Configuration c, run::RunOptions::Method method,
                               const std::string& folder) {
   c.setMethod(method);

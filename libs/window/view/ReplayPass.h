@@ -36,14 +36,15 @@ struct ReplayPass {
   using Method = run::RunOptions::Method;
   using Clock = std::chrono::steady_clock;
 
-  /// @param from  to go on from; null: the beginning of the log
+  /// @param from  checkpoint to continue from; null: the beginning of the log
   ReplayPass(const run::Configuration& configuration, const std::vector<Method>& methods,
              const readings::RawlogSummary& summary, const std::pair<const size_t, Checkpoint>* from);
 
-  /// The next scan goes through all filters.
-  /// @return what happened, a line each
+  /// Passes the next scan to all filters.
+  /// @return events, one per line
   std::vector<std::string> advance();
-  /// Empty if a filter cannot be saved: MRPT's, or one in a fixed map, or while a start is searched for.
+  /// Returns the state of all filters; empty if one cannot be saved: MRPT's, one in a fixed map, or one that
+  /// searches for its start.
   std::optional<Checkpoint> checkpoint();
   std::vector<std::string> names() const;  ///< of the methods
   bool isFinished() const;

@@ -79,7 +79,7 @@ void ReplaySession::seek(size_t scan) {
   reach(scan);
 }
 
-/// Steps requested in quick succession add up.
+/// Returns the scan that a step counts from, so that steps in quick succession add up.
 size_t ReplaySession::goingTo() const { return goal_ == Goal::reach ? target_ : scans_; }
 
 void ReplaySession::reach(size_t scan) {
@@ -141,6 +141,7 @@ void ReplaySession::readLog() {
   const auto ofLog =
       std::make_shared<const run::LogSettings>(run::readLogSettings(file, configuration_.input, summary));
   for (const std::string& line : applyLogSettings(*ofLog, configuration_)) event(line);
+  for (const std::string& warning : configuration_.warnings) note("warning: " + warning);
   for (const std::string& warning : readings::warningsOf(summary, file)) note("warning: " + warning);
   change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
   log_ = std::move(summary);
@@ -208,7 +209,8 @@ bool ReplaySession::hasWork(ReplayPass& pass) {
   }
 }
 
-/// Back, on after an export, or to a checkpoint ahead.
+/// Returns whether a new pass is needed: to go back, to continue after an export, or to use a checkpoint
+/// ahead.
 bool ReplaySession::mustJump(const ReplayPass& pass) const {
   if (target_ <= pass.scans) return target_ < pass.scans;
   const auto* const ahead = checkpoints_.upTo(target_);

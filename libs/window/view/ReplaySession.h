@@ -49,12 +49,12 @@ class ReplaySession {
   void play();
   void pause();
   void playOrPause();
-  /// One scan forward, then paused.
+  /// Moves one scan forward, then pauses.
   void step();
-  /// One scan back, then paused.
+  /// Moves one scan back, then pauses.
   void stepBack();
-  /// Runs at full speed until just after this scan (from 1), then paused. Going back resumes the nearest
-  /// checkpoint before, or restarts the replay; either gives the same maps. 0: before the first scan.
+  /// Runs at full speed until just after this scan (from 1; 0: before the first), then pauses. Going back
+  /// resumes from the nearest earlier checkpoint or restarts the replay; both give the same maps.
   void seek(size_t scan);
   /// @param factor  of real time; 0: as fast as possible
   void setSpeed(double factor);
@@ -62,8 +62,8 @@ class ReplaySession {
   /// snapshot. This ends the replay; it can only be restarted.
   void exportResults(const std::string& folder);
 
-  /// Writes map, trajectory and session as they are now to folder/METHOD, or to a dated subfolder if that
-  /// exists, with a message in the snapshot. The replay goes on.
+  /// Writes the current map, trajectory and session to folder/METHOD, or to a dated subfolder if that exists,
+  /// with a message in the snapshot. The replay continues.
   void saveMap(const std::string& folder);
 
   std::shared_ptr<const ReplaySnapshot> snapshot() const;
@@ -118,7 +118,8 @@ class ReplaySession {
   std::thread thread_;
 };
 
-/// The methods to show side by side: hybrid, and the configured one; general if that is hybrid as well.
+/// Returns the methods to show side by side: hybrid and the configured one, or general if that is also
+/// hybrid.
 std::vector<run::RunOptions::Method> comparedMethods(const run::Configuration& configuration);
 
 }  // namespace hybrid_slam::window

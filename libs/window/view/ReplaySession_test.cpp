@@ -227,7 +227,7 @@ TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayRestartsIt) {
   EXPECT_EQ(session.snapshot()->run, 2u);
 }
 
-/// Laps, then a step of 70 m: MRPT's filter takes no motion with a covariance of so large a determinant.
+/// Laps, then a step of 70 m: MRPT's filter rejects a motion whose covariance has such a large determinant.
 test::Log lapsAndAJump() {
   test::Log log = test::laps(40);
   log.push_back(test::odometry(1008, {70, 0, 0}));

@@ -13,12 +13,12 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-/// Pixels; the scale bar is the first in the first row.
+/// Sizes in pixels. The scale bar is the first item of the first row.
 constexpr double kRow = 15, kMargin = 8, kPadding = 3, kSymbol = 14, kGap = 4, kBetween = 12;
 constexpr double kLongestBar = 80, kBarWithLabel = 140;
 constexpr int kFont = 9;
 
-/// About what the font needs; CText::computeTextExtension does not give pixels.
+/// Approximate width of a text; CText::computeTextExtension does not give pixels.
 double widthOf(const std::string& text) { return 7 * static_cast<double>(text.size()); }
 
 LegendLayout inRows(std::vector<LegendEntry> entries, PictureSize size) {
@@ -35,7 +35,7 @@ LegendLayout inRows(std::vector<LegendEntry> entries, PictureSize size) {
   return layout;
 }
 
-/// Draws in the pixels of the strip.
+/// Draws in pixel coordinates of the strip.
 class LegendPainter {
  public:
   LegendPainter(mrpt::opengl::COpenGLScene& scene, const MapView& view, PictureSize size, double top,
@@ -79,7 +79,7 @@ class LegendPainter {
     scene_.insert(added.object());
     return added;
   }
-  /// In a row with this upper edge.
+  /// Draws a label in a row with this upper edge.
   void text(double x, double y, const std::string& label) {
     constexpr size_t kFirstId = 100;  // the caption has the lower ones
     mrpt::opengl::TFontParams font;

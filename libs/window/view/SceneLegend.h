@@ -1,5 +1,5 @@
 /// @file SceneLegend.h
-/// @brief The strip at the lower edge of a pane: a scale bar, and what the colours mean.
+/// @brief The strip at the lower edge of a pane: a scale bar and the legend of the colours.
 #pragma once
 
 #include <mrpt/img/TColor.h>
@@ -20,25 +20,25 @@ struct LegendEntry {
   Symbol symbol;
 };
 
-/// An entry for each thing that is drawn: none for hidden layers, or for lines where the filter has none.
+/// Returns an entry for each drawn item: none for hidden layers, or for lines if the filter has none.
 std::vector<LegendEntry> legendOf(const FilterSnapshot& filter, const Layers& layers);
 
-/// A length for the scale bar: 1, 2 or 5 times a power of ten, at most 80 pixels long.
+/// Returns a length (m) for the scale bar: 1, 2 or 5 times a power of ten, at most 80 pixels long.
 /// @param scale  pixels per m
 double scaleBarLength(double scale);
 
-/// Where the entries are in the strip.
+/// Positions of the entries in the strip.
 struct LegendLayout {
   std::vector<LegendEntry> entries;
   std::vector<mrpt::math::TPoint2D> places;  ///< pixels, right and down from the strip's upper left corner
   double height = 0;                         ///< pixels; 0 if the legend is hidden
 };
 
-/// Height of a strip with all entries, pixels: that of one filter's changes from scan to scan, and another
-/// filter's differs.
+/// Height (pixels) of a strip with all entries. The actual height varies from scan to scan, and between
+/// filters.
 double legendRoom(const Layers& layers, PictureSize size);
 
-/// In rows as long as the picture is wide, after room for the scale bar.
+/// Places the entries in rows of the picture's width, after the scale bar.
 LegendLayout legendLayout(const FilterSnapshot& filter, const Layers& layers, PictureSize size);
 
 /// Adds the strip to a scene with this view.

@@ -10,7 +10,7 @@
 
 namespace hybrid_slam::window {
 
-/// What the colours mean: doc/gui.md.
+/// Colours, explained in doc/gui.md.
 namespace colours {
 inline const mrpt::img::TColor kRed(220, 0, 0), kGreen(0, 150, 0), kBlue(0, 70, 230), kOrange(245, 130, 0),
     kViolet(150, 0, 180), kLightBlue(80, 180, 255), kBlack(0, 0, 0), kWhite(255, 255, 255), kGrey(80, 80, 80);
@@ -40,7 +40,7 @@ class Strokes {
     corners.setColor(colour_);
     triangles_->insertTriangle(corners);
   }
-  /// Extended by half the pen width at both ends, so that consecutive segments join.
+  /// Draws a segment, extended by half the pen width at both ends so that consecutive segments join.
   void segment(const Point& a, const Point& b) {
     const double heading = std::atan2(b.y - a.y, b.x - a.x);
     const Point from = ahead(a, heading, -half_), to = ahead(b, heading, half_);
@@ -48,7 +48,7 @@ class Strokes {
     triangle(ahead(from, left, half_), ahead(from, left, -half_), ahead(to, left, -half_));
     triangle(ahead(from, left, half_), ahead(to, left, -half_), ahead(to, left, half_));
   }
-  /// Filled, with sides along the axes.
+  /// Draws a filled rectangle with sides along the axes.
   void rectangle(const Point& a, const Point& b) {
     triangle(a, {a.x, b.y}, b);
     triangle(a, b, {b.x, a.y});

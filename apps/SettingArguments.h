@@ -1,5 +1,5 @@
-/// @file Settings.h
-/// @brief Settings `SECTION.KEY=VALUE` that override the INI file.
+/// @file SettingArguments.h
+/// @brief Command-line option for settings `SECTION.KEY=VALUE` that override the INI file.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-#include "files/Decoder.h"
+#include "files/Decompressor.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>
@@ -11,7 +11,7 @@
 namespace hybrid_slam::files {
 namespace {
 
-/// zlib and bzip2 count in 32 bits.
+/// Limits a count to 32 bits, which zlib and bzip2 use.
 unsigned counted(size_t bytes) {
   return static_cast<unsigned>(std::min<size_t>(bytes, std::numeric_limits<int>::max()));
 }
@@ -22,15 +22,15 @@ void advance(std::string_view& in, size_t taken, char*& out, size_t& room, size_
   room -= written;
 }
 
-class GzipDecoder : public Decoder {
+class GzipDecompressor : public Decompressor {
  public:
-  GzipDecoder() {
+  GzipDecompressor() {
     constexpr int kGzip = 15 + 16;  // window bits, and gzip's format
     if (inflateInit2(&stream_, kGzip) != Z_OK) throw std::bad_alloc();
   }
-  ~GzipDecoder() override { inflateEnd(&stream_); }
-  GzipDecoder(const GzipDecoder&) = delete;
-  GzipDecoder& operator=(const GzipDecoder&) = delete;
+  ~GzipDecompressor() override { inflateEnd(&stream_); }
+  GzipDecompressor(const GzipDecompressor&) = delete;
+  GzipDecompressor& operator=(const GzipDecompressor&) = delete;
 
   bool decode(std::string_view& in, char*& out, size_t& room) override {
     const unsigned from = counted(in.size()), to = counted(room);
@@ -51,12 +51,12 @@ class GzipDecoder : public Decoder {
   z_stream stream_{};
 };
 
-class Bzip2Decoder : public Decoder {
+class Bzip2Decompressor : public Decompressor {
  public:
-  Bzip2Decoder() { begin(); }
-  ~Bzip2Decoder() override { BZ2_bzDecompressEnd(&stream_); }
-  Bzip2Decoder(const Bzip2Decoder&) = delete;
-  Bzip2Decoder& operator=(const Bzip2Decoder&) = delete;
+  Bzip2Decompressor() { begin(); }
+  ~Bzip2Decompressor() override { BZ2_bzDecompressEnd(&stream_); }
+  Bzip2Decompressor(const Bzip2Decompressor&) = delete;
+  Bzip2Decompressor& operator=(const Bzip2Decompressor&) = delete;
 
   bool decode(std::string_view& in, char*& out, size_t& room) override {
     const unsigned from = counted(in.size()), to = counted(room);
@@ -84,7 +84,7 @@ class Bzip2Decoder : public Decoder {
   bz_stream stream_{};
 };
 
-class ZstdDecoder : public Decoder {
+class ZstdDecompressor : public Decompressor {
  public:
   bool decode(std::string_view& in, char*& out, size_t& room) override {
     ZSTD_inBuffer from{in.data(), in.size(), 0};
@@ -99,14 +99,14 @@ class ZstdDecoder : public Decoder {
   std::unique_ptr<ZSTD_DStream, size_t (*)(ZSTD_DStream*)> stream_{ZSTD_createDStream(), ZSTD_freeDStream};
 };
 
-class Lz4Decoder : public Decoder {
+class Lz4Decompressor : public Decompressor {
  public:
-  Lz4Decoder() {
+  Lz4Decompressor() {
     if (LZ4F_isError(LZ4F_createDecompressionContext(&context_, LZ4F_VERSION))) throw std::bad_alloc();
   }
-  ~Lz4Decoder() override { LZ4F_freeDecompressionContext(context_); }
-  Lz4Decoder(const Lz4Decoder&) = delete;
-  Lz4Decoder& operator=(const Lz4Decoder&) = delete;
+  ~Lz4Decompressor() override { LZ4F_freeDecompressionContext(context_); }
+  Lz4Decompressor(const Lz4Decompressor&) = delete;
+  Lz4Decompressor& operator=(const Lz4Decompressor&) = delete;
 
   bool decode(std::string_view& in, char*& out, size_t& room) override {
     size_t from = in.size(), to = room;
@@ -147,22 +147,22 @@ std::optional<Compression> compressionOf(std::string_view beginning) {
   return std::nullopt;
 }
 
-std::unique_ptr<Decoder> makeDecoder(Compression compression) {
+std::unique_ptr<Decompressor> makeDecompressor(Compression compression) {
   switch (compression) {
     case Compression::gzip:
-      return std::make_unique<GzipDecoder>();
+      return std::make_unique<GzipDecompressor>();
     case Compression::bzip2:
-      return std::make_unique<Bzip2Decoder>();
+      return std::make_unique<Bzip2Decompressor>();
     case Compression::zstd:
-      return std::make_unique<ZstdDecoder>();
+      return std::make_unique<ZstdDecompressor>();
     default:
-      return std::make_unique<Lz4Decoder>();
+      return std::make_unique<Lz4Decompressor>();
   }
 }
 
 std::string decoded(Compression compression, std::string_view bytes, size_t size) {
   constexpr size_t kStep = 1 << 20;
-  const auto decoder = makeDecoder(compression);
+  const auto decompressor = makeDecompressor(compression);
   std::string content;
   size_t length = 0;
   bool hasEnded = false;
@@ -172,7 +172,7 @@ std::string decoded(Compression compression, std::string_view bytes, size_t size
     char* out = content.data() + length;
     size_t room = content.size() - length;
     const size_t before = room, left = bytes.size();
-    hasEnded = decoder->decode(bytes, out, room);
+    hasEnded = decompressor->decode(bytes, out, room);
     length += before - room;
     if (length > size) throw Damaged("its content is longer than it says");
     if (!hasEnded && room == before && bytes.size() == left) throw Damaged("it is cut off");

@@ -1,0 +1,14 @@
+/// @file Terminal.h
+/// @brief Text from files and the network on a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hybrid_slam {
+
+/// Makes one line of a text, on which nothing acts on the terminal: control characters of ASCII and of UTF-8
+/// (C1) and bytes that are no UTF-8 become `\x1b` and the like, line breaks and tabs become spaces.
+std::string onOneLine(std::string_view text);
+
+}  // namespace hybrid_slam

@@ -1,0 +1,26 @@
+#include "base/Terminal.h"
+
+#include <gtest/gtest.h>
+
+namespace hybrid_slam {
+namespace {
+
+TEST(OnOneLine, ControlCharactersCannotReachTheTerminal) {
+  using namespace std::string_literals;
+  EXPECT_EQ(onOneLine("\x1b]0;title\x07 \x1b[2J"), R"(\x1b]0;title\x07 \x1b[2J)");
+  EXPECT_EQ(onOneLine("a\0b\rc\x7f"s), R"(a\x00b\x0dc\x7f)");
+  EXPECT_EQ(onOneLine("one\ntwo\tthree"), "one two three");
+  EXPECT_EQ(onOneLine("C1 \xc2\x9b\x33m"), R"(C1 \xc2\x9b3m)") << "CSI in UTF-8";
+  EXPECT_EQ(onOneLine("\x9b\x33m"), R"(\x9b3m)") << "CSI in Latin-1";
+}
+
+TEST(OnOneLine, OtherTextIsUnchanged) {
+  const std::string text = "`caf\xc3\xa9`, \xc2\xb0, \xe2\x82\xac, \xf0\x9f\x98\x80 \\ ~";
+  EXPECT_EQ(onOneLine(text), text);
+  EXPECT_EQ(onOneLine(""), "");
+  EXPECT_EQ(onOneLine("cut \xe2\x82"), R"(cut \xe2\x82)");
+  EXPECT_EQ(onOneLine("\xe2(\xf5\xc0\x80"), R"(\xe2(\xf5\xc0\x80)");
+}
+
+}  // namespace
+}  // namespace hybrid_slam
