@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/random/RandomGenerators.h>
 #include <tbb/global_control.h>
+#include <cstring>
 
 #include <filesystem>
 #include <iterator>
@@ -110,7 +111,8 @@ TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
 
 TEST(StockMapBuilder, GivesTheThreadsGeneratorBackIfMrptFails) {
   auto options = stockOptions(configuration());
-  options.PF_options.PF_algorithm = static_cast<mrpt::bayes::CParticleFilter::TParticleFilterAlgorithm>(7);
+  const int unknown = 77;  // no value that a cast may give
+  std::memcpy(&options.PF_options.PF_algorithm, &unknown, sizeof unknown);
   StockMapBuilder builder(options, MotionModelOptions(), 2);
   const auto steps = test::drive(1);
   mrpt::random::getRandomGenerator().randomize(1);
