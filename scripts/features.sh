@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The default with and without corners, wall ends and arcs as features: the chapter "Corners and arcs" of doc/experiments.md.
 #   scripts/features.sh [OUT]     OUT defaults to out/features
-# SEEDS=20 runs per group of the simulated worlds, REAL_SEEDS=10 of the public logs, from FIRST_SEED=1 on; JOBS=0 (one
+# SEEDS=50 runs per group of the simulated worlds, REAL_SEEDS=10 of the public logs, from FIRST_SEED=1 on; JOBS=0 (one
 # per core) at a time. WORLDS="csie intel" and PROPOSALS="standard" select groups. Resumes after an interruption. The
 # simulated worlds take 6 minutes of one core; the public logs need HYBRID_SLAM_DATASETS.
 source "$(dirname "$0")/lib.sh"
@@ -22,7 +22,7 @@ ablation=(--variant hybrid/corners:features.enabled=true,features.max_radius=0,f
   --variant hybrid/corners+ends:features.enabled=true,features.max_radius=0
   --variant hybrid/arcs:features.enabled=true,features.min_wall=100)
 for world in "${worlds[@]}"; do
-  seeds=${SEEDS:-20}
+  seeds=${SEEDS:-50}
   [[ " ${public_worlds[*]} " != *" $world "* ]] || seeds=${REAL_SEEDS:-10}
   if [[ $world == csie-corridor ]]; then  # Fig. 5: a weaker grid weight leaves more of the spread
     for exponent in 25 6 2 1; do
@@ -37,7 +37,7 @@ for world in "${worlds[@]}"; do
     echo "== $world, $proposal: $(date -u +%H:%M)"
     particles=$([[ $proposal == standard ]] && echo 20 || echo 15)
     more=()
-    [[ $seeds != "${SEEDS:-20}" || $proposal == improved ]] || more=("${ablation[@]}")
+    [[ $seeds != "${SEEDS:-50}" || $proposal == improved ]] || more=("${ablation[@]}")
     compare "$world" "$out/worlds" "${options[@]}" --seeds "$seeds" --set particle_filter.proposal=$proposal \
       -n "$particles" "${more[@]}" -o "$out/$world-$proposal"
   done
