@@ -7,7 +7,8 @@ The timestamps of the log were aligned with those of the official relations afte
 the odometry (0.44 s, 0.1 m), a relation compares other poses than were meant. This script fits a displacement along the
 heading, a step function of time, to every second relation: least absolute errors along the heading, with PENALTY
 (default: 3) times the height of all its steps, in 5 s intervals. It prints the mean translation error (m) of the other
-relations before and after this displacement. Needs Debian's python3-scipy."""
+relations before and after this displacement, and how the errors along the heading are distributed where the robot
+returns after more than a minute in about the same heading. Needs Debian's python3-scipy."""
 
 import bisect
 import gzip
@@ -63,7 +64,10 @@ class Path:
         i = bisect.bisect_right(self.rows, row) - 1 if row is not None else -1
         if i < 0:
             return None
-        motion = lambda to: compose(inverse(self.odometry[self.rows[i]]), self.odometry[to])
+
+        def motion(to):
+            return compose(inverse(self.odometry[self.rows[i]]), self.odometry[to])
+
         pose = compose(self.poses[i], motion(row))
         if i + 1 == len(self.rows) or row == self.rows[i]:
             return pose
@@ -108,6 +112,9 @@ def main():
     shift = fitted(design, along, train, penalty)
     corrected = np.hypot(along + design @ shift, across + np.sin(yaw) * shift[first.astype(int)])
     before = np.hypot(along, across)
+    returns = along[(np.abs(t2 - t1) > 60) & (np.abs(yaw) < 0.3)]
+    counts, edges = np.histogram(returns, bins=np.arange(-0.3, 0.301, 0.04))
+    print("returns: " + ", ".join(f"{edge:+.2f} m {count}" for edge, count in zip(edges + 0.02, counts)))
     print(f"{len(table)} relations, mean error {before.mean():.4f} m; of those not fitted {before[~train].mean():.4f} m, "
           f"displaced {corrected[~train].mean():.4f} m; {(np.abs(np.diff(shift)) > 0.05).sum()} steps above 0.05 m")
 

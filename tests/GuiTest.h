@@ -136,6 +136,14 @@ class GuiTest : public testing::Test {
     return screen.GetRed(p.x, p.y);
   }
 
+  /// Connects the live page to the server, with the results in `live` of the folder.
+  void connectTo(const live::ObservationServer& server) {
+    frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
+    frame->live()->setOutput(folder.path("live"));
+    frame->live()->connectOrStop();
+    ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  }
+
   /// Publishes 60 scans of laps.
   void publishLaps(
       live::ObservationServer& server, const std::function<void(size_t)>& after = [](size_t) {}) {

@@ -133,10 +133,7 @@ TEST_F(GuiTest, LivePageLocalisesInTheMapOfAnEarlierRun) {
   menu(window::kLivePage);
   test::Events events;
   live::ObservationServer server("127.0.0.1", 0, {}, events.log());
-  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
-  frame->live()->setOutput(folder.path("live"));
-  frame->live()->connectOrStop();
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  connectTo(server);
   publishLaps(server);
   EXPECT_TRUE(happens([&] { return status(1) == "localised"; })) << status(1);
   frame->live()->connectOrStop();

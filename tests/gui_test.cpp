@@ -208,10 +208,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   ASSERT_EQ(dialogs.messages.size(), 1u);
   EXPECT_THAT(dialogs.messages[0], HasSubstr("HOST:PORT"));
 
-  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
-  frame->live()->setOutput(folder.path("live"));
-  frame->live()->connectOrStop();
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  connectTo(server);
   ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
   frame->replay()->seek(60);
   publishLaps(server, [&](size_t i) {
@@ -243,10 +240,7 @@ TEST_F(GuiTest, ALiveRunThatEndsWithTheProgramHasItsResults) {
   EXPECT_EQ(frame->live()->end(), "") << "there is none";
   test::Events events;
   live::ObservationServer server("127.0.0.1", 0, {}, events.log());
-  frame->live()->setServer("127.0.0.1:" + std::to_string(server.port()));
-  frame->live()->setOutput(folder.path("live"));
-  frame->live()->connectOrStop();
-  ASSERT_TRUE(happens([&] { return server.clients() == 1; }));
+  connectTo(server);
   publishLaps(server);
   ASSERT_TRUE(happens([&] { return frame->live()->session()->snapshot()->scans == 60; }));
   EXPECT_EQ(frame->live()->end(), "");

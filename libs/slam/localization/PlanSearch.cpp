@@ -136,8 +136,8 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   if (scans.empty()) return;
   ++scans_;
   if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
-  if (!start_ && ++added_ % kEvery != 0) return;
   if (start_) return accept(fitAtStart());
+  if (++added_ % kEvery != 0) return;
   const TPose2D now = recent_.scans().back().pose;
   const std::optional<PlanFit> fit = fitAnywhere();
   if (fit && last_ && !isElsewhere(*fit, {last_->pose + (now - at_), last_->scale})) accept(*fit);
