@@ -21,7 +21,7 @@ inline void holdSaveSignal() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-/// Returns whether the signal has come since the last call.
+/// Returns whether the signal was received since the last call.
 inline bool takeSaveSignal() {
   const sigset_t set = saveSignal();
   const timespec now{};

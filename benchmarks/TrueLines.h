@@ -11,7 +11,7 @@
 
 #include "base/LaserScan.h"
 #include "slam/lines/LineAssociation.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::bench {
 
@@ -25,7 +25,7 @@ struct TrueLine {
   size_t beams = 0;
 };
 
-inline std::vector<TrueLine> trueLines(const simulation::FloorPlan& plan, const LaserScan& scan,
+inline std::vector<TrueLine> trueLines(const simulation::BuildingPlan& plan, const LaserScan& scan,
                                        const TPose2D& robot) {
   const TPose2D sensor = robot + scan.sensorPose;
   std::vector<TrueLine> lines;

@@ -7,7 +7,7 @@ namespace hybrid_slam::bench {
 namespace {
 
 using mrpt::DEG2RAD;
-using simulation::FloorPlan;
+using simulation::BuildingPlan;
 using simulation::Wall;
 
 /// A scan of 181 beams over 180 deg.
@@ -30,7 +30,7 @@ Wall post(double beams) {
 LineSegment segment(double x1, double y1, double x2, double y2) { return makeSegment({x1, y1}, {x2, y2}); }
 
 TEST(TrueLines, AreWhatTheBeamsHit) {
-  const auto lines = trueLines(FloorPlan({kWall}), scan(), {});
+  const auto lines = trueLines(BuildingPlan({kWall}), scan(), {});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].beams, 73u) << "-36 to 36 deg";
   EXPECT_NEAR(lines[0].segment.rho, 4, 1e-9);
@@ -40,15 +40,15 @@ TEST(TrueLines, AreWhatTheBeamsHit) {
 TEST(TrueLines, AreInTheFrameOfThePlan) {
   LaserScan turned = scan();
   turned.sensorPose = {0.5, 0, DEG2RAD(-90.0)};
-  const auto lines = trueLines(FloorPlan({kWall}), turned, {0, 0.5, DEG2RAD(90.0)});
+  const auto lines = trueLines(BuildingPlan({kWall}), turned, {0, 0.5, DEG2RAD(90.0)});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NEAR(lines[0].segment.rho, 4, 1e-9);
   EXPECT_NEAR(std::abs(std::remainder(lines[0].segment.theta, M_PI)), 0, 1e-9);
 }
 
 TEST(TrueLines, AThingInFrontOfAWallDividesItFromThreeBeamsOn) {
-  EXPECT_EQ(trueLines(FloorPlan({kWall, post(1.5)}), scan(), {}).size(), 2u) << "wall, post of 1 beam";
-  const auto lines = trueLines(FloorPlan({kWall, post(2.5)}), scan(), {});
+  EXPECT_EQ(trueLines(BuildingPlan({kWall, post(1.5)}), scan(), {}).size(), 2u) << "wall, post of 1 beam";
+  const auto lines = trueLines(BuildingPlan({kWall, post(2.5)}), scan(), {});
   ASSERT_EQ(lines.size(), 3u);
   size_t ofWall = 0;
   for (const TrueLine& line : lines) ofWall += line.segment.rho > 3;
@@ -56,8 +56,8 @@ TEST(TrueLines, AThingInFrontOfAWallDividesItFromThreeBeamsOn) {
 }
 
 TEST(TrueLines, NeitherArcsNorWallsOutOfRange) {
-  EXPECT_TRUE(trueLines(FloorPlan({kWall}), scan(3.9), {}).empty());
-  EXPECT_TRUE(trueLines(FloorPlan({Wall::arc({4, 0}, 1, 0, 2 * M_PI)}), scan(), {}).empty());
+  EXPECT_TRUE(trueLines(BuildingPlan({kWall}), scan(3.9), {}).empty());
+  EXPECT_TRUE(trueLines(BuildingPlan({Wall::arc({4, 0}, 1, 0, 2 * M_PI)}), scan(), {}).empty());
 }
 
 TEST(TrueLines, AgreementCountsFoundAndWrongLinesAndTheirErrors) {

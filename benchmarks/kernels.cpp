@@ -120,7 +120,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
                  [&s] { DoNotOptimize(likelihood(s.pose)); },
                  "as above; ten sums carried from beam to beam"});
   const TPose2D start = s.pose + TPose2D(0.03, 0.02, 0.01);
-  double evaluations = -1;  // the prior is evaluated once more at the end
+  double evaluations = -1;  // the prior is evaluated one more time at the end
   const auto match = [&s, start](const Prior& prior) {
     DoNotOptimize(matcher.match(s.scan.matchedBeams, start, s.particle.grid, prior));
   };

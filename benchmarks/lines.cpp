@@ -46,7 +46,7 @@ std::pair<std::vector<Lines>, double> extractAll(const std::vector<LaserScan>& s
 
 void comparePlan(const std::string& planFile, const std::string& seed,
                  const std::vector<std::string>& trajectories) {
-  const auto plan = simulation::FloorPlan::load(planFile);
+  const auto plan = simulation::BuildingPlan::load(planFile);
   const simulation::Laser laser{simulation::LaserOptions()};
   std::vector<TPose2D> poses;
   for (const std::string& file : trajectories) {
@@ -67,9 +67,7 @@ void comparePlan(const std::string& planFile, const std::string& seed,
     Agreement sum;
     size_t count = 0;
     for (size_t i = 0; i < scans.size(); ++i) {
-      Lines inPlan;
-      for (const LineSegment& line : lines[i]) inPlan.push_back(transformed(line, poses[i]));
-      sum.add(inPlan, truth[i], options.segmentation.minLength,
+      sum.add(transformed(lines[i], poses[i]), truth[i], options.segmentation.minLength,
               static_cast<size_t>(options.segmentation.minPoints));
       count += lines[i].size();
     }

@@ -7,6 +7,7 @@
 /// MAP is the result folder of a run of hybrid-slam. REFERENCE has the poses of the log, MAP_REFERENCE those
 /// of the mapping run in the same frame; its rigid alignment with MAP/trajectory.tum puts the reference in
 /// the frame of the map. Prints a row of CSV for each start and a row of a Markdown table.
+#include <mrpt/core/bits_math.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/math/wrap2pi.h>
 #include <mrpt/serialization/CArchive.h>
@@ -34,10 +35,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kTolerance = 0.02;                            // s, of time stamps
-constexpr double kRight = 0.5, kRightAngle = 10 * M_PI / 180;  // m, rad
-constexpr double kSmall = 1;                                   // m, of the spread
-constexpr double kGood = 0.1, kGoodAngle = 1 * M_PI / 180;     // m, rad
+constexpr double kTolerance = 0.02;                                // s, of time stamps
+constexpr double kRight = 0.5, kRightAngle = mrpt::DEG2RAD(10.0);  // m, rad
+constexpr double kSmall = 1;                                       // m, of the spread
+constexpr double kGood = 0.1, kGoodAngle = mrpt::DEG2RAD(1.0);     // m, rad
 
 struct Map {
   OccupancyGrid grid;

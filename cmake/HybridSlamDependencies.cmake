@@ -1,5 +1,5 @@
-# Everything the build looks for. What the libraries need, the installed package looks for as well
-# (hybrid_slam_find_dependencies), and Debian's package of the headers depends on it (hybrid_slam_found, _headers).
+# Finds everything that the build needs. The installed package finds the dependencies of the libraries again
+# (hybrid_slam_find_dependencies), and Debian's package of the headers depends on them (hybrid_slam_found, _headers).
 
 # hybrid_slam_find(PACKAGE...): find_package.
 macro(hybrid_slam_find)

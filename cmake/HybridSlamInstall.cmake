@@ -13,14 +13,14 @@ install(FILES ${PROJECT_BINARY_DIR}/hybrid_slamConfig.cmake ${PROJECT_BINARY_DIR
 install(EXPORT hybrid_slam NAMESPACE hybrid_slam:: FILE hybrid_slamTargets.cmake
   DESTINATION ${package} COMPONENT development)
 
-# The INI files name the data set by its place beside them.
+# The INI files name the data set by a relative path, so both are installed side by side.
 install(DIRECTORY config-ini DESTINATION ${hybrid_slam_data} COMPONENT programs)
 install(DIRECTORY datasets/csie DESTINATION ${hybrid_slam_data}/datasets COMPONENT programs)
 install(FILES README.md CITATION.cff CONTRIBUTING.md DESTINATION ${hybrid_slam_pages} COMPONENT programs)
 install(DIRECTORY doc DESTINATION ${hybrid_slam_pages} COMPONENT programs)
 install(FILES LICENSE DESTINATION ${hybrid_slam_pages} COMPONENT license)
 
-# One file of completions for all programs: each is found by the program's name.
+# One completion file serves all programs; the shell looks for it by the program's name.
 set(completions ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES packaging/hybrid-slam.bash DESTINATION ${completions} COMPONENT programs RENAME hybrid-slam)
 install(FILES packaging/hybrid-slam.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions

@@ -12,7 +12,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-# Who makes the packages, by Debian's variables.
+# The maintainer of the packages, from Debian's variables.
 set(maintainer "hybrid-slam developers")
 set(email "packages@hybrid-slam.invalid")
 if(DEFINED ENV{DEBEMAIL})
@@ -128,7 +128,7 @@ foreach(app IN LISTS hybrid_slam_apps)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
 endforeach()
 
-# Files that Debian asks of a package. A plain `cmake --install` leaves them out.
+# Files that Debian requires of a package. A plain `cmake --install` leaves them out.
 string(TIMESTAMP debian_date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH where it is set
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER ${component} COMPONENT)

@@ -8,7 +8,7 @@ include(GoogleTest)
 set(hybrid_slam_data ${CMAKE_INSTALL_DATADIR}/hybrid_slam)
 set(hybrid_slam_pages ${CMAKE_INSTALL_DATAROOTDIR}/doc/hybrid-slam)
 
-# s of one test on a busy machine, so that one that hangs ends.
+# s for one test on a busy machine; ends one that hangs.
 set(hybrid_slam_test_timeout 300)
 if(HYBRID_SLAM_SANITIZE)
   set(hybrid_slam_test_timeout 1200)
@@ -74,8 +74,6 @@ function(hybrid_slam_test name)
   add_executable(hybrid_slam_${name}_test ${ARGN})
   target_include_directories(hybrid_slam_${name}_test PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/libs)
   target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
-  # Tests of a folder may have different helpers of one name.
-  set_target_properties(hybrid_slam_${name}_test PROPERTIES UNITY_BUILD OFF)
   gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${hybrid_slam_test_timeout})
 endfunction()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The default command on every log, and with one part off at a time: runs for the tables of doc/accuracy.md and
+# Runs the default command on every log, and with one part switched off at a time, for the tables of doc/accuracy.md and
 # README.md, which scripts/accuracy-table.py prints.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
 # SEEDS=10 runs from FIRST_SEED=1 on of each log and variant, JOBS at a time (all cores). A seed of everything takes about

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every check, before an issue is resolved. Prints each part's name, outcome and time, and a table at the end.
+# Runs every check, before an issue is resolved. Prints each part's name, outcome and time, and a table at the end.
 #   scripts/check-all.sh [PART...]     some parts: format tidy release sanitize tsan packages
 #                                      debian13 packages13
 # Exit status 1 if any failed. Takes hours from scratch. The last three need root.

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Checks what the latest commits touched in libs/, as far as the time goes: clang-format on all files, the tests of the
+# Checks what the latest commits touched in libs/, within a time limit: clang-format on all files, the tests of the
 # touched libraries under ASan and UBSan, and under TSan if they use threads, then clang-tidy on the touched files.
 #   scripts/check-touched.sh [MINUTES]     MINUTES defaults to 20
-# Touched: by HEAD and the commits of the six hours before it. Libraries in build order, those that need least first.
-# What does not fit into the time is named and is no failure. Exit status 1 if a check failed.
+# Touched means by HEAD and the commits of the six hours before it. Libraries are checked in build order, those with the
+# fewest dependencies first. Checks that do not fit into the time are named, and do not count as failures. Exit status 1
+# if a check failed.
 source "$(dirname "$0")/lib.sh"
-stop=10  # s in which a step that is out of time ends
+stop=10  # s for a step to end after its time limit
 deadline=$((SECONDS + 60 * ${1:-20} - stop))
 mkdir -p build
 log=build/check-touched.log
@@ -24,8 +25,8 @@ step() {
   esac
 }
 
-# Prints the touched files of libs/. The oldest commits of a shallow clone are left out, as their parents are not there:
-# they seem to touch every file. If HEAD is one of them, all files are taken as touched.
+# Prints the touched files of libs/. The oldest commits of a shallow clone are left out: without their parents they
+# seem to touch every file. If HEAD is one of them, all files are taken as touched.
 touched_files() {
   local head boundary
   head=$(git log -1 --format=%ct) || return

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# One check, over the whole tree or over some of it. Exit status 0 if it finds nothing.
+# Runs one check on the whole tree or a part of it. Exit status 0 if it finds nothing.
 #   scripts/check.sh format             clang-format would change no file
 #   scripts/check.sh tidy [FILE...]     clang-tidy reports nothing (scripts/tidy.py); all files by default
 #   scripts/check.sh sanitize [LIB...]  the tests under ASan and UBSan, with the assertions of Eigen and libstdc++
@@ -10,16 +10,9 @@ source "$(dirname "$0")/lib.sh"
 threaded=(
   libs/slam/grid libs/slam/filter libs/slam/localization libs/slam/merging libs/live libs/live_run libs/window/view
 )
-limit=3600  # s of one test program on a busy machine, so that one that hangs ends
+limit=3600  # s for one test program on a busy machine; ends one that hangs
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$PWD/scripts/tsan.supp
-
-# compile PRESET TARGET: each library as one unit, which is faster; file by file if names clash in one.
-compile() {
-  cmake --build --preset "$1" --target "$2" && return
-  cmake --preset "$1" -DCMAKE_UNITY_BUILD=OFF
-  cmake --build --preset "$1" --target "$2"
-}
 
 # Builds and runs the test program of each LIB that has one.
 test_libraries() {
@@ -30,7 +23,7 @@ test_libraries() {
   for folder in "$@"; do
     name=hybrid_slam_$(basename "$folder")_test
     compgen -G "$folder/*_test.cpp" >/dev/null || { echo "$folder has no tests"; continue; }
-    compile "$preset" "$name"
+    cmake --build --preset "$preset" --target "$name"
     echo "-- $name, $preset"
     # In the foreground: in this process group, so that it also ends with check-touched.sh's own timeout.
     timeout --foreground -k 10 $limit "build/$preset/bin/$name" --gtest_brief=1 || {
@@ -57,7 +50,7 @@ check_sanitize() {
     test_libraries sanitize "$@"
   else
     test_libraries sanitize
-    compile sanitize all
+    cmake --build --preset sanitize
     ctest --preset sanitize -j2
   fi
 }

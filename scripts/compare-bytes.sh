@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Whether two builds give the same bytes: trajectories, steps and maps of the shipped configurations, and without any.
+# Checks whether two builds give the same bytes: trajectories, steps and maps of the shipped configurations, and of a
+# run without one.
 #   scripts/compare-bytes.sh BIN_BEFORE BIN_AFTER     folders that hold hybrid-slam and log2rawlog
 # Ends with 1 and names the files if any differ. The public logs need HYBRID_SLAM_DATASETS (doc/datasets.md).
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The public logs cut in the middle: the first half mapped, the second mapped on in its map (--continue) from a start that
-# is searched for. Prints a Markdown table of the errors on the relations of both halves together, and of the uncut log.
+# Cuts the public logs in the middle and maps the first half; the second half continues its map (--continue) from an
+# unknown start. Prints a Markdown table of the errors on the relations of both halves together, and of the uncut log.
 #   scripts/continue.sh [OUT]     OUT defaults to out/continue. Needs HYBRID_SLAM_DATASETS.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/continue}

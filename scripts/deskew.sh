@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Simulated lasers that take time for a scan, on a robot that turns at 1.5 rad/s, with and without the correction: the
+# Simulates lasers that take time for a scan, on a robot that turns at 1.5 rad/s, with and without the correction: the
 # chapter "Lasers that take time for a scan" of doc/experiments.md.
 #   scripts/deskew.sh [OUT]     OUT defaults to out/deskew
 # SEEDS="1 2 3 4 5" of the simulation and the filter; RATES="5 10 20 40" Hz. Prints the table: medians over the seeds.
@@ -68,7 +68,7 @@ python3 - "$out" "${rates[@]}" <<'PYTHON'
 import statistics, sys
 out, rates = sys.argv[1], sys.argv[2:]
 print("| rate | scan time | beams | ATE (mm) | worst (mm) | in 1 s (mm) | in 1 s (deg) |\n|---|---|---|---|---|---|---|")
-names = {"without": "not corrected", "middle": "likewise, against the middle", "with": "corrected", "instant": "all at once"}
+names = {"without": "not corrected", "middle": "not corrected, against the middle", "with": "corrected", "instant": "all at once"}
 for rate in rates:
     for kind, name in names.items():
         runs = [list(map(float, line.split())) for line in open(f"{out}/{rate}-{kind}.txt")]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# All experiments of doc/experiments.md, doc/line-extraction.md and doc/floor-plan.md, with the numbers of runs that the
-# pages have:
+# Runs all experiments of doc/experiments.md, doc/line-extraction.md and doc/floor-plan.md, with the same numbers of
+# runs as on the pages:
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/experiments.sh [OUT]     OUT defaults to out/experiments
 # Each script writes to its own folder of OUT, and what it prints, tables included, to OUT/NAME.txt. A failure does not
 # stop the others; the exit code is then 1. After an interruption, all but floor-plan and prior-plan resume. The first
@@ -9,7 +9,7 @@ source "$(dirname "$0")/lib.sh"
 out=${1:-out/experiments}
 mkdir -p "$out"
 : "${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}"
-unset SEEDS FIRST_SEED WORLDS PROPOSALS RATES  # some scripts give these names another meaning
+unset SEEDS FIRST_SEED WORLDS PROPOSALS RATES  # in some scripts these names have another meaning
 
 failed=0
 # experiment NAME COMMAND...

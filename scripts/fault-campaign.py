@@ -105,7 +105,7 @@ class Campaign:
         self.row("hybrid-slam killed", count, f"{finished} had finished; complete results of one run at all times")
 
     def kill_sessions(self, count):
-        """Kills a run and what resumes it, over and over, until it ends; then begins again."""
+        """Kills a run, and repeatedly the runs that resume it, until one finishes; then begins again."""
         datasets = os.environ.get("HYBRID_SLAM_DATASETS")
         log = pathlib.Path(datasets) / "intel-lab.clf.gz" if datasets else LOG
         folder, whole, killed, ends = self.out / "session", self.out / "whole", 0, 0
@@ -216,7 +216,7 @@ class Campaign:
         self.row("observation-server killed and started again in a live run", count, f"{scans} scans mapped, exit {code}")
 
     def unplug(self, count):
-        """Stops one of the two programs: as with an unplugged cable, packets cease and no connection is closed."""
+        """Stops one of the two programs: as with an unplugged cable, no packets arrive and no connection is closed."""
         server, port = self.server(rate=5)
         folder = self.out / "unplugged"
         live = self.live(port, folder, timeout=1.5)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Floor plans of the simulated CSIE building against the true plan, as a Markdown table: the median over seeds 1 to N
-# of each figure of slam-eval plan, and the worst.
+# Compares floor plans of the simulated CSIE building with the true plan, as a Markdown table: the median and the worst
+# of each figure of slam-eval plan over seeds 1 to N.
 #   scripts/floor-plan.sh [N [BIN [FOLDER]]]
 #   N       seeds (default: 10)
 #   BIN     folder of the programs (default: build/release/bin)

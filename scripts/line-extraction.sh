@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The methods of line extraction compared: tables of doc/line-extraction.md.
+# Compares the methods of line extraction: tables of doc/line-extraction.md.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/line-extraction.sh [OUT]     OUT defaults to out/line-extraction
 #   scripts/line-extraction.sh lines [OUT]     only the lines, in a minute; without HYBRID_SLAM_DATASETS the simulation
 # Runs of the filter: SEEDS=5 with the default settings, PAPER_SEEDS=10 with the paper's set-up and 20 particles, from

@@ -5,12 +5,12 @@
 # A place is right within 0.5 m and 10 deg, a spread small below 1 m. A scan is in the map if the map explains 70 % of
 # its beams at its reference pose and contradicts less than 15 %.
 # SEED chooses the starts (2; the constants of libs/slam/localization were chosen with seed 1), STARTS and JUMPS their
-# numbers, JOBS how many of them run at a time (1), CASES the rows.
+# numbers, JOBS how many of them run at a time (1), and CASES selects the rows.
 #   csie           simulated; map and scans with different noise; reference: the truth
 #   intel-half     map from the first half of the log, scans from the second half; reference: a run of the whole log,
 #                  aligned with the run of the first half
 #   intel-lab      map and scans from the same log, with different seeds; reference: the mapping run
-#   mit-killian    likewise
+#   mit-killian    as intel-lab
 #   killian-odd    map from every second scan, localised with the others; reference: the mapping run, between its scans
 #                  odometry
 source "$(dirname "$0")/lib.sh"
@@ -32,7 +32,7 @@ scans() {
   [[ -f $out/$3 ]] || zcat "$1" | awk "/^FLASER/ { n++; if (!($2)) next } 1" | gzip -n >"$out/$3"
 }
 
-# prepare CASE: its maps, and `study` with the arguments of the study.
+# prepare CASE: makes its maps, and sets `study` to the arguments of the study.
 prepare() {
   local intel=$data/intel-lab.clf.gz killian=$data/mit-killian.clf.gz seed
   case $1 in

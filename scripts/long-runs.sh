@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Long runs: what grows with laps, with days and with kilometres; the tables of doc/reliability.md.
+# Measures what grows with laps, days and kilometres in long runs: the tables of doc/reliability.md.
 #   scripts/long-runs.sh [laps | day | drive ...]      default: all three
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps`. The results and logs go to
 # OUT (out/long-runs; 5 GB). HOURS (24) and RATE (3000 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
@@ -33,8 +33,8 @@ laps() {
   done
 }
 
-# A robot that drives rounds in the simulated CSIE building, 40 scans and odometry readings per second of robot time,
-# sent as fast as one core takes them.
+# A robot drives laps in the simulated CSIE building, with 40 scans and odometry readings per second of robot time, sent
+# as fast as one core can process them.
 day() {
   local hours=${HOURS:-24} rate=${RATE:-3000} seconds server live address
   "$bin/simul-floorplan" "$config/simul-csie.ini" -q -o "$out/round.rawlog" --set laser.sensor=LMS-200 \

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Cuts logs in two for scripts/merge.sh, and evaluates what slam-merge makes of the parts.
+"""Cuts logs in two for scripts/merge.sh, and evaluates the maps that slam-merge joins from the parts.
 
   scripts/merge-cuts.py cut LOG.clf.gz SEED A.clf.gz B.clf.gz
   scripts/merge-cuts.py table OUT
 
-cut: A ends at a scan drawn from the middle 40 % of the log; B begins 20 m of odometry before it, and goes on to the end
-of the log. Where the robot returns to places of A, the parts overlap in more than these 20 m.
+cut: A ends at a scan drawn from the middle 40 % of the log; B begins 20 m of odometry before it, and continues to the
+end of the log. Where the robot returns to places of A, the parts overlap in more than these 20 m.
 table: a row for each OUT/LOG/CUT. The poses of A in the merged map are aligned with those of the uncut run,
 OUT/LOG/uncut; the errors are those of the poses of B after this alignment. Right: 5 cm and 0.5 deg on average."""
 import gzip

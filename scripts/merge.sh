@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Three logs cut in two at 20 random places, each part mapped in a frame of its own, joined by slam-merge and compared with
-# the map of the uncut log. Prints a Markdown table; scripts/merge-cuts.py states the rule of the cuts and of the errors.
+# Cuts three logs in two at 20 random places, maps each part in its own frame, joins the maps with slam-merge and
+# compares the result with the map of the uncut log. Prints a Markdown table; scripts/merge-cuts.py defines the cuts and
+# the errors.
 #   scripts/merge.sh [OUT]     OUT defaults to out/merge; the table goes to OUT/merge.md
 # HYBRID_SLAM_DATASETS names the folder of the logs. Parts that are already in OUT are not mapped again.
 source "$(dirname "$0")/lib.sh"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The paper's experiments on the simulated CSIE building, and the same on other buildings and public logs:
+# Runs the paper's experiments on the simulated CSIE building, and the same ones on other buildings and public logs:
 #   scripts/reproduce-paper.sh [OUT]     OUT defaults to out/paper
 # SEEDS=20 runs per group from FIRST_SEED=1 on. Finally checks the claims of the documentation with these seeds.
 # Resumes after an interruption. Takes about 4 hours on two cores; the public logs need HYBRID_SLAM_DATASETS

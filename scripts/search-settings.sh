@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Searches the best settings of a method, with seeds that no comparison uses: exponent, sigma and beams of w_grid,
+# Searches for the best settings of a method, with seeds that no comparison uses: exponent, sigma and beams of w_grid,
 # learning of the systematic odometry error, noise of the motion model, update distance.
 #   scripts/search-settings.sh METHOD PARTICLES [OUT]     OUT defaults to out/search-METHOD
 # `general` is searched with 60 particles and `hybrid` with 10, where some runs succeed and some do not. SEEDS=8 runs of

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The commands of doc/sessions.md on the CSIE logs; renews its pictures.
+# Runs the commands of doc/sessions.md on the CSIE logs, and regenerates its pictures.
 #   scripts/sessions-demo.sh [OUT]     OUT defaults to out/sessions
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/sessions}

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# The verdict against the references: how many lost runs are called consistent, and good ones lost (doc/verdict.md).
+# Compares the verdict with the references: how many lost runs are called consistent, and good ones lost
+# (doc/verdict.md).
 #   scripts/verdict-campaign.sh [OUT]     OUT defaults to out/verdict
 # SEEDS=4 runs per group from FIRST_SEED=1 on, both proposals, lines on and off, loop closing on and off, 5 and 15
 # particles: 100 runs per seed on ten logs. Resumes after an interruption; JOBS=0 takes all cores. A seed takes about 15
-# minutes on one busy core. The public logs need HYBRID_SLAM_DATASETS. WORLDS="csie" selects worlds; TABLE=1 prints the
-# table alone.
+# minutes on one busy core. The public logs need HYBRID_SLAM_DATASETS. WORLDS="csie" selects worlds; TABLE=1 only
+# prints the table.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/verdict}
 bin=build/release/bin

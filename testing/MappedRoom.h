@@ -1,5 +1,5 @@
 /// @file MappedRoom.h
-/// @brief For the tests: a particle that has mapped its surroundings, and scans of them.
+/// @brief For the tests: maps of walls, a particle with such a map, and scans of the walls.
 #pragma once
 
 #include <mrpt/math/wrap2pi.h>
@@ -21,19 +21,32 @@ inline PreparedScan prepared(const Walls& walls, const TPose2D& robot, RandomStr
           ScanBeams(scan, selection.take(c.matcher.beams)), extractLines(scan[0], c.lineExtraction)};
 }
 
+struct RoomMap {
+  OccupancyGrid grid;
+  LineDatabase lines;
+};
+
+/// A map of the walls, made of `scans` scans from all over the area between two corners (m).
+inline RoomMap mappedFrom(const TPoint2D& low, const TPoint2D& high, const Walls& walls, int scans) {
+  RoomMap map;
+  RandomStream random(1, 0, 0);
+  for (int i = 0; i < scans; ++i) {
+    const TPose2D robot(uniform(random, low.x, high.x), uniform(random, low.y, high.y),
+                        uniform(random, -M_PI, M_PI));
+    const PreparedScan scan = prepared(walls, robot, random);
+    map.grid.insert(scan.beams, robot, GridOptions());
+    map.lines.update(transformed(scan.lines, robot), LineDatabaseOptions(), AssociationOptions());
+  }
+  return map;
+}
+
 /// A particle at `start` that has mapped the surrounding walls.
 inline Particle particleAt(const Walls& walls, const TPose2D& start) {
-  RandomStream random(1, 0, 0);
+  const RoomMap map = mappedFrom({-1, -0.5}, {1, 0.5}, walls, 40);
   Particle particle;
   particle.path.push(start);
-  for (int i = 0; i < 40; ++i) {
-    const TPose2D robot(uniform(random, -1, 1), uniform(random, -0.5, 0.5), uniform(random, -M_PI, M_PI));
-    const PreparedScan scan = prepared(walls, robot, random);
-    particle.grid.insert(scan.beams, robot, GridOptions());
-    std::vector<LineSegment> lines;
-    for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, robot));
-    particle.lines.write().update(lines, LineDatabaseOptions(), AssociationOptions());
-  }
+  particle.grid = map.grid;
+  particle.lines = CowPtr<LineDatabase>(map.lines);
   return particle;
 }
 

@@ -144,7 +144,7 @@ inline std::string writeGzipped(const std::string& path, const Log& log) {
   return path;
 }
 
-/// Likewise without compression; `ends` receives the end offset of each object.
+/// Writes an uncompressed rawlog; returns its path. `ends` receives the end offset of each object.
 inline std::string writePlain(const std::string& path, const Log& log, std::vector<size_t>* ends = nullptr) {
   mrpt::io::CFileOutputStream out(path);
   auto archive = mrpt::serialization::archiveFrom(out);

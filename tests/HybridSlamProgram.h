@@ -11,22 +11,15 @@
 
 #include "ResultFiles.h"
 #include "Shell.h"
-#include "files/TemporaryFolder.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam {
 
 inline const std::string kErrorLine = test::errorLineOf("hybrid-slam");
 
-class HybridSlam : public testing::Test {
+class HybridSlam : public test::ProgramTest {
  protected:
-  /// Runs the program; `before` is shell code that runs first.
-  int run(const std::string& arguments, const std::string& before = "") {
-    const test::Outcome outcome = test::shell(folder, before + "'" HYBRID_SLAM "' " + arguments);
-    out = outcome.out;
-    err = outcome.err;
-    return outcome.status;
-  }
+  HybridSlam() : ProgramTest(HYBRID_SLAM) {}
   /// Replays a log with the test's INI file into `output`, in place of earlier results.
   int replay(const std::string& log, const std::string& options = "", const std::string& before = "") {
     return run("'" + ini + "' '" + log + "' --overwrite -o '" + output + "' " + options, before);
@@ -64,13 +57,11 @@ class HybridSlam : public testing::Test {
                                       testing::HasSubstr(warning)));
   }
 
-  files::TemporaryFolder folder;
   std::string ini = folder.write(
       "run.ini",
       "[run]\nmethod = hybrid\n[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance "
       "= 0.2\n[grid]\nresolution = 0.1\n");
   std::string output = folder.path("out");
-  std::string out, err;
 };
 
 }  // namespace hybrid_slam

@@ -50,6 +50,8 @@ class KeysTest : public GuiTest {
   bool isReady() {
     return happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); });
   }
+  /// Writes a log of 200 s, which does not end while a test waits for a key to take effect.
+  std::string longLog() const { return test::writeGzipped(folder.path("long.rawlog"), test::laps(1000)); }
   void openLog() {
     frame->open(ini, log);
     ASSERT_TRUE(stands(State::paused, 0));

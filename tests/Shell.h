@@ -28,6 +28,26 @@ inline Outcome shell(const files::TemporaryFolder& folder, const std::string& co
           test::contentOf(folder.path(".err"))};
 }
 
+/// Runs one program in a temporary folder.
+class ProgramTest : public ::testing::Test {
+ protected:
+  explicit ProgramTest(const std::string& program) : program_(program) {}
+  /// Returns the exit code; what the program printed is in `out` and `err`.
+  /// @param before  shell code that runs first
+  int run(const std::string& arguments, const std::string& before = "") {
+    const Outcome outcome = shell(folder, before + "'" + program_ + "' " + arguments);
+    out = outcome.out;
+    err = outcome.err;
+    return outcome.status;
+  }
+
+  files::TemporaryFolder folder;
+  std::string out, err;
+
+ private:
+  std::string program_;
+};
+
 /// Standard error after an error, as a regular expression: what, where, what was expected.
 inline std::string errorLineOf(const std::string& program) {
   return program + ": error: [^\n]*: [^\n]*; [^\n]*\n";
@@ -36,7 +56,7 @@ inline std::string errorLineOf(const std::string& program) {
 /// Expects exit code 2, nothing on standard output, and one line on standard error. @param part  of that line
 inline void expectInputError(const Outcome& outcome, const std::string& program, const std::string& part) {
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  // Nothing but what was read off the log before.
+  // Standard output may only have settings that were derived from the log before the error.
   EXPECT_EQ(std::regex_replace(outcome.out, std::regex("(laser |[a-z_]+\\.[a-z_]+ = )[^\n]*\n"), ""), "");
   EXPECT_THAT(outcome.err, testing::MatchesRegex(errorLineOf(program)));
   EXPECT_THAT(outcome.err, testing::HasSubstr(part));

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A stop signal ends the window (the program named as argument) with exit code 0, not as a kill does.
+# A stop signal ends the window (the program named as argument) with exit code 0, unlike a kill.
 for signal in TERM INT; do
   "$1" & pid=$!
   until ((0x$(sed -n 's/^SigCgt:[[:blank:]]*//p' "/proc/$pid/status") >> 14 & 1)); do  # SIGTERM has a handler

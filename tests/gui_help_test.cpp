@@ -4,7 +4,7 @@
 
 #include "KeysTest.h"
 #include "window/gui/HelpPages.h"
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 
 namespace hybrid_slam {
 namespace {
@@ -90,7 +90,7 @@ class PagesTest : public HelpTest {
   const std::filesystem::path before = std::filesystem::current_path();
 };
 
-/// As after a build without packages, whose folder may be elsewhere.
+/// Simulates a build without packages, whose folder may be anywhere.
 TEST_F(PagesTest, F1OpensThePageOfTheWindow) {
   std::filesystem::current_path(SOURCE_DIR);
   press(WXK_F1);

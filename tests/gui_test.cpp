@@ -70,7 +70,7 @@ TEST_F(GuiTest, ShowsTheLasersAndTheWarningsOnTheLog) {
   EXPECT_TRUE(dialogs.messages.empty());
 }
 
-/// As the other programs print them.
+/// The window shows the warnings that the other programs print.
 TEST_F(GuiTest, ShowsTheWarningsOnTheSettings) {
   const std::string other = folder.write("other.ini", "[particle_filter]\nparticles = 8\n[motion_by_hand]\n");
   const std::string warning = "warning: unknown section [motion_by_hand]: " + other +
@@ -209,7 +209,7 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   EXPECT_THAT(dialogs.messages[0], HasSubstr("HOST:PORT"));
 
   connectTo(server);
-  ASSERT_NE(frame->replay()->session(), nullptr) << "a replay goes on beside it";
+  ASSERT_NE(frame->replay()->session(), nullptr) << "the replay continues meanwhile";
   frame->replay()->seek(60);
   publishLaps(server, [&](size_t i) {
     if (i == 60) menu(window::kSaveMap);

@@ -1,6 +1,7 @@
 /// Results of a replay, and the command line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/maps/CSimpleMap.h>
 
 #include <cmath>
@@ -296,7 +297,7 @@ TEST_F(HybridSlam, TheIniFileIsOptional) {
   expectError(run("'" + log + "' '" + log + "' -o '" + output + "'"), "not a text file");
 }
 
-/// A CARMEN log of 10 m along a corridor, one line of it broken; The fan of 180 beams is centred at -0.5 deg,
+/// A CARMEN log of 10 m along a corridor, with one broken line. The fan of 180 beams is centred at -0.5 deg,
 /// and the laser is ahead of the robot's centre; the results must respect both.
 std::string carmenLog() {
   std::ostringstream log;
@@ -305,7 +306,7 @@ std::string carmenLog() {
     const double x = 0.25 * i - 4.5;
     log << "FLASER 180";
     for (int beam = 0; beam < 180; ++beam)
-      log << ' ' << 0.01 * std::round(100 * test::rangeInRoom(x + 0.4, 0.3, (beam - 90) * M_PI / 180));
+      log << ' ' << 0.01 * std::round(100 * test::rangeInRoom(x + 0.4, 0.3, mrpt::DEG2RAD(beam - 90)));
     log << ' ' << std::to_string(x + 0.4) << " 0.3 0 " << std::to_string(x) << " 0.3 0 " << 1000 + i
         << " host " << i << '\n';
   }

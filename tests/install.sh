@@ -12,7 +12,7 @@ mv "$folder/at-first" "$folder/prefix"
 cp -r "$project/tests/consumer" "$folder/consumer"
 prefix=$folder/prefix
 
-# What is installed names neither the source nor the build, and demands none of our flags.
+# Installed files name neither the source nor the build folder, and require none of our flags.
 ! grep -rn --include="*.cmake" -e "$project" -e "$build" -e -Werror "$prefix" || fail "the package is not for others"
 ! find "$prefix" -name '*_test*' -o -name testing | grep . || fail "tests are installed"
 for file in bin/hybrid-slam share/hybrid_slam/{config-ini/lms-logs.ini,datasets/csie/csie.plan} \

@@ -134,7 +134,7 @@ TEST_F(LivePrograms, ControlCWritesAllResults) {
   const auto robot = replaying(5000, "50");
   const auto map = live();
   // The recording grows by blocks; a few cycles are enough.
-  ASSERT_TRUE(test::happens([&] { return robot->err().find("connected") != std::string::npos; }));
+  ASSERT_TRUE(test::happens([&] { return robot->err().find(": connected") != std::string::npos; }));
   ASSERT_TRUE(isRecording()) << map->err();
   map->signal(SIGINT);
   EXPECT_EQ(map->wait(), 0) << map->err();

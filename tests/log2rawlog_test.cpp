@@ -10,7 +10,6 @@
 
 #include "InstalledProgram.h"
 #include "Shell.h"
-#include "files/TemporaryFolder.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam {
@@ -32,15 +31,9 @@ std::string odometryRow(const std::string& time, const std::string& x) {
   return "ODOM " + x + " 0 0 0 0 0 " + time + " host " + time + "\n";
 }
 
-class Log2Rawlog : public testing::Test {
+class Log2Rawlog : public test::ProgramTest {
  protected:
-  /// Runs the program; `before` is shell code that runs first.
-  int run(const std::string& arguments, const std::string& before = "") {
-    const test::Outcome outcome = test::shell(folder, before + "'" LOG2RAWLOG "' " + arguments);
-    out = outcome.out;
-    err = outcome.err;
-    return outcome.status;
-  }
+  Log2Rawlog() : ProgramTest(LOG2RAWLOG) {}
   int convert(const std::string& input, const std::string& options = "", const std::string& before = "") {
     return run(options + " '" + input + "' '" + rawlog + "'", before);
   }
@@ -55,9 +48,7 @@ class Log2Rawlog : public testing::Test {
     return log.loadFromRawLogFile(rawlog) ? log.size() : 0;
   }
 
-  files::TemporaryFolder folder;
   std::string rawlog = folder.path("out.rawlog");
-  std::string out, err;
 };
 
 TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {

@@ -1,6 +1,7 @@
 // The demo's log end to end, against recorded figures.
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 #include <unistd.h>
 
@@ -62,7 +63,8 @@ TEST_F(Malaga, EndsAtTheRecordedPose) {
     const auto& end = trajectory.back().pose;
     EXPECT_NEAR(end.x, 4.15, 0.25) << "seed " << seed;
     EXPECT_NEAR(end.y, -18.49, 0.2) << "seed " << seed;
-    EXPECT_LT(std::abs(mrpt::math::wrapToPi(end.phi + 87.1 * M_PI / 180)), 2 * M_PI / 180) << "seed " << seed;
+    EXPECT_LT(std::abs(mrpt::math::wrapToPi(end.phi + mrpt::DEG2RAD(87.1))), mrpt::DEG2RAD(2.0))
+        << "seed " << seed;
     EXPECT_GT(meanOf("w_grid_best"), 0.42) << "seed " << seed;
     EXPECT_GT(meanOf("w_line_best"), 0.5) << "seed " << seed;
   }

@@ -1,6 +1,7 @@
 /// Exit code, messages and learnt section of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <filesystem>
 #include <regex>
@@ -8,7 +9,6 @@
 
 #include "ChildProgram.h"
 #include "Shell.h"
-#include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "run/Configuration.h"
 #include "slam/motion/MotionModelFit.h"
@@ -29,13 +29,13 @@ const std::string kDoorways = SOURCE_DIR "/datasets/csie/csie-doorways.rawlog";
 /// A straight drive of 44 s with one half turn.
 const std::string kCorridor = SOURCE_DIR "/datasets/csie/csie-corridor.rawlog";
 
-class MotionModelLearn : public testing::Test {
+class MotionModelLearn : public test::ProgramTest {
  protected:
+  MotionModelLearn() : ProgramTest(MOTION_MODEL_LEARN) {}
   int run(const std::string& arguments) {
-    const test::Outcome outcome = test::shell(folder, "'" MOTION_MODEL_LEARN "' " + arguments);
-    out = outcome.out;
-    err = test::withoutProgress(outcome.err);
-    return outcome.status;
+    const int status = ProgramTest::run(arguments);
+    err = test::withoutProgress(err);
+    return status;
   }
   std::string arguments(const std::string& log, const std::string& options = "") const {
     return "'" + ini + "' '" + log + "' -o '" + output + "' " + options;
@@ -66,19 +66,17 @@ class MotionModelLearn : public testing::Test {
     return all;
   }
 
-  files::TemporaryFolder folder;
   std::string ini = folder.write("run.ini",
                                  "[particle_filter]\nparticles = 3\nproposal = improved\n"
                                  "[improved_proposal]\nupdate_distance = 0.3\nupdate_angle_deg = 15\n"
                                  "[grid]\nresolution = 0.05\nmax_range = 20\n"
                                  "[motion_model]\ndistance_mean_d = 0.95\nturn_mean_t = 1.05\n");
   std::string output = folder.path("motion.ini");
-  std::string out, err;
 };
 
 /// Returns the motions between the true poses, from which EM's M-step would learn without hidden variables.
 std::vector<MotionSample> trueMotions(const std::string& log, const std::string& truth) {
-  constexpr double kUpdateDistance = 0.3, kUpdateAngle = 15 * M_PI / 180;  // as in the INI file
+  constexpr double kUpdateDistance = 0.3, kUpdateAngle = mrpt::DEG2RAD(15.0);  // as in the INI file
   const files::Trajectory poses = files::loadTum(truth);
   readings::RawlogSource source(log, readings::InputOptions(), summarise(log, readings::InputOptions()));
   std::vector<MotionSample> samples;

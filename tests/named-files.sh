@@ -1,5 +1,5 @@
 #!/bin/sh
-# Every source file that the documentation names in backquotes is there. $1: the project's folder.
+# Every source file that the documentation names in backquotes exists. $1: the project's folder.
 cd "$1" || exit 2
 missing=$(grep -oHE '`[A-Za-z0-9_./-]+\.(h|cpp|sh)`' README.md doc/*.md | tr -d '`' | sort -u |
   while IFS=: read -r page name; do

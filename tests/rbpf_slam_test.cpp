@@ -43,7 +43,7 @@ TEST_F(RbpfSlam, WeighsItsParticlesWithTheLinesOfThePlugin) {
   EXPECT_EQ(std::count(with.begin(), with.end(), '\n'), 224);
   EXPECT_EQ(path(load, ""), with);  // the seed decides
 
-  // The line weight alone makes the difference: raised to the power of 0, it is that of no plugin at all.
+  // Only the line weight makes the difference: with exponent 0, the path is that without the plugin.
   const std::string without = path("", "s/^hybridLineMap_count.*//");
   EXPECT_NE(with, without);
   EXPECT_EQ(path(load, "s/^exponent = 1 /exponent = 0 /"), without);

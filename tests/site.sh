@@ -1,5 +1,5 @@
 #!/bin/sh
-# The site (mkdocs) and the API reference (Doxygen) are made without warnings. $1: the project's folder.
+# The site (mkdocs) and the API reference (Doxygen) build without warnings. $1: the project's folder.
 cd "$1" || exit 2
 for program in mkdocs doxygen; do
   command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }

@@ -60,6 +60,24 @@ TEST_F(Revisits, OptionsAreApplied) {
   EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is this close
 }
 
+TEST_F(Revisits, ALaserThatIsIgnoredIsAWarning) {
+  writeLaps(80, 0);
+  test::Log log = test::laps(80);
+  const auto tilted = test::scan(1016, {}, 181, "tilted");
+  tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0.5, 0);
+  log.push_back(tilted);
+  test::writeGzipped(folder.path("laps.rawlog"), log);
+  write("walls", "wall -5 -3 5 -3\n");
+  for (const std::string& command :
+       {call, std::string("plan --plan walls --truth walls --rawlog laps.rawlog --reference laps.tum")}) {
+    const test::Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 0) << command;
+    EXPECT_THAT(outcome.err,
+                HasSubstr("slam-eval: warning: laser `tilted` is not used: its scan plane is tilted\n"))
+        << command;
+  }
+}
+
 TEST_F(Revisits, NoRevisitsAreNotAFailure) {
   writeLaps(80, 0);
   const json j = figures(call);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every test of ctest has a time limit, so that one that hangs ends. $1: ctest, $2: the build folder."""
+"""Every test of ctest has a time limit, so that a hanging test ends. $1: ctest, $2: the build folder."""
 
 import json
 import subprocess

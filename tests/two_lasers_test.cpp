@@ -9,7 +9,7 @@
 #include "base/RandomStream.h"
 #include "files/TemporaryFolder.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
 
@@ -38,7 +38,7 @@ class TwoLasers : public testing::Test {
  protected:
   TwoLasers() {
     const std::string data = SOURCE_DIR "/datasets/csie/";
-    const FloorPlan plan = FloorPlan::load(data + "csie.plan");
+    const BuildingPlan plan = BuildingPlan::load(data + "csie.plan");
     const Route route = Route::load(data + "csie-loop.route");
     LaserOptions front, rear;
     front.rate = rear.rate = 2.5;

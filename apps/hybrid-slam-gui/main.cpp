@@ -38,7 +38,7 @@ class StopTimer : public wxTimer {
     if (!hybrid_slam::stop || !frame_) return;
     frame_->replay()->end();
     const std::string failure = frame_->live()->end();
-    // Not by closing the window: an open dialog still needs it.
+    // Do not close the window: an open dialog still needs it.
     std::_Exit(failure.empty() ? 0 : hybrid_slam::fail(1, "live run failed: " + failure));
   }
 

@@ -16,7 +16,7 @@
 #include "SettingArguments.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
@@ -75,13 +75,14 @@ void run(const CommandLine& line) {
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 
-  const simulation::FloorPlan fixed = simulation::FloorPlan::load(besideConfig(line, options.plan, "plan"));
+  const simulation::BuildingPlan fixed =
+      simulation::BuildingPlan::load(besideConfig(line, options.plan, "plan"));
   const simulation::Route route = simulation::Route::load(besideConfig(line, options.route, "route"));
   simulation::MovableThings things;
   if (!options.things.empty())
     things = simulation::MovableThings::load(besideConfig(line, options.things, "things"), fixed);
   const std::vector<simulation::PlacedThing> placed = things.inSession(options.seed, options.session);
-  const simulation::FloorPlan plan = fixed.with(wallsOf(placed));
+  const simulation::BuildingPlan plan = fixed.with(wallsOf(placed));
   // A route that is clear in one session is clear in all.
   if (!things.empty()) route.checkClear(fixed.with(things.everywhere()), options.robotRadius);
   const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);

@@ -131,7 +131,7 @@ comparison::GroundTruth loadTruth(const CommandLine& line) {
   if (!line.reference.empty()) truth.reference = files::loadTum(line.reference);
   if (!line.relations.empty()) truth.relations = evaluation::loadRelations(line.relations);
   if (!line.odometry.empty()) truth.odometry = files::loadOdometry(line.odometry);
-  if (!line.floorplan.empty()) truth.plan = simulation::FloorPlan::load(line.floorplan);
+  if (!line.floorplan.empty()) truth.plan = simulation::BuildingPlan::load(line.floorplan);
   if (line.revisits) {
     truth.revisits.emplace();
     truth.revisits->distance = *line.revisits;
@@ -344,7 +344,7 @@ int execute(const CommandLine& line, const std::string& command) {
       warn({"run cannot be evaluated: " + r.folder.path().string() + "; " + result.error});
     if (r.folder.isFinished()) r.folder.dropLargeFiles();
   }
-  report.summaries = summarise(groups.size(), report.results);
+  report.summaries = comparison::groupSummaries(groups.size(), report.results);
   folder.write("results.csv",
                [&](std::ostream& out) { comparison::writeResults(groups, report.results, out); });
   folder.write("summary.csv",

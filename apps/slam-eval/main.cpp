@@ -125,7 +125,7 @@ Json neesJson(const CommandLine& line) {
 Json revisitsJson(const CommandLine& line) {
   const files::Trajectory trajectory = files::loadTum(line.trajectory);
   const evaluation::RevisitErrors errors = evaluation::revisitErrors(
-      trajectory, readings::loadEndPoints(line.rawlog, {}, line.maxRange), line.revisits);
+      trajectory, readings::loadEndPoints(line.rawlog, {}, line.maxRange, warn), line.revisits);
   const auto figure = [&](double value) { return errors.revisits > 0 ? Json(value) : Json(); };
   return {{"scans", errors.scans},
           {"revisits", errors.revisits},
@@ -158,7 +158,7 @@ Json planJson(const CommandLine& line) {
   const std::vector<PlanLine> truth = loadWalls(line.truth);
   std::vector<mrpt::math::TPoint2D> ends;
   if (!line.rawlog.empty())
-    ends = evaluation::placedEndPoints(readings::loadEndPoints(line.rawlog, {}, line.maxRange),
+    ends = evaluation::placedEndPoints(readings::loadEndPoints(line.rawlog, {}, line.maxRange, warn),
                                        files::loadTum(line.reference));
   const mrpt::math::TPose2D alignment =
       line.aligns ? evaluation::alignmentOf(plan, truth) : mrpt::math::TPose2D();

@@ -56,7 +56,7 @@ bool isBag(const std::string& path);
 
 /// Opens a ROS 1 bag, a ROS 2 database or MCAP file, or the folder of a ROS 2 recording. A file may be
 /// compressed (files/CompressedFile.h).
-/// @throws InputError if it cannot be read, or is none of these
+/// @throws InputError if it cannot be read, or is of another kind
 std::unique_ptr<Bag> openBag(const std::string& path);
 
 constexpr size_t kMostChunkBytes = size_t{256} << 20;

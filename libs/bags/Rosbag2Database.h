@@ -13,8 +13,8 @@ struct sqlite3_stmt;
 
 namespace hybrid_slam::bags {
 
-/// SQLite is told to trust nothing in the file: no views, triggers, virtual tables, computed columns or
-/// functions of its own, and no value over 256 MiB. Pages that refer to each other yield no more bytes than
+/// SQLite trusts nothing in the file: no views, triggers, virtual tables, computed columns or functions of
+/// the file's own, and no value over 256 MiB. Pages that refer to each other yield no more bytes than
 /// the file has.
 class Rosbag2Database : public Bag {
  public:

@@ -49,7 +49,7 @@ using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
 /// @param maxRange  m; the smaller of this and the observation's own limit applies (<= 0: no limit)
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
-/// Converts each scan. @throws InputError likewise, and for more than kMaxLasers scans
+/// Converts each scan. @throws InputError for a tilted scan plane, and for more than kMaxLasers scans
 LaserScans toLaserScans(const Scans& scans, double maxRange);
 
 /// Returns whether a laser is mounted in the plane of the map, upright or upside down, within 5 deg.

@@ -13,7 +13,7 @@ namespace hybrid_slam {
 
 /// Parses the whole text as a number; accepts `nan`, `inf` and a leading `+`.
 std::optional<double> parseNumber(std::string_view text);
-/// Likewise, but rejects `nan` and `inf`.
+/// Parses the whole text as a finite number.
 std::optional<double> parseFinite(std::string_view text);
 
 /// Formats like printf's %.Nf, %.Ne or %.Ng.

@@ -31,7 +31,7 @@ class OptionTable {
   /// A real number in [low, high].
   void add(const std::string& key, double& value, double low, double high, const std::string& unit,
            const std::string& why);
-  /// Likewise, or the word `unset` for no value.
+  /// A real number in [low, high], or the word `unset` for no value.
   void add(const std::string& key, std::optional<double>& value, const std::string& unset, double low,
            double high, const std::string& unit, const std::string& why);
   /// An angle: degrees in the file, radians in the member; the range is in degrees.

@@ -46,7 +46,7 @@ struct HasVisit<T, State, std::void_t<decltype(std::declval<T&>().visit(std::dec
 ///
 /// in MRPT's format of numbers (little-endian). Other classes have a free function `visit(state, value)`. A
 /// value that several shared_ptrs own is written once. Reading trusts nothing: memory grows with the bytes
-/// that are there, a pose is within kFarthest, NaN is an error. `visit` checks other conditions with
+/// present, a pose is within kFarthest, NaN is an error. `visit` checks other conditions with
 /// `state.check`.
 ///
 /// Common base of writer and reader, which define `number` and `bytes`.
@@ -198,7 +198,7 @@ class StateReader : public State<StateReader> {
   explicit StateReader(std::string_view bytes)
       : source_{bytes}, archive_(mrpt::serialization::archiveFrom(source_)) {}
 
-  /// @throws StateError likewise for all of these
+  /// All of these throw StateError for bytes that no StateWriter can have written.
   template <class T>
   void number(T& value) {
     if constexpr (std::is_enum_v<T>) {

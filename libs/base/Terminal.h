@@ -7,8 +7,8 @@
 
 namespace hybrid_slam {
 
-/// Makes one line of a text, on which nothing acts on the terminal: control characters of ASCII and of UTF-8
-/// (C1) and bytes that are no UTF-8 become `\x1b` and the like, line breaks and tabs become spaces.
+/// Puts a text on one line that cannot control the terminal: control characters of ASCII and of UTF-8 (C1)
+/// and bytes that are not UTF-8 become `\x1b` and the like, line breaks and tabs become spaces.
 std::string onOneLine(std::string_view text);
 
 }  // namespace hybrid_slam

@@ -63,7 +63,7 @@ size_t CompressedFile::read(char* to, size_t count) {
   size_t room = count;
   while (room == count && count > 0 && defect_.empty()) {
     refill();
-    // Like zlib, pass over what follows the last stream and is none.
+    // Like zlib, ignore trailing bytes that are not a stream.
     if (isBetweenStreams_ && (unread_.empty() || unread_.front() == 0)) return 0;
     const size_t left = unread_.size();
     try {

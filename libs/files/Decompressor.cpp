@@ -167,7 +167,7 @@ std::string decoded(Compression compression, std::string_view bytes, size_t size
   size_t length = 0;
   bool hasEnded = false;
   while (!hasEnded || !bytes.empty()) {
-    // One byte more than claimed, so that the end is reached, and too long a content found.
+    // One byte more than claimed: reaches the end of the stream, and detects content that is too long.
     content.resize(std::min(size + 1, length + std::max(kStep, length)));
     char* out = content.data() + length;
     size_t room = content.size() - length;

@@ -29,7 +29,7 @@ std::vector<std::string> loadIni(mrpt::config::CConfigFileMemory& source, const 
                                  const std::vector<std::string>& settings, const Sections& sections,
                                  const std::string& otherwise, const std::string& expected);
 
-/// Likewise for the text of a file, as MRPT's parser leaves it.
+/// Loads the text of an INI file, as MRPT's parser returns it, in the same way as loadIni.
 std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, const std::string& text,
                                      const std::string& file, const std::vector<std::string>& settings,
                                      const Sections& sections, const std::string& otherwise,
@@ -42,7 +42,8 @@ bool isIni(const std::string& path);
 /// Writes every key with default, unit, range and meaning, as a Markdown table per section.
 void writeManual(const Sections& sections, std::ostream& out);
 
-/// Likewise for a terminal: keys and defaults as in an INI file, meanings in lines of at most 80 characters.
+/// Writes the manual for a terminal: keys and defaults as in an INI file, meanings in lines of at most 80
+/// characters.
 void writePlainManual(const Sections& sections, std::ostream& out);
 
 }  // namespace hybrid_slam::files

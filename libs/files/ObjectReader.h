@@ -8,7 +8,7 @@
 
 namespace hybrid_slam::files {
 
-/// Builds an object from bytes that an ObjectWalk has stepped over: MRPT believes every length, class and
+/// Builds an object from bytes that an ObjectWalk has stepped over: MRPT trusts every length, class and
 /// depth.
 /// @throws std::exception if MRPT does not accept the contents
 mrpt::serialization::CSerializable::Ptr buildObject(std::string_view bytes);

@@ -120,7 +120,7 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
                        std::string("expected a folder that can be written to: ") + std::strerror(errno));
     lock_ = openFolder(name);
     const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-    if (isLocked && fs::exists(name)) {  // else another process has just taken it for a dead one
+    if (isLocked && fs::exists(name)) {  // otherwise another process has just removed it as abandoned
       stage_ = name;
       fs::permissions(stage_, fs::status(final_).permissions());
       return;

@@ -15,7 +15,7 @@ namespace hybrid_slam::live {
 
 namespace arcos {
 /// The commands used here. None of them moves the robot.
-enum Command : uint8_t { sync0 = 0, sync1 = 1, sync2 = 2, pulse = 0, open = 1, close = 2 };
+enum ArcosCommand : uint8_t { sync0 = 0, sync1 = 1, sync2 = 2, pulse = 0, open = 1, close = 2 };
 using Payload = std::vector<uint8_t>;
 
 /// Checksum of a payload: sum of big-endian words, an odd last byte xored.

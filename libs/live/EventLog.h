@@ -18,7 +18,7 @@ class EventLog {
 
   /// Writes lines `PROGRAM: SUBJECT: EVENT` to standard error.
   explicit EventLog(const std::string& program);
-  /// Likewise with a custom writer, for tests; called from one thread at a time.
+  /// Passes these lines to `write` instead, for tests. One thread at a time calls it.
   EventLog(const std::string& program, Write write) : program_(program), write_(std::move(write)) {}
 
   void report(const std::string& subject, const std::string& event);

@@ -36,7 +36,7 @@ TEST(EventLog, ForgetsTheEventsOfManySubjects) {
   log.report("client 999", "connected");
   log.report("client 1000", "connected");
   log.report("client 0", "connected");
-  EXPECT_EQ(lines, 1002u) << "no memory for ever more of them";
+  EXPECT_EQ(lines, 1002u) << "memory is bounded";
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ void ObservationClient::run(const CycleSink& sink, const StopCheck& stop) {
 }
 
 void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
+  ++attempts_;
   TcpSocket socket = TcpSocket::connectTo(settings_.host, settings_.port, settings_.timeout, stop);
   if (!socket.isOpen()) return;
   if (!settings_.token.empty()) socket.send(settings_.token + '\n', settings_.timeout);

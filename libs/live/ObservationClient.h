@@ -30,8 +30,9 @@ class ObservationClient : public CycleSource {
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
   size_t lost() const { return lost_; }                ///< cycles sent by the server but not received
+  size_t attempts() const { return attempts_; }        ///< to connect, so far
   size_t connections() const { return connections_; }  ///< so far
-  bool isConnected() const { return isConnected_; }    ///< now: the server's first message has come
+  bool isConnected() const { return isConnected_; }    ///< now: the server's first message has arrived
   bool hasEnded() const { return hasEnded_; }          ///< the server reported its end
 
  private:
@@ -40,7 +41,7 @@ class ObservationClient : public CycleSource {
 
   Settings settings_;
   EventLog& log_;
-  std::atomic<size_t> lost_{0}, connections_{0};
+  std::atomic<size_t> lost_{0}, attempts_{0}, connections_{0};
   std::atomic<bool> hasEnded_{false}, isConnected_{false};
   uint64_t session_ = 0, number_ = 0;
   bool hasSession_ = false;

@@ -145,7 +145,7 @@ void ObservationServer::serve() {
         write(*client);
         ++client;
       } catch (const std::runtime_error& e) {
-        log_.report(client->name, "gone (" + messageOf(e) + ")");
+        log_.report(client->name, "disconnected (" + messageOf(e) + ")");
         const std::lock_guard<std::mutex> lock(mutex_);
         client = clients_.erase(client);
       }
@@ -179,7 +179,7 @@ void ObservationServer::accept() {
   clients_.push_back(std::move(client));
 }
 
-/// Strangers are reported under the name of their machine, so that the log tells a repeated fault once.
+/// Unknown clients are reported under the name of their machine, so that a repeated fault is logged once.
 void ObservationServer::becomeKnown(Client& client) {
   client.name = nameOf(client.socket.descriptor(), true);
   client.isKnown = true;
@@ -190,7 +190,7 @@ void ObservationServer::becomeKnown(Client& client) {
 void ObservationServer::read(Client& client) {
   const std::string bytes = client.socket.receive(0);
   client.received += bytes.size();
-  if (client.received > kMostReceived) throw std::runtime_error("sends too much");
+  if (client.received > kMostReceived) throw std::runtime_error("sent over 1 MiB");
   if (client.isKnown) return;
   client.shown += bytes.substr(0, kMaxToken + 1);
   const size_t end = client.shown.find('\n');
@@ -214,7 +214,7 @@ void ObservationServer::write(Client& client) {
     client.sent = 0;
     client.lastTaken = Clock::now();
   }
-  if (secondsSince(client.lastTaken) > limits_.patience) throw std::runtime_error("takes no data");
+  if (secondsSince(client.lastTaken) > limits_.patience) throw std::runtime_error("does not read");
   if (client.dropped == 0) return;
   if (client.queue.empty()) {
     log_.report(client.name, "keeps up again; missed " + std::to_string(client.dropped) + " cycles");

@@ -20,14 +20,14 @@
 namespace hybrid_slam::live {
 
 /// One thread serves all clients without blocking. Each has a queue of unsent cycles; when it is full, the
-/// oldest cycle is dropped. A client that takes nothing for long is disconnected: it keeps a place that
-/// another may need. One that sends over 1 MiB is disconnected, too.
+/// oldest cycle is dropped. A client that reads nothing for too long is disconnected, because it
+/// occupies a place that another may need. So is one that sends over 1 MiB.
 class ObservationServer {
  public:
   struct Limits {
     size_t queue = 50;  ///< cycles queued per client
     size_t clients = 250;
-    double patience = 30;  ///< s for a client to take a message, before it is disconnected
+    double patience = 30;  ///< s for a client to read a message, before it is disconnected
     std::string token{};   ///< a client gets nothing before it has sent this and a line end; empty: no token
     double newPerSecond = 10;  ///< clients, after as many at once as `clients`; the others wait
   };
@@ -54,9 +54,9 @@ class ObservationServer {
   struct Client {
     TcpSocket socket;
     std::string name;
-    bool isKnown = false;                               ///< no token needed, or it has come
+    bool isKnown = false;                               ///< no token needed, or it was received
     size_t received = 0;                                ///< bytes
-    std::string shown;                                  ///< what has come of the token
+    std::string shown;                                  ///< part of the token received so far
     std::deque<Bytes> queue;                            ///< the first may be partly sent
     size_t sent = 0;                                    ///< bytes of the first
     size_t dropped = 0;                                 ///< cycles since the queue was last empty

@@ -135,7 +135,7 @@ TEST(ObservationWire, OnlyOneCompleteFrameIsAccepted) {
               HasSubstr("class mrpt::obs::CObservation2DRangeScan instead of"));
 }
 
-/// Messages with a valid checksum, from a server that means harm.
+/// A hostile server sends messages with valid checksums.
 TEST(ObservationWire, OnlyObservationsOfListedClassesAndWithTheirBytesAreBuilt) {
   const auto object = [](const std::string& name, char version, const std::string& fields) {
     return static_cast<char>(0x80 | name.size()) + name + version + fields;

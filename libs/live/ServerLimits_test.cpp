@@ -26,7 +26,7 @@ TEST_F(ServerLimits, AClientThatSendsWithoutEndIsDisconnected) {
         for (int i = 0; i < 1000; ++i) chatty.send(std::string(65536, 'x'), 30);
       },
       std::runtime_error);
-  EXPECT_TRUE(test::happens([&] { return events.count("sends too much") == 1; })) << events.text();
+  EXPECT_TRUE(test::happens([&] { return events.count("sent over 1 MiB") == 1; })) << events.text();
 }
 
 TEST_F(ServerLimits, NewClientsBeyondTheRateWait) {
@@ -35,7 +35,7 @@ TEST_F(ServerLimits, NewClientsBeyondTheRateWait) {
   ObservationServer server(kHere, 0, limits, events.log());
   for (size_t i = 1; i <= 3; ++i) {
     const TcpSocket brief = TcpSocket::connectTo(kHere, server.port(), 10);
-    ASSERT_TRUE(test::happens([&] { return events.count("connected") == i; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return events.count(": connected") == i; })) << events.text();
   }
   ASSERT_TRUE(test::happens([&] { return server.clients() == 0; }));
   const TcpSocket waiting = TcpSocket::connectTo(kHere, server.port(), 10);
@@ -43,7 +43,7 @@ TEST_F(ServerLimits, NewClientsBeyondTheRateWait) {
     server.publish({});  // wakes the server
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  EXPECT_EQ(events.count("connected"), 3u);
+  EXPECT_EQ(events.count(": connected"), 3u);
 }
 
 TEST_F(ServerLimits, WaitingClientsAreServedLater) {
@@ -52,7 +52,7 @@ TEST_F(ServerLimits, WaitingClientsAreServedLater) {
   const ObservationServer server(kHere, 0, limits, events.log());
   for (size_t i = 1; i <= 6; ++i) {
     const TcpSocket brief = TcpSocket::connectTo(kHere, server.port(), 10);
-    ASSERT_TRUE(test::happens([&] { return events.count("connected") == i; })) << events.text();
+    ASSERT_TRUE(test::happens([&] { return events.count(": connected") == i; })) << events.text();
   }
 }
 
@@ -65,7 +65,7 @@ TEST_F(ServerLimits, AWrongTokenThatIsTriedAgainIsReportedOnce) {
     EXPECT_THROW(for (;;) stranger.receive(10), std::runtime_error);
   }
   EXPECT_EQ(events.count("wrong token"), 1u) << events.text();
-  EXPECT_EQ(events.count("connected"), 0u) << events.text();
+  EXPECT_EQ(events.count(": connected"), 0u) << events.text();
 }
 
 }  // namespace

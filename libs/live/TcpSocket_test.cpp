@@ -23,17 +23,30 @@
 #include "live/ObservationServer.h"
 #include "testing/TestEvents.h"
 
+namespace {
+
+std::atomic<int> slowLookUps{0}, connects{0};  ///< calls below that have begun
+
+}  // namespace
+
 /// In this program `slow.test` is a name whose server does not answer for 20 s, and `two.test` has the
 /// addresses 127.0.0.2 and 127.0.0.1, in this order.
 extern "C" int getaddrinfo(const char* host, const char* port, const addrinfo* hints, addrinfo** found) {
   static const auto real = reinterpret_cast<decltype(&getaddrinfo)>(dlsym(RTLD_NEXT, "getaddrinfo"));
   if (std::strcmp(host, "slow.test") == 0) {
+    ++slowLookUps;
     std::this_thread::sleep_for(std::chrono::seconds(20));
     return EAI_AGAIN;
   }
   if (std::strcmp(host, "two.test") != 0) return real(host, port, hints, found);
   if (const int error = real("127.0.0.2", port, hints, found)) return error;
   return real("127.0.0.1", port, hints, &(*found)->ai_next);
+}
+
+extern "C" int connect(int descriptor, const sockaddr* address, socklen_t size) {
+  static const auto real = reinterpret_cast<decltype(&connect)>(dlsym(RTLD_NEXT, "connect"));
+  ++connects;
+  return real(descriptor, address, size);
 }
 
 namespace hybrid_slam::live {
@@ -66,13 +79,14 @@ class FullListener {
   std::vector<TcpSocket> sockets_;
 };
 
-/// Returns the time (s) that a client without a server takes to stop.
-double timeToStop(const std::string& host, uint16_t port) {
+/// Returns the time (s) that a client without a server takes to stop after it has made one of `calls`.
+double timeToStop(const std::string& host, uint16_t port, const std::atomic<int>& calls) {
   test::Events events;
   ObservationClient client({host, port, 15}, events.log());
   std::atomic<bool> stop{false};
+  const int before = calls;
   std::thread thread([&] { client.run([](const auto&) {}, [&] { return stop.load(); }); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_TRUE(test::happens([&] { return calls > before; }));
   const auto start = Clock::now();
   stop = true;
   thread.join();
@@ -83,10 +97,10 @@ double timeToStop(const std::string& host, uint16_t port) {
 // The stop flag is checked every 0.1 s; the bound allows for busy machines.
 TEST(TcpSocket, StoppingDoesNotWaitForAnAnswer) {
   const FullListener full("127.0.0.1");
-  EXPECT_LT(timeToStop("127.0.0.1", full.port()), 3);
+  EXPECT_LT(timeToStop("127.0.0.1", full.port(), connects), 3);
 }
 
-TEST(TcpSocket, StoppingDoesNotWaitForALookUp) { EXPECT_LT(timeToStop("slow.test", 4550), 3); }
+TEST(TcpSocket, StoppingDoesNotWaitForALookUp) { EXPECT_LT(timeToStop("slow.test", 4550, slowLookUps), 3); }
 
 TEST(TcpSocket, AnUnansweredConnectionTimesOut) {
   const FullListener full("127.0.0.1");

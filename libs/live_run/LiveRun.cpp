@@ -135,7 +135,7 @@ void LiveRun::tellState() {
                             (place ? ", " + describe(*place) : ", map " + verdict_.name()));
 }
 
-// Found in another thread, so that no scan waits for it.
+// The verdict is found in another thread, so that no scan waits for it.
 void LiveRun::tellVerdict() {
   if (run_.view().place() || run_.view().updates() == 0) return;
   if (nextVerdict_.valid()) {
@@ -173,7 +173,7 @@ std::string LiveRun::finish(size_t lost) {
   const std::string summary = run_.finish(recording_.path(), recorded, more);
   if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);
   if (failure_) {
-    log_.report("results", "those up to the failure: " + run_.folder());
+    log_.report("results", "written up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);
   }
   if (const std::string place = run_.placeNote(); !place.empty()) throw std::runtime_error(place);

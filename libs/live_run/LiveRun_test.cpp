@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -145,18 +146,27 @@ TEST_F(LiveRunTest, WithoutOdometryIfItIsNotRequired) {
 
 TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
   options.maxWaiting = 1;
-  constexpr size_t kScans = 3000;  // far faster than it can filter
-  test::Log log;
+  constexpr size_t kScans = 100;
+  run::Configuration c = configuration("live");
+  LiveRun run(c, options, events.log(), true);
+  std::promise<void> sent;
+  run.setWatcher([all = sent.get_future().share()](const FilterView&, const readings::Reading&, bool) {
+    all.wait();  // the filter is late
+  });
   for (size_t i = 0; i < kScans; ++i) {
     const double time = 1000 + 0.2 * static_cast<double>(i);
-    log.push_back(test::odometry(time, {0.001 * static_cast<double>(i), 0, 0}));
-    log.push_back(test::scan(time, {0.001 * static_cast<double>(i), 0, 0}));
+    const test::TPose2D pose(0.01 * static_cast<double>(i), 0, 0);
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(test::odometry(time, pose));
+    cycle->insert(test::scan(time, pose));
+    run.take(cycle);
   }
-  runLive(log);
+  sent.set_value();
+  run.finish(0);
   const auto metrics = nlohmann::json::parse(result("live/metrics.json"));
   EXPECT_EQ(metrics["scans"].get<size_t>() + metrics["skipped"].get<size_t>(), kScans);
   EXPECT_GT(metrics["skipped"], 0);
-  EXPECT_NEAR(metrics["distance_m"].get<double>(), 0.001 * (kScans - 1), 1e-6);
+  EXPECT_NEAR(metrics["distance_m"].get<double>(), 0.01 * (kScans - 1), 1e-6);
   EXPECT_GE(events.count("late: "), 1u);
   replayRecording();
   EXPECT_EQ(nlohmann::json::parse(result("offline/metrics.json"))["scans"], kScans)

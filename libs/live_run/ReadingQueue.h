@@ -32,7 +32,7 @@ class ReadingQueue {
     }
     changed_.notify_one();
   }
-  /// Announces that no more readings come.
+  /// Announces the end of the readings.
   void close() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);

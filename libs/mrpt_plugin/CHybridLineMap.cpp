@@ -95,10 +95,8 @@ bool CHybridLineMap::internal_insertObservation(const CObservation& observation,
                                                 const std::optional<const CPose3D>& robot) {
   const CObservation2DRangeScan* scan = usable(observation);
   if (!scan) return false;
-  std::vector<LineSegment> lines = linesOf(*scan, options);
   const mrpt::math::TPose2D pose = robot ? inPlane(*robot) : mrpt::math::TPose2D();
-  for (LineSegment& line : lines) line = transformed(line, pose);
-  database_.update(lines, options.database, options.association);
+  database_.update(transformed(linesOf(*scan, options), pose), options.database, options.association);
   return true;
 }
 
@@ -136,7 +134,7 @@ void CHybridLineMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t ve
   uint32_t size = 0;
   in >> size;
   if (size > kMostBytes) throw StateError("a line map of more than 64 MiB");
-  // Memory grows with the bytes that are there.
+  // Memory grows with the bytes present.
   std::string bytes;
   while (bytes.size() < size) {
     constexpr size_t kPiece = 1 << 16;

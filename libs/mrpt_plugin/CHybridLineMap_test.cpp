@@ -89,10 +89,8 @@ TEST(CHybridLineMap, InsertionIsTheUpdateOfTheDatabase) {
   RandomStream random = randomStream();
   for (int step = 0; step < 5; ++step) {
     const TPose2D pose(0.3 * step, 0.1 * step, 0.05 * step);
-    std::vector<LineSegment> lines =
-        extractLines(toLaserScan(roomScan(pose, random), 80), map.options.extraction);
-    for (LineSegment& line : lines) line = transformed(line, pose);
-    expected.update(lines, map.options.database, map.options.association);
+    const auto lines = extractLines(toLaserScan(roomScan(pose, random), 80), map.options.extraction);
+    expected.update(transformed(lines, pose), map.options.database, map.options.association);
   }
   EXPECT_GE(expected.lines().size(), 4u);
   expectEqual(map.database().lines(), expected.lines(), 1e-12);  // MRPT's poses are matrices
@@ -148,7 +146,7 @@ TEST(CHybridLineMap, EveryCutAndMostWrongBytesAreErrors) {
   for (size_t size = 0; size < bytes.size(); ++size)
     EXPECT_ANY_THROW(objectOf(bytes.substr(0, size))) << size;
 
-  // The length follows the class's name and the version; MRPT must not believe it.
+  // The length follows the class's name and the version; MRPT must not trust it.
   const std::string name = "hybrid_slam::mrpt_maps::CHybridLineMap";
   const size_t length = bytes.find(name) + name.size() + 1;
   for (const uint32_t wrong : {0u, 7u, uint32_t{1} << 25, 0xffffffffu}) {

@@ -1,13 +1,12 @@
 #include "readings/BeamAngles.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
+#include <mrpt/core/bits_math.h>
 
 namespace hybrid_slam::readings {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 struct Fan {
   size_t beams;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "readings/LogFields.h"
 #include "readings/LogFormats.h"
@@ -35,7 +36,7 @@ class FrontLaserMounting {
 enum class Rows {
   posed,     ///< with the robot's pose: FLASER, RLASER, ROBOTLASERn
   mounted,   ///< LASERn and RAWLASERn of the front (1) and the rear laser (2)
-  unmounted  ///< LASERn and RAWLASERn of others: the log does not tell where on the robot they are
+  unmounted  ///< LASERn and RAWLASERn of others, whose place on the robot the log does not state
 };
 
 /// Returns 3 for `LASER3`; 0 for another name.
@@ -51,10 +52,16 @@ std::optional<Rows> rowsOf(std::string_view name) {
   return number <= 2 ? Rows::mounted : Rows::unmounted;
 }
 
+/// Returns the number of the laser of these rows. CARMEN's front laser is 1, its rear one 2, in all rows.
+int numberOf(std::string_view rows) {
+  return rows == "FLASER" ? 1 : rows == "RLASER" ? 2 : rows.back() - '0';
+}
+
 class CarmenParser : public LogParser {
  public:
   using LogParser::LogParser;
   void preview(std::string_view line) override;
+  std::vector<std::string> ignoredLasers() const override;
 
  private:
   LogRecord record(std::string_view name, LogFields& fields) override;
@@ -70,6 +77,8 @@ class CarmenParser : public LogParser {
   double time(LogFields& fields) const;
 
   Rows used_ = Rows::unmounted;              ///< rows of later kinds are skipped
+  std::set<int> usedLasers_;                 ///< numbers
+  std::set<std::string> skippedRows_;        ///< names
   double frontOffset_ = 0, rearOffset_ = 0;  ///< m, x of the lasers on the robot, by `PARAM`
   FrontLaserMounting frontMounting_;
 };
@@ -84,7 +93,11 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
     return row;
   }
   const auto rows = rowsOf(name);
-  if (rows && *rows > used_) return otherRecord(name);
+  if (rows && *rows > used_) {
+    skippedRows_.emplace(name);
+    return otherRecord(name);
+  }
+  if (rows) usedLasers_.insert(numberOf(name));
   if (name == "FLASER" || name == "RLASER") return laser(name, fields);
   if (rows == Rows::posed) return robotLaser(name, fields);
   if (rows) return laserNumber(name, "LASER") > 0 ? plainLaser(name, fields) : rawLaser(name, fields);
@@ -98,6 +111,17 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
 void CarmenParser::preview(std::string_view line) {
   LogFields fields(line);
   if (const auto rows = fields.empty() ? std::nullopt : rowsOf(fields.word())) used_ = std::min(used_, *rows);
+}
+
+std::vector<std::string> CarmenParser::ignoredLasers() const {
+  std::vector<std::string> all;
+  for (const std::string& name : skippedRows_)
+    if (usedLasers_.count(numberOf(name)) == 0)
+      all.push_back("laser `" + name + "` is not used: " +
+                    (rowsOf(name) == Rows::mounted
+                         ? "its rows lack the robot's pose, unlike those of other lasers"
+                         : "the log does not state its pose on the robot"));
+  return all;
 }
 
 mrpt::math::TPose2D CarmenParser::mounting(int number) const {

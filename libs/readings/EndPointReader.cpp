@@ -4,17 +4,19 @@
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
+#include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 
 namespace hybrid_slam::readings {
 
 std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel,
-                                     double maxRange, size_t mostKept) {
+                                     double maxRange, const WarningReport& report, size_t mostKept) {
   InputOptions options;
   options.sensorLabel = sensorLabel;
   const RawlogSummary summary = summarise(rawlog, options);
   if (!summary.defect.empty())
     throw InputError("log " + summary.defect, summary.defectPlace(rawlog), "expected a whole log");
+  if (report) report(warningsOf(summary, rawlog));
   RawlogSource source(rawlog, options, summary);
   std::vector<EndPoints> scans;
   size_t kept = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,14 +12,18 @@
 
 namespace hybrid_slam::readings {
 
+/// Called with the warnings about a log (warningsOf).
+using WarningReport = std::function<void(const std::vector<std::string>&)>;
+
 /// Reads the end points of each scan in the order of the log.
 /// @param sensorLabel  of the lasers, as [input] sensor_label; empty: all
 /// @param maxRange     m; the smaller of this and the log's own limit applies
+/// @param report       called before the scans are read
 /// @param mostKept     limit of the scans and valid beams together; the default takes 2 GB of memory
 /// @throws InputError for a log without scans of these lasers or with too many, and for a truncated log,
 ///         which would give the errors of a shorter drive
 std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel = {},
                                      double maxRange = std::numeric_limits<double>::infinity(),
-                                     size_t mostKept = size_t{1} << 27);
+                                     const WarningReport& report = {}, size_t mostKept = size_t{1} << 27);
 
 }  // namespace hybrid_slam::readings

@@ -46,10 +46,17 @@ TEST_F(EndPointReader, LaserAndRangeCanBeChosen) {
   EXPECT_THROW(loadEndPoints(rawlog(), "NONE"), InputError);
 }
 
+TEST_F(EndPointReader, WarningsAreReported) {
+  test::writeGzipped(rawlog(), {test::scan(5), test::scan(6, {}, 0, "BLIND")});
+  std::vector<std::string> all;
+  loadEndPoints(rawlog(), {}, 80, [&](const std::vector<std::string>& warnings) { all = warnings; });
+  EXPECT_THAT(all, testing::Contains("laser `BLIND` is not used: no beams"));
+}
+
 TEST_F(EndPointReader, TooManyEndPointsAreAnErrorBeforeTheyFillTheMemory) {
   test::writeGzipped(rawlog(), {test::scan(5), test::scan(6), test::scan(7)});
-  EXPECT_EQ(loadEndPoints(rawlog(), {}, 80, 3 * 181 + 3).size(), 3u);
-  EXPECT_EQ(test::errorOf([&] { loadEndPoints(rawlog(), {}, 80, 3 * 181 + 2); }),
+  EXPECT_EQ(loadEndPoints(rawlog(), {}, 80, {}, 3 * 181 + 3).size(), 3u);
+  EXPECT_EQ(test::errorOf([&] { loadEndPoints(rawlog(), {}, 80, {}, 3 * 181 + 2); }),
             "too many scans: " + rawlog() + ", scan 3; expected at most 545 scans and valid beams together");
 }
 

@@ -37,7 +37,7 @@ class FrameTree {
   };
   /// Returns the edges from a frame up to one of its ancestors.
   std::vector<const Edge*> edgesUp(const std::string& frame, const std::string& ancestor) const;
-  /// Returns the nearest common ancestor, which may be one of both; empty if there is none.
+  /// Returns the nearest common ancestor, which may be either of them; empty if there is none.
   std::optional<std::string> common(const std::string& a, const std::string& b) const;
 
   std::unordered_map<std::string, Edge> edges_;  ///< by child

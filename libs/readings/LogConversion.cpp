@@ -55,7 +55,9 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   files::RawlogWriter writer(rawlogPath);
   while (const auto object = log.next()) writer.write(*object);
   writer.finish();
-  return log.summary();
+  LogSummary summary = log.summary();
+  summary.notes = log.ignoredLasers();
+  return summary;
 }
 
 }  // namespace hybrid_slam::readings

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/core/Clock.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -32,7 +33,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::string odom(const std::string& pose, const std::string& time) {
   return "ODOM " + pose + " 0 0 0 " + time + " host 0\n";
@@ -237,6 +238,12 @@ TEST(LogConversion, OtherRecordsAreCountedByName) {
   const auto result = convert("SYNC a\nSYNC b\n" + laser("FLASER", 181, "0 0 0", "1") + "TRUEPOS 0 0 0\n");
   EXPECT_EQ(result.summary.otherRecords, (std::map<std::string, size_t>{{"SYNC", 2}, {"TRUEPOS", 1}}));
   EXPECT_THAT(result.brokenLines, IsEmpty());
+}
+
+TEST(LogConversion, LasersThatAreNotUsedAreNoted) {
+  const auto result = convert(laser("FLASER", 181, "0 0 0", "1") + "LASER3 2 1 2 1 host 0\n");
+  EXPECT_THAT(result.summary.notes,
+              ElementsAre("laser `LASER3` is not used: the log does not state its pose on the robot"));
 }
 
 TEST(LogConversion, OtherRecordsOfManyNamesTakeLittleMemory) {

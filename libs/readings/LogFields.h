@@ -25,7 +25,7 @@ class LogFields {
   size_t left() const { return fields_.size() - next_; }
   /// @throws BrokenLine unless exactly `count` fields are left; `what` describes them
   void expectLeft(size_t count, const std::string& what) const;
-  /// Returns whether `count` fields, after the next `skipped` ones, are there and read `0`.
+  /// Returns whether `count` fields, after the next `skipped` ones, exist and are `0`.
   bool isZero(size_t skipped, size_t count) const;
 
   std::string_view word();

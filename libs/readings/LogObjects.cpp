@@ -51,7 +51,7 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
 
 }  // namespace
 
-/// A log that is no log has any number of names.
+/// A file that is not a log may have any number of names.
 void LogObjects::operator()(const OtherRecord& record) {
   constexpr size_t kMostNames = 100;
   auto& counts = summary.otherRecords;

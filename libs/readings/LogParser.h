@@ -71,6 +71,8 @@ class LogParser {
   /// Called for the first lines of a log (kPreviewLines), before they are parsed.
   virtual void preview(std::string_view /*line*/) {}
   static constexpr size_t kPreviewLines = 2000;
+  /// Returns a line for each laser of which no row has been used: its name in the log and the reason.
+  virtual std::vector<std::string> ignoredLasers() const { return {}; }
 
  protected:
   /// @param fields  fields after the record's name

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 LogParserOptions threeBeamOptions() {
   LogParserOptions options;
@@ -174,12 +175,30 @@ TEST(LogParserCarmen, LasersWithoutThePoseOfTheRobotAreUsedWhereThereAreNoOthers
   EXPECT_THAT(whyBroken(formatNamed("carmen"), "LASER3 3 1 2 100.5 host 7.5"), HasSubstr("fields where"));
   EXPECT_THAT(whyBroken(formatNamed("carmen"), raw + " 1"), HasSubstr("fields where"));
 
-  parser->preview(raw);  // where on the robot LASER3 is, the log does not tell
+  parser->preview(raw);  // the log does not state the place of LASER3 on the robot
   parseAs<LaserRecord>(*parser, raw);
   EXPECT_EQ(parseAs<OtherRecord>(*parser, plain).name, "LASER3");
   parser->preview(kFlaser);
   EXPECT_EQ(parseAs<OtherRecord>(*parser, raw).name, "RAWLASER2");
   parseAs<LaserRecord>(*parser, kFlaser);
+}
+
+TEST(LogParserCarmen, LasersOfWhichNoRowIsUsedAreNamed) {
+  const auto ignored = [](const std::vector<std::string>& rows) {
+    const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+    for (const std::string& row : rows) parser->preview(row);
+    for (const std::string& row : rows) parser->parse(row);
+    return parser->ignoredLasers();
+  };
+  const std::string rear = "R" + kFlaser.substr(1), values = " 3 1 2 3 100.5 host 7.5";
+  const std::string third = "laser `LASER3` is not used: the log does not state its pose on the robot";
+  EXPECT_THAT(ignored({"LASER1" + values, "LASER2" + values, kFlaser, rear}), testing::IsEmpty());
+  EXPECT_THAT(ignored({"LASER3" + values}), testing::IsEmpty());
+  EXPECT_THAT(ignored({"LASER3" + values, "LASER1" + values}), ElementsAre(third));
+  EXPECT_THAT(
+      ignored({"LASER1" + values, "LASER2" + values, "LASER3" + values, kFlaser}),
+      ElementsAre("laser `LASER2` is not used: its rows lack the robot's pose, unlike those of other lasers",
+                  third));
 }
 
 /// The log of Orebro has the odometry in place of the laser's pose, zeros as the robot's, and one time.

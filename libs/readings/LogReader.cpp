@@ -43,5 +43,8 @@ const char* LogReader::unit() const { return rawlog_ ? "entry" : bag_ ? "message
 const std::string& LogReader::defect() const {
   return rawlog_ ? rawlog_->defect() : bag_ ? bag_->defect() : textDefect_;
 }
+std::vector<std::string> LogReader::ignoredLasers() const {
+  return text_ ? text_->ignoredLasers() : std::vector<std::string>();
+}
 
 }  // namespace hybrid_slam::readings

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hybrid_slam::files {
 class RawlogReader;
@@ -40,6 +41,8 @@ class LogReader {
   const files::RawlogReader* rawlog() const { return rawlog_.get(); }
   size_t brokenLines() const { return brokenLines_; }  ///< skipped lines of a text log, or messages of a bag
   size_t firstBroken() const { return firstBroken_; }  ///< number of the first
+  /// Returns a line for each laser of a text log whose rows have been skipped: its name and the reason.
+  std::vector<std::string> ignoredLasers() const;
 
  private:
   std::string file_;

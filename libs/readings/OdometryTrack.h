@@ -25,7 +25,7 @@ class OdometryTrack {
   bool contains(double time) const {
     return !readings_.empty() && readings_.front().first <= time && time <= readings_.back().first;
   }
-  /// Likewise, or whether the next reading may follow that time.
+  /// Returns whether a time lies between the readings, or may do so once the next reading is added.
   bool mayReach(double time) const {
     return !readings_.empty() && readings_.front().first <= time && time - readings_.back().first <= maxGap_;
   }

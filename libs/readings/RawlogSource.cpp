@@ -81,7 +81,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   SweepTimes sweeps(options.scanTime);
   ScanGrouper grouper(wanted, options.maxOdometryGap);
   Uses uses;
-  std::map<std::string, double> last;  // stamp of each laser's scan before
+  std::map<std::string, double> last;  // timestamp of each laser's previous scan
   double earliest = 0, latest = 0;
   const auto noteOdometry = [&](const TPose2D& pose, bool& hasSome) {
     if (isFinite(pose))
@@ -152,6 +152,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   }
   summary.scans = grouper.readings();
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
+  summary.ignored = reader.ignoredLasers();
   noteIgnored(summary, uses);
   summary.isDeskewed =
       options.requireOdometry && summary.hasMotion && (summary.hasActions || summary.hasOdometryReadings);

@@ -290,6 +290,22 @@ TEST(RawlogSource, TiltedLasersAreIgnoredUnlessNamed) {
               HasSubstr("the laser's scan plane is tilted: sensor `tilted`"));
 }
 
+/// `RAWLASER1` and `ROBOTLASER1` are rows of one laser.
+TEST(RawlogSource, LasersOfATextLogWhoseRowsAreSkippedAreIgnored) {
+  const files::TemporaryFolder folder;
+  const std::string values = " 0 -1.0 2.0 0.5 30.0 0.01 0 3 4 5 6 0 ", time = "100.25 host 7.5\n";
+  const std::string path =
+      folder.write("log", "RAWLASER1" + values + time + "ROBOTLASER1" + values + "0 0 0 0 0 0 0 0 0 0 0 " +
+                              time + "RAWLASER2" + values + time + "LASER3 3 1 2 3 " + time);
+  const RawlogSummary summary = summarise(path, {});
+  EXPECT_THAT(summary.lasers, ElementsAre("ROBOTLASER1"));
+  EXPECT_THAT(
+      summary.ignored,
+      ElementsAre("laser `LASER3` is not used: the log does not state its pose on the robot",
+                  "laser `RAWLASER2` is not used: its rows lack the robot's pose, unlike those of other "
+                  "lasers"));
+}
+
 TEST(RawlogSource, EveryScanOfAFrameIsUsed) {
   const Replayed r = replayed({test::action({1, 0, 0}), test::frame({scan(10), scan(10.1)}),
                                test::action({1, 0, 0}), test::frame({scan(11)})});

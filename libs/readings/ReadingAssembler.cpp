@@ -8,8 +8,8 @@
 
 #include "base/DeskewedScan.h"
 #include "base/Errors.h"
+#include "base/OdometryIncrement.h"
 #include "readings/Timestamps.h"
-#include "slam/motion/OdometryIncrement.h"
 
 namespace hybrid_slam::readings {
 

@@ -22,7 +22,7 @@ void preview(files::LineReader& lines, LogParser& parser) {
   try {
     for (size_t i = 0; i < LogParser::kPreviewLines && lines.next(line); ++i) parser.preview(line);
   } catch (const InputError&) {
-    // Damage: reading the log will report it, where it comes to it.
+    // Damage: reading the log will report it at its place.
   }
   lines.rewind();
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "files/LineReader.h"
 #include "readings/LogFormats.h"
@@ -42,6 +43,8 @@ class TextLog {
 
   size_t line() const { return lines_.number(); }                  ///< number of the last line read, from 1
   const LogSummary& summary() const { return objects_->summary; }  ///< of what has been read
+  /// Returns the lasers skipped in what has been read, as LogParser.
+  std::vector<std::string> ignoredLasers() const { return parser_->ignoredLasers(); }
 
  private:
   void convert(const std::string& line);

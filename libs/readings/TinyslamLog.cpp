@@ -30,7 +30,7 @@ class TinyslamParser : public LogParser {
 
  private:
   LogRecord record(std::string_view name, LogFields& fields) override;
-  /// Where the wheels were at a time (s) up to that of the newest row.
+  /// Returns the wheel positions at a time (s) no later than the newest row.
   Wheels wheelsAt(double time);
   /// Moves the pose by the turns of the wheels since the previous call.
   void move(const Wheels& wheels);

@@ -78,7 +78,7 @@ struct Configuration {
 
 /// Returns every section and key with default, unit, range and meaning as Markdown: doc/configuration.md.
 std::string configurationManual();
-/// Likewise for a terminal.
+/// Returns the same manual as plain text for a terminal.
 std::string plainConfigurationManual();
 
 /// The main section of MRPT's rbpf-slam.

@@ -131,7 +131,7 @@ TEST_F(ConfigurationTest, ExpandsMrptsSubstitutions) {
               StartsWith("cannot parse: " + ini + "; "));
 }
 
-/// MRPT's parser would repeat for ever, or fill the memory.
+/// MRPT's parser would loop forever, or fill the memory.
 TEST_F(ConfigurationTest, EndlessMacrosAreRefused) {
   const std::string expected = "; expected its value; of MRPT's macros, only @define is expanded";
   const std::string loop = "$eval{var a:=0; while (a < 1) {a:=0;}}";

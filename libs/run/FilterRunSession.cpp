@@ -1,4 +1,4 @@
-// Saving a run and going on with it.
+// Saves a run and continues it.
 #include <array>
 #include <filesystem>
 

@@ -40,7 +40,7 @@ TEST(FilterRun, SavesItselfOnceTheSearchInAPlanIsOver) {
   EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));
 }
 
-// Else the fuzz target gets no further than the header: sessions of an older layout are refused there.
+// Otherwise the fuzz target stops at the header, because older layouts are refused.
 TEST(FilterRun, GoesOnFromTheSessionsOfTheFuzzCorpus) {
   const files::TemporaryFolder folder;
   size_t sessions = 0;

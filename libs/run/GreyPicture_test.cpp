@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <zlib.h>
 
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/PngFile.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -25,33 +25,11 @@ std::string pngOf(const cv::Mat& image) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::string bigEndian(size_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-  return bytes;
-}
-
-std::string chunk(const std::string& type, const std::string& content) {
-  const std::string checked = type + content;
-  const uLong sum =
-      ::crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size()));
-  return bigEndian(content.size()) + checked + bigEndian(sum);
-}
-
 /// A PNG file with a header that claims a size, 8 bits of grey, and some bytes as pixels.
 std::string claimedPng(size_t width, size_t height, const std::string& deflated, bool isInterlaced = false) {
-  return "\x89PNG\r\n\x1a\n" +
-         chunk("IHDR",
-               bigEndian(width) + bigEndian(height) + "\x08\0\0\0"s + static_cast<char>(isInterlaced)) +
-         chunk("IDAT", deflated) + chunk("IEND", "");
-}
-
-std::string deflated(const std::string& bytes) {
-  std::string out(::compressBound(bytes.size()), '\0');
-  uLongf size = out.size();
-  ::compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-             bytes.size());
-  return out.substr(0, size);
+  return test::pngFile(
+      test::bigEndian(width) + test::bigEndian(height) + "\x08\0\0\0"s + static_cast<char>(isInterlaced),
+      deflated);
 }
 
 class Grey : public testing::Test {
@@ -125,7 +103,7 @@ TEST_F(Grey, InterlacedPngOfEverySize) {
                                                                                       {1, 2, 0, 2},
                                                                                       {0, 1, 1, 2}})
         for (size_t y = y0; y < height && x0 < width; y += dy) bytes += 1 + (width - x0 + dx - 1) / dx;
-      std::string png = claimedPng(width, height, deflated(std::string(bytes, '\0')), true);
+      std::string png = claimedPng(width, height, test::deflated(std::string(bytes, '\0')), true);
       const GreyPicture picture = read(png);
       ASSERT_EQ(picture.width, width);
       ASSERT_THAT(picture.grey, testing::SizeIs(width * height));
@@ -158,8 +136,9 @@ TEST_F(Grey, ASizeThatTheFileDoesNotHaveTakesNoMemory) {
   EXPECT_THAT(errorOf("P5 16385 16384 255 few"), HasSubstr("more than 2^28 pixels"));
   EXPECT_THAT(errorOf("P5 4294967296 4294967296 255 few"), HasSubstr("more than 2^20 pixels on a side"));
   EXPECT_THAT(errorOf(claimedPng(16384, 16384, std::string(1000, 'x'))), HasSubstr("damaged"));
-  EXPECT_THAT(errorOf(claimedPng(16384, 16384, deflated(std::string(100000, '\0')))), HasSubstr("cut off"));
-  EXPECT_THAT(errorOf(claimedPng(2, 2, deflated(std::string(100000, '\0')))), HasSubstr("damaged"));
+  EXPECT_THAT(errorOf(claimedPng(16384, 16384, test::deflated(std::string(100000, '\0')))),
+              HasSubstr("cut off"));
+  EXPECT_THAT(errorOf(claimedPng(2, 2, test::deflated(std::string(100000, '\0')))), HasSubstr("damaged"));
   EXPECT_THAT(errorOf(claimedPng(16385, 16384, "few")), HasSubstr("more than 2^28 pixels"));
   EXPECT_THAT(errorOf(claimedPng(0xffffffff, 1, "few")), HasSubstr("on a side"));
   EXPECT_LT(peakKilobytes() - before, 4000);

@@ -15,9 +15,10 @@ namespace hybrid_slam::run {
 ScanMap readKnownMap(const std::string& file);
 
 /// Reads the map of `continueFrom` or `localizeIn`; empty without one. Sets the cell size of the filter to
-/// that of the map. In a map to continue, probabilities are limited to 0.2 to 0.8, so that things that have
+/// that of the map. In a map to continue, probabilities are limited to 0.2 to 0.8, so that objects that have
 /// moved vanish.
-/// @throws InputError likewise, and if the configuration requires another cell size or method
+/// @throws InputError for a file that is not a map, and if the configuration requires another cell size or
+/// method
 std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration);
 
 }  // namespace hybrid_slam::run

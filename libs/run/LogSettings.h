@@ -1,5 +1,5 @@
 /// @file LogSettings.h
-/// @brief Settings that follow from the sensor, read off a log.
+/// @brief Settings that depend on the sensor, derived from a log.
 #pragma once
 
 #include <string>

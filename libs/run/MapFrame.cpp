@@ -67,7 +67,7 @@ std::vector<Tick> rows(const cv::Mat& map, const MapArea& area) {
   return ticks(area.top, -1, map.rows, std::max(map.cols, map.rows), area.pixelsPerMetre);
 }
 
-LegendEntry scaleBar(const cv::Mat& map, const MapArea& area, int em) {
+LegendItem scaleBar(const cv::Mat& map, const MapArea& area, int em) {
   const double length = roundNumber(std::max(map.cols, map.rows) / 6. / area.pixelsPerMetre);
   const int pixels = std::max(1, static_cast<int>(std::lround(length * area.pixelsPerMetre)));
   const auto draw = [pixels, em](cv::Mat& picture, const cv::Rect& symbol) {
@@ -80,11 +80,11 @@ LegendEntry scaleBar(const cv::Mat& map, const MapArea& area, int em) {
 }
 
 /// Places the entries side by side, in as many rows as needed.
-std::vector<cv::Point> legendPlaces(const std::vector<LegendEntry>& legend, const Text& text, int width) {
+std::vector<cv::Point> legendPlaces(const std::vector<LegendItem>& legend, const Text& text, int width) {
   const int em = text.em();
   std::vector<cv::Point> places;
   cv::Point next(0, 0);
-  for (const LegendEntry& entry : legend) {
+  for (const LegendItem& entry : legend) {
     const int needed = static_cast<int>(entry.width * em) + em / 2 + text.widthOf(entry.label);
     if (next.x > 0 && next.x + needed > width) next = {0, next.y + 2 * em};
     places.push_back(next);
@@ -108,7 +108,7 @@ void drawGrid(cv::Mat& map, const MapArea& area) {
   for (const Tick& tick : rows(map, area)) map.row(tick.pixel) *= kFaint;
 }
 
-cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendEntry> legend) {
+cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendItem> legend) {
   const Text text(map);
   const int em = text.em();
   legend.insert(legend.begin(), scaleBar(map, area, em));

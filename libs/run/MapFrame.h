@@ -13,7 +13,7 @@ namespace hybrid_slam::run {
 double roundNumber(double most);
 
 /// An entry of the legend: draws its symbol into a rectangle of `width` x 1 times the text's height.
-struct LegendEntry {
+struct LegendItem {
   std::string label;
   double width = 2;  ///< of the symbol, in heights of the text
   std::function<void(cv::Mat& picture, const cv::Rect& symbol)> draw;
@@ -32,6 +32,6 @@ int thinLine(int pixels);
 void drawGrid(cv::Mat& map, const MapArea& area);
 
 /// Draws the map in a frame with these coordinates, above a scale bar and the legend.
-cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendEntry> legend);
+cv::Mat framed(const cv::Mat& map, const MapArea& area, std::vector<LegendItem> legend);
 
 }  // namespace hybrid_slam::run

@@ -82,21 +82,21 @@ void draw(Pen pen, const MapMarks& marks) {
                3 * pen.thin());
 }
 
-LegendEntry cells(const char* label, uint8_t grey) {
+LegendItem cells(const char* label, uint8_t grey) {
   return {label, 1.5, [grey](cv::Mat& picture, const cv::Rect& symbol) {
             cv::rectangle(picture, symbol, cv::Scalar::all(grey), cv::FILLED);
             cv::rectangle(picture, symbol, cv::Scalar::all(120), 1);
           }};
 }
 
-LegendEntry stroke(const char* label, const cv::Scalar& colour, int thickness) {
+LegendItem stroke(const char* label, const cv::Scalar& colour, int thickness) {
   return {label, 2, [=](cv::Mat& picture, const cv::Rect& symbol) {
             const int y = symbol.y + symbol.height / 2;
             cv::line(picture, {symbol.x, y}, {symbol.x + symbol.width, y}, colour, thickness, cv::LINE_AA);
           }};
 }
 
-LegendEntry circle(const char* label, const cv::Scalar& colour, int thickness, bool hasHeading) {
+LegendItem circle(const char* label, const cv::Scalar& colour, int thickness, bool hasHeading) {
   return {label, 1, [=](cv::Mat& picture, const cv::Rect& symbol) {
             const int radius = symbol.height / 2;
             const cv::Point centre(symbol.x + radius, symbol.y + radius);
@@ -106,9 +106,9 @@ LegendEntry circle(const char* label, const cv::Scalar& colour, int thickness, b
           }};
 }
 
-std::vector<LegendEntry> legendOf(const MapMarks& marks, int thin) {
-  std::vector<LegendEntry> legend{cells("occupied", MapRaster::kOccupied), cells("free", MapRaster::kFree),
-                                  cells("unknown", MapRaster::kUnknown)};
+std::vector<LegendItem> legendOf(const MapMarks& marks, int thin) {
+  std::vector<LegendItem> legend{cells("occupied", MapRaster::kOccupied), cells("free", MapRaster::kFree),
+                                 cells("unknown", MapRaster::kUnknown)};
   if (!marks.trajectory.empty()) {
     legend.push_back(stroke("path", kPath, thin));
     legend.push_back(circle("robot at the end", kRobot, 2 * thin, true));

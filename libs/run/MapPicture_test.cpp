@@ -149,7 +149,8 @@ TEST_F(Picture, OfALargeMapIsReducedAndKeepsThinWalls) {
   EXPECT_PRED2(isLike, pixel(3333, 3000), kRed);
 }
 
-/// Of a map of 2.7 m at 80 pixels per metre: 1 m apart, since "-0.5 m" is 48 pixels long.
+/// The map is 2.7 m wide at 80 pixels per metre. Its grid lines must be 1 m apart, because the label "-0.5 m"
+/// is 48 pixels long.
 TEST(MapFrame, ASmallPictureHasRoomForItsCoordinates) {
   cv::Mat map(200, 216, CV_8UC3, cv::Scalar::all(250));
   drawGrid(map, {-1.05, 1.5, 80});

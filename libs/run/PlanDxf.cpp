@@ -24,7 +24,7 @@ bool isComplete(const std::string& path) {
 constexpr char kApplication[] = "HYBRID_SLAM";  // of the extended data
 
 /// Writes the extended data of the wall whose LINE was written last.
-void writeCovariance(const Wall& wall, const DL_WriterA& out) {
+void writeCovariance(const PlanWall& wall, const DL_WriterA& out) {
   const Eigen::Matrix2d c = wall.covariance();
   out.dxfString(1001, kApplication);
   out.dxfString(1000, "covariance of offset and angle: m^2, m rad, rad^2");
@@ -54,7 +54,7 @@ void write(const FloorPlan& plan, DL_Dxf& dxf, DL_WriterA& out) {
     dxf.writeLine(out, DL_LineData(a.x, a.y, 0, b.x, b.y, 0),
                   DL_Attributes(layer, 256, 0, -1, "BYLAYER", 1.0));
   };
-  for (const Wall& wall : plan.walls) {
+  for (const PlanWall& wall : plan.walls) {
     line(wall.start, wall.end, "WALLS");
     writeCovariance(wall, out);
   }

@@ -24,7 +24,7 @@ struct Box {
 
 Box boxOf(const FloorPlan& plan) {
   Box box;
-  for (const Wall& wall : plan.walls)
+  for (const PlanWall& wall : plan.walls)
     for (const TPoint2D& p : {wall.start, wall.end})
       box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   if (plan.walls.empty()) return {0, 0, 0, 0};
@@ -36,7 +36,7 @@ void writeLine(std::ostream& out, const TPoint2D& a, const TPoint2D& b, const st
       << "\" y2=\"" << rounded(b.y) << '"' << more << "/>\n";
 }
 
-std::string covarianceAttribute(const Wall& wall) {
+std::string covarianceAttribute(const PlanWall& wall) {
   const Eigen::Matrix2d c = wall.covariance();
   std::ostringstream out;
   out << std::setprecision(4) << " data-covariance=\"" << c(0, 0) << ' ' << c(0, 1) << ' ' << c(1, 1) << '"';
@@ -44,7 +44,7 @@ std::string covarianceAttribute(const Wall& wall) {
 }
 
 /// Writes the body of a wall between its faces.
-void writeBody(std::ostream& out, const Wall& a, const Wall& b) {
+void writeBody(std::ostream& out, const PlanWall& a, const PlanWall& b) {
   const double from = std::max(a.line.along(a.start), a.line.along(b.end));
   const double to = std::min(a.line.along(a.end), a.line.along(b.start));
   const TPoint2D p = a.line.point(from), q = a.line.point(to);
@@ -62,7 +62,7 @@ Json feature(const TPoint2D& a, const TPoint2D& b, Json properties) {
           {"properties", std::move(properties)}};
 }
 
-Json properties(const Wall& wall, size_t id) {
+Json properties(const PlanWall& wall, size_t id) {
   const Eigen::Matrix2d c = wall.covariance();
   Json json{{"kind", "wall"},
             {"id", id},
@@ -97,7 +97,7 @@ void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan) {
     out << "</g>\n<g id=\"openings\" stroke=\"#4a90d9\" stroke-width=\"0.04\" stroke-dasharray=\"0.15\">\n";
     for (const Opening& opening : plan.openings) writeLine(out, opening.start, opening.end);
     out << "</g>\n<g id=\"walls\" stroke=\"black\" stroke-width=\"0.08\" stroke-linecap=\"round\">\n";
-    for (const Wall& wall : plan.walls) writeLine(out, wall.start, wall.end, covarianceAttribute(wall));
+    for (const PlanWall& wall : plan.walls) writeLine(out, wall.start, wall.end, covarianceAttribute(wall));
     out << "</g>\n</g>\n</svg>\n";
   });
 }

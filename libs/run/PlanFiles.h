@@ -12,11 +12,11 @@
 namespace hybrid_slam::run {
 
 /// Writes `plan.svg`: walls black, filled between their two faces; openings dashed. The attribute
-/// `data-covariance` of a wall holds the upper triangle of Wall::covariance.
+/// `data-covariance` of a wall holds the upper triangle of PlanWall::covariance.
 void savePlanSvg(const files::OutputFolder& folder, const FloorPlan& plan);
 
 /// Writes `plan.dxf` (R12, metres): a LINE for each wall on the layer WALLS, and for each opening on
-/// OPENINGS. A wall's extended data (HYBRID_SLAM) holds the upper triangle of Wall::covariance.
+/// OPENINGS. A wall's extended data (HYBRID_SLAM) holds the upper triangle of PlanWall::covariance.
 /// @throws InputError if it cannot be written completely
 void savePlanDxf(const files::OutputFolder& folder, const FloorPlan& plan);
 
@@ -31,7 +31,7 @@ void savePlan(const files::OutputFolder& folder, const FloorPlan& plan);
 /// @throws InputError for a file that is unreadable, of another format or without walls, and as
 /// PlanLines::add
 std::vector<PlanLine> loadPlan(const std::string& file);
-/// Likewise for the content of the file.
+/// Reads the walls of a plan from the content of its file, as loadPlan does.
 std::vector<PlanLine> planOf(const std::string& text, const std::string& file);
 
 /// Bounds the number of pieces in which plans are compared and searched.

@@ -22,7 +22,7 @@ struct PlanFiles : testing::Test {
     FloorPlan result;
     for (const auto& [x0, y0, x1, y1] :
          {std::array<double, 4>{0, 0, 3, 0}, {4.0625, 0, 7, 0}, {-1.5, -2, -1.5, 1e3}}) {
-      Wall wall;
+      PlanWall wall;
       wall.start = {x0, y0}, wall.end = {x1, y1};
       const auto d = wall.end - wall.start;
       wall.line = lineThrough((wall.start + wall.end) * 0.5, std::atan2(d.y, d.x), d.norm(), 0.01);

@@ -33,7 +33,7 @@ void addGeometry(const Json& geometry, PlanLines& lines) {
 }
 
 void readGeoJson(const std::string& text, PlanLines& lines) {
-  // Anything nested deeper is no GeoJSON, and would use up the stack.
+  // Anything nested deeper is not GeoJSON, and would overflow the stack.
   const Json json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
     if (depth > 20) throw std::runtime_error("nested too deeply");
     return true;

@@ -57,11 +57,11 @@ class SessionReader {
   /// Returns whether the state of a run follows the header; not in a merged map (slam-merge).
   bool hasRun() const { return !in_.isAtEnd(); }
   /// Reads the first part after the header, the filter's state.
-  /// @throws InputError likewise
+  /// @throws InputError if it is damaged or cut
   void read(const std::function<void(StateReader&)>& read) {
     guarded([&] { read(in_); });
   }
-  /// Likewise, to the end of the file.
+  /// Reads the second part, from there to the end of the file. @throws InputError if it is damaged or cut
   void readRest(const std::function<void(StateReader&)>& read);
 
  private:

@@ -20,7 +20,7 @@ struct Verdict {
   enum class Level { consistent, doubtful, lost };
 
   Level level = Level::consistent;
-  std::vector<std::string> reasons;   ///< short sentences, the gravest first
+  std::vector<std::string> reasons;   ///< short sentences, the most serious first
   std::vector<DoubtfulPlace> places;  ///< the longest first, at most ten
 
   std::string name() const;

@@ -49,7 +49,7 @@ void checkLaserAddress(const mrpt::config::CConfigFileMemory& config, const std:
   const std::string address = config.read_string(section, "ip_address", "192.168.0.1");
   if (isPrivate(address) || config.read_bool(section, "trust_address", false)) return;
   throw InputError(
-      "`" + address + "` is no private address", "section [" + section + "], key `ip_address`",
+      "`" + address + "` is not a private address", "section [" + section + "], key `ip_address`",
       "expected the laser in the robot's own network, such as 192.168.0.1, or trust_address = true");
 }
 
@@ -109,7 +109,7 @@ struct SensorThread::Work {
 CGenericSensor::Ptr SensorThread::Work::make() const {
   CGenericSensor::Ptr sensor = CGenericSensor::createSensorPtr(driver);
   if (auto* output = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get())) {
-    // Drivers write much to the console; only warnings and errors become events.
+    // Drivers are verbose: only their warnings and errors become events.
     output->logging_enable_console_output = false;
     output->setMinLoggingLevel(mrpt::system::LVL_WARN);
     output->logRegisterCallback([log = log, subject = "sensor " + section](

@@ -1,41 +1,22 @@
 /// @file maps.cpp
 /// @brief Maps: grid maps of MRPT, map.yaml, and the pictures that it names.
 
-#include <zlib.h>
-
 #include <string>
 
 #include "MemoryFile.h"
 #include "base/Errors.h"
 #include "run/MapReader.h"
+#include "testing/PngFile.h"
 
 using namespace hybrid_slam;
 
 namespace {
 
-std::string bigEndian(uLong value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-  return bytes;
-}
-
-std::string chunk(const std::string& type, const std::string& content) {
-  const std::string checked = type + content;
-  return bigEndian(content.size()) + checked +
-         bigEndian(
-             ::crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())));
-}
-
 /// Makes a PNG file with this header and these pixels, since mutations do not find valid checksums.
 std::string pngOf(const std::string& bytes) {
   constexpr size_t kHeader = 13;
   const std::string pixels = bytes.size() > kHeader ? bytes.substr(kHeader) : "";
-  std::string deflated(::compressBound(pixels.size()), '\0');
-  uLongf size = deflated.size();
-  ::compress2(reinterpret_cast<Bytef*>(deflated.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()),
-              pixels.size(), 1);
-  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", bytes.substr(0, kHeader)) +
-         chunk("IDAT", deflated.substr(0, size)) + chunk("IEND", "");
+  return test::pngFile(bytes.substr(0, kHeader), test::deflated(pixels, 1));
 }
 
 void read(const std::string& path) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/RandomStream.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/Laser.h"
 #include "study/simulation/Route.h"
 
@@ -20,7 +20,7 @@ class SimulatedRobot {
  public:
   /// @param step  s of the route from one scan to the next
   SimulatedRobot(const std::string& plan, const std::string& route, double step)
-      : plan_(simulation::FloorPlan::load(plan)),
+      : plan_(simulation::BuildingPlan::load(plan)),
         route_(simulation::Route::load(route)),
         step_(step),
         laser_(options()) {}
@@ -50,7 +50,7 @@ class SimulatedRobot {
     return laser;
   }
 
-  simulation::FloorPlan plan_;
+  simulation::BuildingPlan plan_;
   simulation::Route route_;
   double step_;
   simulation::Laser laser_;

@@ -31,7 +31,7 @@ const double kSharpest = std::sin(mrpt::DEG2RAD(30.0));
 
 /// A straight piece of a run. Its line is that of its points without the shared corners, which belong to
 /// neither wall.
-struct Wall {
+struct WallPiece {
   PointRange piece;
   PointRange inner;  ///< without the shared corners
   FittedLine line;
@@ -46,7 +46,7 @@ double atLeast(double squares, double freedom) {
   return std::max(squares / std::max(freedom, 1.0), kLeastVariance);
 }
 
-std::optional<Wall> wallOf(PointRange piece, PointRange run) {
+std::optional<WallPiece> wallOf(PointRange piece, PointRange run) {
   PointRange inner = piece;
   if (inner.first != run.first) ++inner.first;
   if (inner.last != run.last) --inner.last;
@@ -55,26 +55,26 @@ std::optional<Wall> wallOf(PointRange piece, PointRange run) {
   const double n = static_cast<double>(inner.size()), rms = rmsDistance(inner, *line);
   const TPoint2D a = projected(inner.front(), line->rho, line->theta),
                  b = projected(inner.back(), line->rho, line->theta);
-  return Wall{piece,          inner,         *line,       n * rms * rms, atLeast(n * rms * rms, n - 2),
-              (b - a).norm(), (a + b) * 0.5, inner.size()};
+  return WallPiece{piece,          inner,         *line,       n * rms * rms, atLeast(n * rms * rms, n - 2),
+                   (b - a).norm(), (a + b) * 0.5, inner.size()};
 }
 
 /// Variance of the line perpendicular to it, at a point on it: sigma^2 / n (1 + 12 d^2 / l^2), with d from
 /// the middle.
-double varianceAt(const Wall& wall, const TPoint2D& point) {
+double varianceAt(const WallPiece& wall, const TPoint2D& point) {
   const double d = (point - wall.middle).norm() / wall.length;
   return wall.variance / static_cast<double>(wall.count) * (1 + 12 * d * d);
 }
 
-double angleVariance(const Wall& wall) {
+double angleVariance(const WallPiece& wall) {
   return 12 * wall.variance / (static_cast<double>(wall.count) * wall.length * wall.length);
 }
 
-bool isClear(const Wall& wall, double minWall, double maxRms) {
+bool isClear(const WallPiece& wall, double minWall, double maxRms) {
   return wall.length >= minWall && wall.squares <= static_cast<double>(wall.count) * maxRms * maxRms;
 }
 
-std::optional<PointFeature> cornerOf(const Wall& a, const Wall& b, double minWall, double maxRms) {
+std::optional<PointFeature> cornerOf(const WallPiece& a, const WallPiece& b, double minWall, double maxRms) {
   if (a.piece.last - 1 != b.piece.first || !isClear(a, minWall, maxRms) || !isClear(b, minWall, maxRms))
     return std::nullopt;
   const double sine = std::sin(b.line.theta - a.line.theta);
@@ -87,7 +87,7 @@ std::optional<PointFeature> cornerOf(const Wall& a, const Wall& b, double minWal
 
   PointFeature corner;
   corner.position = {at.x(), at.y()};
-  // Not farther from the beam at the corner than its neighbours are.
+  // The corner may not be farther from its beam than the beam's neighbours are.
   const TPoint2D& beam = b.piece.front();
   const double spacing = std::max((beam - *(b.piece.first - 1)).norm(), (beam - *(b.piece.first + 1)).norm());
   if ((corner.position - beam).norm() > std::max(spacing, kSplitDistance)) return std::nullopt;
@@ -101,8 +101,8 @@ std::optional<PointFeature> cornerOf(const Wall& a, const Wall& b, double minWal
   return corner;
 }
 
-/// Whether no beam without a reading lies between the points `a` and `b`: the angle between them is not
-/// larger than that to the beam `c` on the other side of `b`.
+/// Returns whether no beam without a reading lies between the points `a` and `b`: the angle between them is
+/// not larger than that to the beam `c` on the other side of `b`.
 bool isNeighbour(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
   const auto angle = [](const TPoint2D& p, const TPoint2D& q) {
     return std::abs(std::atan2(p.x * q.y - p.y * q.x, p.x * q.x + p.y * q.y));
@@ -114,7 +114,7 @@ bool isNeighbour(const TPoint2D& a, const TPoint2D& b, const TPoint2D& c) {
 /// whose other wall shows too few points: between the last beam on the wall and the next one.
 /// @param all     the scan's points
 /// @param isLast  the end in beam order, or the start
-std::optional<PointFeature> wallEndOf(const Wall& wall, bool isLast, PointRange all, double minWall,
+std::optional<PointFeature> wallEndOf(const WallPiece& wall, bool isLast, PointRange all, double minWall,
                                       double maxRms) {
   if (!isClear(wall, minWall, maxRms)) return std::nullopt;
   const std::ptrdiff_t step = isLast ? 1 : -1;
@@ -123,7 +123,7 @@ std::optional<PointFeature> wallEndOf(const Wall& wall, bool isLast, PointRange 
   if (next < all.first || next >= all.last || !isNeighbour(*next, *edge, *(edge - step))) return std::nullopt;
   const TPoint2D from =
       projected(isLast ? wall.inner.back() : wall.inner.front(), wall.line.rho, wall.line.theta);
-  // Where the next beam would have met the wall.
+  // `to` is where the next beam would have met the wall.
   const TPoint2D beam = next->unitarize();
   const double facing = beam.x * std::cos(wall.line.theta) + beam.y * std::sin(wall.line.theta);
   const TPoint2D to = beam * (wall.line.rho / facing);
@@ -201,7 +201,7 @@ std::vector<PointFeature> detectFeatures(const LaserScan& scan, const LineExtrac
     if (run.size() < kLeastPoints) continue;
     std::vector<PointRange> pieces;
     splitAtCorners(run, straight, pieces);
-    std::vector<Wall> walls;
+    std::vector<WallPiece> walls;
     double squares = 0, freedom = 0;
     for (const PointRange& piece : pieces)
       if (const auto wall = wallOf(piece, run)) {
@@ -209,12 +209,12 @@ std::vector<PointFeature> detectFeatures(const LaserScan& scan, const LineExtrac
         squares += wall->squares;
         freedom += static_cast<double>(wall->count) - 2;
       }
-    for (Wall& wall : walls) wall.variance = std::max(wall.variance, atLeast(squares, freedom));
+    for (WallPiece& wall : walls) wall.variance = std::max(wall.variance, atLeast(squares, freedom));
     const double variance = walls.empty() ? lines.fit.maxRms * lines.fit.maxRms : atLeast(squares, freedom);
     const auto arc = arcOf(run, kSimilar * variance, lines.fit.maxRms);
     const bool isArc = arc && arc->variance < variance && isRound(arc->feature);
     if (isArc && arc->feature.radius <= options.maxRadius) add(arc->feature);
-    // Few points of a round thing may look like several walls: it then has neither a centre nor corners.
+    // A round object with few points may look like several walls; it then gives neither a centre nor corners.
     if (isArc || (arc && walls.size() > 1)) continue;
     bool startsAtCorner = false;
     for (size_t i = 0; i < walls.size(); ++i) {

@@ -26,7 +26,8 @@ void HybridFilter::process(const TPose2D& odometry, const Scans& scans) {
   if (!scans.empty() && (!hasMap_ || interval_.isOver(odometry_))) update(scans);
 }
 
-// Fig. 1 from top to bottom.
+// Fig. 1 from top to bottom: the factorisation of eq. (1), first the path (steps 1 to 3), then the maps given
+// the path (step 4).
 void HybridFilter::update(const Scans& scans) {
   CTimeLoggerEntry preparing(profiler(), "2 prepare scan, extract lines");
   const PreparedScan scan = prepare_(scans);  // line detection, Sec. III-B, eq. (2)-(6)
@@ -49,7 +50,7 @@ void HybridFilter::update(const Scans& scans) {
   ++updates_;
 }
 
-// Not in the paper: corrects path and maps where all particles agree on a map that does not fit itself.
+// Corrects path and maps where all particles agree on an inconsistent map. Not in the paper.
 void HybridFilter::closeLoops(const PreparedScan& scan) {
   const CTimeLoggerEntry closing(profiler(), "6 close loops");
   const Particle& best = particles_.best();
@@ -64,7 +65,8 @@ void HybridFilter::closeLoops(const PreparedScan& scan) {
   particles_.setLoop(*closure);
 }
 
-// All particles go on from one path, with its start, and from the map of the remembered scans along it.
+// All particles continue from one path, including its start, and from the map of the remembered scans along
+// it.
 void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   std::vector<PosedScans> all = known_;
   for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], path[i + 1], true});

@@ -1,4 +1,4 @@
-// The state of the filter: the templates of State.h are instantiated here alone.
+// The state of the filter: the templates of State.h are instantiated only here.
 #include "base/ScanState.h"
 #include "slam/filter/HybridFilter.h"
 

@@ -4,7 +4,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPose3DPDFParticles.h>
 
-#include "slam/motion/OdometryIncrement.h"
+#include "base/OdometryIncrement.h"
 
 namespace hybrid_slam {
 

@@ -187,7 +187,7 @@ TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
     particle.lines.write().update(walls, c.database, c.association);
   const ScanBeams none{LaserScan()};
   PreparedScan scan{{}, none, none, none, {}};
-  for (const LineSegment& wall : walls) scan.lines.push_back(transformed(wall, TPose2D() - truth));
+  scan.lines = transformed(walls, TPose2D() - truth);
 
   constexpr int kDraws = 500;
   RandomStream random(8, 0, 0);

@@ -1,5 +1,6 @@
 /// @file Particle.h
-/// @brief One hypothesis of the filter: Table 1 of the paper.
+/// @brief One hypothesis of the filter: Table 1 of the paper. By the factorisation of eq. (1), its maps
+/// follow from its path and the scans.
 #pragma once
 
 #include "slam/features/FeatureDatabase.h"

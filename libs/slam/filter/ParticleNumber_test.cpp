@@ -17,8 +17,8 @@ std::vector<WeightedPose> cloud(size_t particles, double sigma) {
   return poses;
 }
 
-/// Half the quantile of chi-square with k - 1 degrees of freedom over the error: eq. (6) of the paper, of
-/// which Fox's eq. (7) is an approximation. 95 %: 3.841, 9.488, 30.144 for 1, 4, 19.
+/// Half the quantile of chi-square with k - 1 degrees of freedom over the error: Fox 2003, eq. (6), of
+/// which eq. (7) is an approximation. 95 %: 3.841, 9.488, 30.144 for 1, 4, 19.
 TEST(ParticleNumber, IsTheQuantileOfChiSquare) {
   const double twice = 2 * kDivergence;
   EXPECT_NEAR(kldParticles(2), 3.841 / twice, 0.04 * 3.841 / twice);

@@ -252,11 +252,7 @@ void ParticleSet::updateMaps(const PreparedScan& scan) {
     if (isCopy(i)) return;
     const TPose2D pose = particle.path.back();
     if (useGrid_) particle.grid.insert(scan.beams, pose, grid_);
-    if (useLines_) {
-      std::vector<LineSegment> lines;
-      for (const LineSegment& line : scan.lines) lines.push_back(transformed(line, pose));
-      particle.lines.write().update(lines, database_, association_);
-    }
+    if (useLines_) particle.lines.write().update(transformed(scan.lines, pose), database_, association_);
     if (features_.enabled) {
       std::vector<PointFeature> features;
       for (const PointFeature& feature : scan.features) features.push_back(transformed(feature, pose));

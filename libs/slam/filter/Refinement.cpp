@@ -35,9 +35,7 @@ ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& c
   for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
     const LaserScans scan = toLaserScans(posed.scans, configuration.grid.maxRange);
-    std::vector<LineSegment> lines = prepare.lines(scan);
-    for (LineSegment& line : lines) line = transformed(line, posed.pose);
-    map.lines.update(lines, database, configuration.association);
+    map.lines.update(transformed(prepare.lines(scan), posed.pose), database, configuration.association);
     if (!configuration.features.enabled) continue;
     std::vector<PointFeature> features = prepare.features(scan);
     for (PointFeature& feature : features) feature = transformed(feature, posed.pose);

@@ -20,8 +20,8 @@ constexpr double kMinFit = 0.1;  // good matches fit 0.2 to 0.7
 constexpr size_t kKeyframes = 20;
 constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
 
-FilterConfiguration withoutLines(FilterConfiguration configuration) {
-  configuration.useLines = false;
+FilterConfiguration withBeamsAlone(FilterConfiguration configuration) {
+  configuration.useLines = configuration.features.enabled = false;
   return configuration;
 }
 
@@ -36,7 +36,7 @@ GridOptions decisive(GridOptions options) {
 }  // namespace
 
 ScanOdometry::ScanOdometry(const FilterConfiguration& c)
-    : grid_(decisive(c.grid)), prepare_(withoutLines(c)), matcher_(c.matcher), map_(c.grid.resolution) {}
+    : grid_(decisive(c.grid)), prepare_(withBeamsAlone(c)), matcher_(c.matcher), map_(c.grid.resolution) {}
 
 TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
   const PreparedScan scan = prepare_(observed);
@@ -60,7 +60,7 @@ TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
 }
 
 TPose2D ScanOdometry::predicted(double duration) const {
-  // A robot may stop during a gap in the log: never more than the last motion.
+  // A robot may stop during a gap in the log: predict at most the last motion.
   const double scale = duration > 0 && lastDuration_ > 0 ? std::min(duration / lastDuration_, 1.0) : 1;
   return {scale * lastMotion_.x, scale * lastMotion_.y, scale * lastMotion_.phi};
 }

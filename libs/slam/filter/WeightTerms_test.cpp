@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// A particle that knows a wall, and a scan of it with a corner.
+/// A particle with a wall in its database, and a scan of this wall with a corner.
 struct Scene {
   Scene() {
     for (int i = 0; i < 5; ++i)

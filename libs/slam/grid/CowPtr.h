@@ -43,7 +43,7 @@ class CowPtr {
   /// Synchronises with the last other owner, which may just have read the value on another thread.
   void acquire() const {
 #ifdef __SANITIZE_THREAD__
-    const std::shared_ptr<T> counted = shared_;  // the thread sanitizer does not know fences, but this order
+    const std::shared_ptr<T> counted = shared_;  // the thread sanitizer understands this, but not fences
 #else
     std::atomic_thread_fence(std::memory_order_acquire);
 #endif

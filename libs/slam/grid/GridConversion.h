@@ -17,7 +17,7 @@ constexpr size_t kMostCells = size_t{1} << 28;
 ///                   occupancy and the smallest sufficient n
 mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, size_t mostCells = kMostCells);
 
-/// Likewise, for the cells of `box`.
+/// Converts only the cells of `box`.
 /// @throws InputError for more than kMostCells
 mrpt::maps::COccupancyGridMap2D toMrpt(const OccupancyGrid& grid, const CellBox& box);
 

@@ -185,7 +185,7 @@ TEST(OccupancyGrid, CellsAtTheirBoundsStayShared) {
   EXPECT_GE(tiles, 4u);
 }
 
-/// More beams through a cell than a counter can hold.
+/// More beams pass through the cell than its counter can hold.
 TEST(OccupancyGrid, AThousandBeamsThroughOneCell) {
   std::vector<Reading> readings;
   for (int i = 0; i < 1000; ++i) readings.push_back({0.001 * i - 0.5, 3});

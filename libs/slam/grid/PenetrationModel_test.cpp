@@ -101,11 +101,10 @@ TEST(PenetrationModel, AReadingBehindAWallIsAsUnlikelyAsTheWallIsSolid) {
   corridor.fill(0, 300, kFree);
   corridor.wall(60, 40), corridor.wall(100, 40);
   const double p = corridor.occupancy(60);
-  // At the second wall, 2 m (25 sigma) behind the first: the beam passed the first and was stopped by the
-  // second.
+  // The beam passed the first wall and was stopped by the second, 2 m (25 sigma) behind it.
   EXPECT_NEAR(corridor.likelihood(5.02), (1 - p) * p / (1 - (1 - p) * (1 - p)) * corridor.gaussian(100, 5.02),
               1e-12);
-  // At the first wall; the second is out of range of the sum.
+  // The beam was stopped by the first wall; the second is out of range of the sum.
   EXPECT_NEAR(corridor.likelihood(3.02), corridor.gaussian(60, 3.02), 1e-12);
 }
 

@@ -25,7 +25,7 @@ class ScanLikelihood {
   ScanLikelihood(const ScanBeams& scan, const OccupancyGrid& grid, double sigma);
 
   LogDensity operator()(const mrpt::math::TPose2D& pose);
-  /// Likewise, value only.
+  /// Returns the log-likelihood without its derivatives.
   double value(const mrpt::math::TPose2D& pose);
   /// Mean of m at the beam end points, in [0, 1]; 0 without beams.
   double fit(const mrpt::math::TPose2D& pose);

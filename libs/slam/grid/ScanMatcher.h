@@ -60,7 +60,7 @@ class ScanMatcher {
   ScanMatch match(const ScanBeams& scan, const mrpt::math::TPose2D& start, const OccupancyGrid& grid,
                   const Prior& prior) const;
 
-  /// Likewise, for a likelihood that is used further.
+  /// Optimises a likelihood that the caller keeps using, so that its cached cells are reused.
   ScanMatch match(ScanLikelihood& likelihood, const mrpt::math::TPose2D& start, const Prior& prior) const;
 
  private:

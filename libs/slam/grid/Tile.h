@@ -25,7 +25,7 @@ class Tile {
   /// Returns whether every cell of a square is known and more likely free than occupied.
   /// @param x,y  grid coordinates of the square: those of its cells divided by 8
   bool isFree(int x, int y) const { return isFree(x, y, x, y); }
-  /// Likewise for the four corner squares of a rectangle of squares.
+  /// Returns whether the four corner squares of a rectangle of squares are all free.
   bool isFree(int x0, int y0, int x1, int y1) const {
     const int corners = 1 << squareIndex(x0, y0) | 1 << squareIndex(x1, y0) | 1 << squareIndex(x0, y1) |
                         1 << squareIndex(x1, y1);

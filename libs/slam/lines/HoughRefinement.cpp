@@ -31,6 +31,7 @@ int cellsIn(double window, double resolution) {
 
 }  // namespace
 
+// Sec. III-B, step 3. `fitted` has the initial Hough parameters of eq. (6).
 FittedLine refineByHough(PointRange points, const FittedLine& fitted, const HoughOptions& options) {
   const TPoint2D pivot =
       projected({0.5 * (points.front().x + points.back().x), 0.5 * (points.front().y + points.back().y)},

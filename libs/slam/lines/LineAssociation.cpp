@@ -29,6 +29,7 @@ LineDifference difference(const LineSegment& segment, const LineSegment& referen
   return result;
 }
 
+// Sec. III-C, step 1 (search): the weighted Euclidean distance in Hough space of the paper's [13].
 std::optional<double> matchDistance(const LineSegment& segment, const LineSegment& reference,
                                     const AssociationOptions& options) {
   // Most lines of a database have another direction: the cheap test first.

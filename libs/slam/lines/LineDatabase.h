@@ -63,7 +63,7 @@ inline double evidence(const DatabaseLine& line) { return line.length * std::min
 /// atan2(sum w sin 4 theta, sum w cos 4 theta) / 4, w the evidence of each line. Empty if there is no line or
 /// no dominating direction.
 std::optional<double> directionModuloRightAngle(const std::vector<DatabaseLine>& lines);
-/// Likewise for observed lines, which count once each.
+/// The same for observed lines, whose evidence counts each as observed once.
 std::optional<double> directionModuloRightAngle(const std::vector<LineSegment>& seen);
 
 /// The angle modulo 90 deg, rad in [-pi/4, pi/4].

@@ -63,4 +63,9 @@ LineSegment transformed(const LineSegment& segment, const mrpt::math::TPose2D& f
   return result;
 }
 
+std::vector<LineSegment> transformed(std::vector<LineSegment> segments, const mrpt::math::TPose2D& frame) {
+  for (LineSegment& segment : segments) segment = transformed(segment, frame);
+  return segments;
+}
+
 }  // namespace hybrid_slam

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include <cmath>
+#include <vector>
 
 namespace mrpt::math {
 struct TPose2D;
@@ -36,8 +37,9 @@ LineSegment makeSegment(const mrpt::math::TPoint2D& start, const mrpt::math::TPo
 LineSegment makeSegment(double rho, double theta, const mrpt::math::TPoint2D& start,
                         const mrpt::math::TPoint2D& end);
 
-/// Transforms a segment from `frame` to the frame that `frame` is given in (sensor -> robot -> map).
+/// Transforms segments from `frame` to the frame that `frame` is given in (sensor -> robot -> map).
 LineSegment transformed(const LineSegment& segment, const mrpt::math::TPose2D& frame);
+std::vector<LineSegment> transformed(std::vector<LineSegment> segments, const mrpt::math::TPose2D& frame);
 
 /// Normalises to rho >= 0 and theta in (-pi, pi]: (rho, theta) and (-rho, theta + pi) are the same line.
 void normalise(double& rho, double& theta);

@@ -21,6 +21,7 @@ void SegmentationOptions::describe(OptionTable& table) {
             "minimum length of a line; shorter ones have uncertain directions");
 }
 
+// Sec. III-B, step 1, without the split at corners, which the paper does not have.
 SegmentedScan::SegmentedScan(const LaserScan& scan, const SegmentationOptions& options)
     : minPoints_(options.minPoints) {
   points_.reserve(scan.beams.size());

@@ -22,9 +22,9 @@ constexpr size_t kNear = 8;            // starting points of the local optimisat
 constexpr double kIndependent = 0.25;  // scans half a metre apart that count as much as independent ones
 constexpr double kUnexplained = -1.2;  // ln w_grid of a scan of a place that is not in the map
 constexpr double kElsewhere = 0.1;     // least belief that no hypothesis is right, until one is declared
-constexpr size_t kAnywhere = 100;      // places that stand for it, at most
+constexpr size_t kAnywhere = 100;      // places that represent it, at most
 constexpr double kHopeless = 40;       // ln of the ratio of weights to the best, to be dropped
-constexpr size_t kFirst = 4;           // scans that must speak for a new hypothesis,
+constexpr size_t kFirst = 4;           // scans that must support a new hypothesis,
 constexpr double kSupport = 2;  // with this ln of the ratio of weights to a place that is not in the map
 constexpr double kSame = 0.5, kSameAngle = mrpt::DEG2RAD(10.0);  // m, of two hypotheses of one place
 constexpr double kStdXY = 0.15, kStdPhi = mrpt::DEG2RAD(3.0);    // of a pose before a match
@@ -65,12 +65,13 @@ bool isExplained(const BeamShares& scan) {
   return scan.explained > kExplained && scan.contradicted < kContradicted;
 }
 
-GlobalLocalization::GlobalLocalization(const FilterConfiguration& c, OccupancyGrid grid, LineDatabase lines)
+GlobalLocalization::GlobalLocalization(const GridWeightOptions& gridWeight, const ScanMatcherOptions& matcher,
+                                       OccupancyGrid grid, LineDatabase lines)
     : grid_(std::move(grid)),
       lines_(std::move(lines)),
-      exponent_(c.gridWeight.exponent * kIndependent),
-      matcher_(c.matcher),
-      gridWeight_(c.gridWeight, grid_.resolution()),
+      exponent_(gridWeight.exponent * kIndependent),
+      matcher_(matcher),
+      gridWeight_(gridWeight, grid_.resolution()),
       search_(grid_, centreOf(grid_)) {
   std::vector<TPoint2D> places;
   for (double spacing = 2; spacing == 2 || places.size() > kAnywhere; spacing *= 1.5)
@@ -123,7 +124,7 @@ double GlobalLocalization::unexplained(size_t scans) const {
   return exponent_ * kUnexplained * static_cast<double>(scans);
 }
 
-// A scan may show what is not in the map: then it speaks for no place, but not against one either.
+// A scan of something that is not in the map neither supports nor contradicts a place.
 void GlobalLocalization::weigh(Hypothesis& hypothesis) const {
   hypothesis.logWeight = 0;
   for (const ScanEvidence& scan : hypothesis.evidence)

@@ -6,11 +6,11 @@
 
 #include <vector>
 
-#include "slam/filter/FilterOptions.h"
 #include "slam/filter/FilterView.h"
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/GlobalSearch.h"
 #include "slam/grid/GridWeight.h"
+#include "slam/grid/ScanMatcher.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/localization/RecentScans.h"
 
@@ -42,7 +42,8 @@ struct Hypothesis {
 /// followed so far. The robot is found when one place explains the scans and no other does nearly as well.
 class GlobalLocalization {
  public:
-  GlobalLocalization(const FilterConfiguration& configuration, OccupancyGrid grid, LineDatabase lines);
+  GlobalLocalization(const GridWeightOptions& gridWeight, const ScanMatcherOptions& matcher,
+                     OccupancyGrid grid, LineDatabase lines);
 
   /// Forgets the hypotheses.
   void clear() { hypotheses_.clear(), isFound_ = false; }

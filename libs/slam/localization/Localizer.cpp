@@ -45,8 +45,8 @@ Localizer::Localizer(FilterConfiguration configuration, OccupancyGrid grid, Line
       start_(start),
       prepare_(configuration),
       particles_(configuration, &profiler()),
-      global_(configuration, grid_, lines_),
-      recent_(configuration),
+      global_(configuration.gridWeight, configuration.matcher, grid_, lines_),
+      recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit),
       arena_(arenaThreads(configuration.filter.threads)) {}
 
 void Localizer::process(const TPose2D& odometry, const Scans& scans) {
@@ -90,8 +90,7 @@ void Localizer::track(const PreparedScan& scan, bool isRemembered) {
   if (isRemembered) check(beamShares(scan.matchedBeams, pose_, grid_));
 }
 
-// A robot that was carried to a place that looks much like the one before is found out by comparing the
-// places.
+// Comparing the places detects a robot that was carried to a similar one.
 void Localizer::check(const BeamShares& shares) {
   const bool isSupported = shares.contradicted < kContradicted && shares.explained > kExplained;
   unsupported_ = isSupported ? 0 : unsupported_ + 1;

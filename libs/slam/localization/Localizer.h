@@ -33,9 +33,6 @@ class Localizer : public Filter {
   /// and their spreads then cover all of them.
   bool isLocalized() const { return isTracking_; }
 
-  /// The scans by which the place is searched for and checked.
-  const RecentScans& recentScans() const { return recent_; }
-
   size_t updates() const override { return path_.size(); }
   const FilterStep& lastStep() const override { return step_; }
   /// Returns the best estimate at each update, not corrected later.

@@ -13,25 +13,8 @@ namespace {
 using namespace test;
 using Proposal = ParticleFilterOptions::Proposal;
 
-struct Map {
-  OccupancyGrid grid;
-  LineDatabase lines;
-};
-
 /// A map made of scans from all over an area of 8 m x 5 m.
-Map mapOf(const Walls& walls) {
-  Map map;
-  RandomStream random(1, 0, 0);
-  for (int i = 0; i < 80; ++i) {
-    const TPose2D robot(uniform(random, -2, 6), uniform(random, -1.5, 3.5), uniform(random, -M_PI, M_PI));
-    const PreparedScan scan = prepared(walls, robot, random);
-    map.grid.insert(scan.beams, robot, GridOptions());
-    std::vector<LineSegment> seen;
-    for (const LineSegment& line : scan.lines) seen.push_back(transformed(line, robot));
-    map.lines.update(seen, LineDatabaseOptions(), AssociationOptions());
-  }
-  return map;
-}
+RoomMap mapOf(const Walls& walls) { return mappedFrom({-2, -1.5}, {6, 3.5}, walls, 80); }
 
 /// A room with rotational symmetry.
 const Walls kSymmetric = polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {-3, 6}});
@@ -70,7 +53,7 @@ FilterConfiguration with(Proposal proposal) {
 }
 
 TEST(Localizer, TracksFromAGivenStart) {
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   for (const auto proposal : {Proposal::improved, Proposal::standard})
     for (const bool hasLines : {true, false}) {
       FilterConfiguration c = with(proposal);
@@ -91,7 +74,7 @@ TEST(Localizer, TracksFromAGivenStart) {
 }
 
 TEST(Localizer, FindsTheRobotInAnAsymmetricRoom) {
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   for (const bool hasLines : {true, false})
     for (uint64_t seed = 1; seed <= 5; ++seed) {
       RandomStream random(seed, 0, 0);
@@ -114,7 +97,7 @@ TEST(Localizer, FindsTheRobotInAnAsymmetricRoom) {
 
 TEST(Localizer, StaysUndecidedWhereTwoPlacesLookAlike) {
   for (const Walls& walls : {kSymmetric, kCorridor}) {
-    const Map map = mapOf(walls);
+    const RoomMap map = mapOf(walls);
     Drive drive(walls, {2, 0, 0.3});
     Localizer localizer(FilterConfiguration(), map.grid, map.lines, std::nullopt);
     for (int i = 0; i < 60; ++i) {
@@ -126,7 +109,7 @@ TEST(Localizer, StaysUndecidedWhereTwoPlacesLookAlike) {
 }
 
 TEST(Localizer, FindsACarriedRobot) {
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   for (const auto proposal : {Proposal::improved, Proposal::standard})
     for (const TPose2D& to : {TPose2D(5, 2, 2), TPose2D(-1.5, 3, -1), TPose2D(6, -1, 3)}) {
       Drive drive(room(), {1, 1, 0});
@@ -140,7 +123,7 @@ TEST(Localizer, FindsACarriedRobot) {
 }
 
 TEST(Localizer, ClaimsNoPlaceOutsideTheMap) {
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   const Walls elsewhere = polygon({{-1, -1}, {1, -2}, {4, 0}, {2, 5}, {-2, 2}});
   Drive unknown(elsewhere, {1, 1, 0}), taken(room(), {1, 1, 0});
   Localizer started(FilterConfiguration(), map.grid, map.lines, std::nullopt);
@@ -158,7 +141,7 @@ TEST(Localizer, ClaimsNoPlaceOutsideTheMap) {
 }
 
 TEST(Localizer, FindsARobotThatComesBack) {
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   Drive drive(room(), {1, 1, 0});
   Localizer localizer(FilterConfiguration(), map.grid, map.lines, TPose2D(1, 1, 0));
   for (int i = 0; i < 10; ++i) drive.step(localizer);
@@ -173,7 +156,7 @@ TEST(Localizer, FindsARobotThatComesBack) {
 
 TEST(Localizer, IsTheSameForAnyNumberOfThreads) {
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
-  const Map map = mapOf(room());
+  const RoomMap map = mapOf(room());
   std::vector<std::vector<TPose2D>> paths;
   for (const int threads : {1, 4}) {
     FilterConfiguration c;

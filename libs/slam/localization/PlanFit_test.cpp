@@ -67,7 +67,7 @@ TEST(PlanFit, KeepsWhatNoPointShows) {
   EXPECT_NEAR(fit.pose.y, 0, 0.01);
 }
 
-// Furniture stands in front of a wall, and a wall of the plan is not there.
+// Furniture hides part of a wall, and one wall of the plan does not exist.
 TEST(PlanFit, IsRobustAgainstFurnitureAndWrongWalls) {
   RandomStream random(3, 0, 0);
   test::Walls built = test::room(), plan = test::room();

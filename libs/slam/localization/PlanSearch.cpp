@@ -111,7 +111,8 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
       walls_(std::move(walls)),
       start_(start),
       prepare_(configuration),
-      recent_(configuration, kWindow) {
+      recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit,
+              kWindow) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
     throw InputError("floor plan without walls of 1 m", "option --prior-plan",

@@ -111,7 +111,8 @@ TEST(PlanSearch, FindsTheRobotInAPartlyWrongPlan) {
   expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
 }
 
-// The mirrored ring differs from the ring by nothing but cupboards, at two places equally.
+// The mirrored ring differs from the ring only in its cupboards, so the robot would fit equally well at two
+// places.
 TEST(PlanSearch, RefusesThePlanOfAnotherBuilding) {
   test::Walls mirrored = test::ring();
   for (auto& wall : mirrored) wall.first.x *= -1, wall.second.x *= -1;

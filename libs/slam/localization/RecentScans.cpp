@@ -17,8 +17,9 @@ constexpr size_t kStride = 2;
 
 }  // namespace
 
-RecentScans::RecentScans(const FilterConfiguration& c, size_t most)
-    : grid_(c.grid), motion_(c.motion), minFit_(c.improved.minFit), most_(most), matcher_(c.matcher) {
+RecentScans::RecentScans(const GridOptions& grid, const MotionModelOptions& motion,
+                         const ScanMatcherOptions& matcher, double minFit, size_t most)
+    : grid_(grid), motion_(motion), minFit_(minFit), most_(most), matcher_(matcher) {
   grid_.pHit = 0.9, grid_.pMiss = 0.4;  // a few scans must show walls clearly
 }
 
@@ -84,9 +85,10 @@ ScanBeams RecentScans::joined() const {
 
 std::vector<LineSegment> RecentScans::lines() const {
   std::vector<LineSegment> all;
-  for (const size_t i : spread())
-    for (const LineSegment& line : scans_[i].scan.lines)
-      all.push_back(transformed(line, motion(scans_.size() - 1, i)));
+  for (const size_t i : spread()) {
+    const auto lines = transformed(scans_[i].scan.lines, motion(scans_.size() - 1, i));
+    all.insert(all.end(), lines.begin(), lines.end());
+  }
   return all;
 }
 

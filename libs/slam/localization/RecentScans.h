@@ -21,8 +21,10 @@ struct RecentScan {
 /// the window.
 class RecentScans {
  public:
-  /// @param most  remembers at most this number of scans
-  explicit RecentScans(const FilterConfiguration& configuration, size_t most = 40);
+  /// @param minFit  of a match in [0, 1], else the odometry is kept
+  /// @param most    remembers at most this number of scans
+  RecentScans(const GridOptions& grid, const MotionModelOptions& motion, const ScanMatcherOptions& matcher,
+              double minFit, size_t most = 40);
 
   /// @param odometry  since the previous call (m, rad)
   /// @return whether the scan was far enough from the last one to be added

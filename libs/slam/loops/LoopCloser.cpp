@@ -140,7 +140,7 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   };
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
-    // The filter has closed it: hold what it found, by its own relative pose.
+    // The filter has closed this loop itself: hold the relative pose that it found.
     hold(visit, {older.reference, here, expected, edgeInformation(informationOf(near.pose, stretch, older))});
     candidates_.clear();
     return Outcome::held;

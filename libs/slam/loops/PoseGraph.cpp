@@ -42,7 +42,7 @@ std::vector<TPose2D> solve(const PoseGraph& graph, const std::vector<double>& lo
     network.insertEdge(edge.from, edge.to, constraint(edge.relative, edge.information));
   };
   for (const PoseEdge& edge : graph.motions) insert(edge);
-  // Not with an information of zero: MRPT 2.5.8 accepts a step by its residuals without their information.
+  // Do not use zero information: MRPT 2.5.8 accepts a step by its residuals without their information.
   for (size_t i = 0; i < graph.loops.size(); ++i)
     if (loopWeights[i] > 0) insert(graph.loops[i]);
   mrpt::graphslam::TResultInfoSpaLevMarq info;

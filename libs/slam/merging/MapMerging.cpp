@@ -68,7 +68,8 @@ MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement&
   const TPose2D frame = precise(placement.frame, newer.map.grid, older.map.grid, configuration.matcher);
   MergedMap result{frame, older.map, older.path, moved(newer.path, frame)};
   if (newer.scans.empty()) {
-    addMap(result.map, newer.map, frame, configuration);
+    addMap(result.map, newer.map, frame, configuration.grid, configuration.association,
+           configuration.database);
     return result;
   }
   std::vector<PosedScans> scans;

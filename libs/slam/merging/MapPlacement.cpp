@@ -109,7 +109,7 @@ class Placer {
 
   MapPlacement best(const std::vector<PatchMatch>& matches) {
     std::vector<Place> all = places(matches);
-    // Corridors look alike but for small things, which a patch shows and a whole map hides.
+    // Corridors differ only in small objects, which a patch shows and a whole map hides.
     const auto isPoor = [&](const Place& place) {
       return medianFit(supporting(place, matches)) < kMinPatchFit;
     };

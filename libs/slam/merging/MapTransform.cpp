@@ -28,7 +28,7 @@ CellBox boxOf(int tx, int ty, double size, const TPose2D& frame, const Occupancy
 
 OccupancyGrid resampled(const OccupancyGrid& grid, const TPose2D& frame, double cell) {
   OccupancyGrid result(cell);
-  // A cell of far smaller ones is sampled, not searched whole.
+  // A cell that covers many smaller ones is sampled, not searched completely.
   const int samples = static_cast<int>(std::clamp(std::round(cell / grid.resolution()), 1.0, 16.0));
   const double c = std::cos(frame.phi), s = std::sin(frame.phi), step = cell / samples;
   TileReader reader(grid.tiles());
@@ -62,7 +62,8 @@ std::vector<DatabaseLine> transformed(const std::vector<DatabaseLine>& lines, co
   return all;
 }
 
-void addMap(ScanMap& map, const ScanMap& other, const TPose2D& frame, const FilterConfiguration& limits) {
+void addMap(ScanMap& map, const ScanMap& other, const TPose2D& frame, const GridOptions& grid,
+            const AssociationOptions& association, const LineDatabaseOptions& database) {
   const OccupancyGrid moved = resampled(other.grid, frame, map.grid.resolution());
   TileGrid& cells = map.grid.tiles();
   moved.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
@@ -71,11 +72,11 @@ void addMap(ScanMap& map, const ScanMap& other, const TPose2D& frame, const Filt
         if (const int value = tile.cells()[Tile::index(x, y)]; value != 0)
           cells.set({x, y}, static_cast<int8_t>(std::clamp(cells.at({x, y}) + value, -127, 127)));
   });
-  map.grid.limit(limits.grid.pMin, limits.grid.pMax);
+  map.grid.limit(grid.pMin, grid.pMax);
 
   std::vector<DatabaseLine> lines = map.lines.lines();
   for (const DatabaseLine& line : transformed(other.lines.lines(), frame)) {
-    const DatabaseLine* known = map.lines.closestMatch(line, limits.association);
+    const DatabaseLine* known = map.lines.closestMatch(line, association);
     if (!known) {
       lines.push_back(line);
       continue;
@@ -84,7 +85,7 @@ void addMap(ScanMap& map, const ScanMap& other, const TPose2D& frame, const Filt
     same = merged(same, line);
     same.count += line.count - 1;
   }
-  setDirections(lines, limits.database.directionWindow);
+  setDirections(lines, database.directionWindow);
   map.lines = LineDatabase(std::move(lines));
 }
 

@@ -11,15 +11,15 @@ namespace hybrid_slam {
 /// @param cell   size of the new cells, m
 OccupancyGrid resampled(const OccupancyGrid& grid, const mrpt::math::TPose2D& frame, double cell);
 
-/// Likewise, the lines of a database.
+/// Transforms the lines of a database to another frame.
 std::vector<DatabaseLine> transformed(const std::vector<DatabaseLine>& lines,
                                       const mrpt::math::TPose2D& frame);
 
 /// Adds the evidence of another map to each cell, and its lines to the database.
-/// @param other   map to add
-/// @param frame   its frame in that of `map`
-/// @param limits  of the probabilities, and how lines are associated
-void addMap(ScanMap& map, const ScanMap& other, const mrpt::math::TPose2D& frame,
-            const FilterConfiguration& limits);
+/// @param other  map to add
+/// @param frame  its frame in that of `map`
+/// @param grid   limits of the probabilities
+void addMap(ScanMap& map, const ScanMap& other, const mrpt::math::TPose2D& frame, const GridOptions& grid,
+            const AssociationOptions& association, const LineDatabaseOptions& database);
 
 }  // namespace hybrid_slam

@@ -56,7 +56,7 @@ TEST(AddMap, EvidenceAddsUpWithinTheLimits) {
   other.grid.tiles().set({0, 0}, 12);
   other.grid.tiles().set({1, 0}, 50);
   other.grid.tiles().set({2, 0}, -5);
-  addMap(map, other, {}, FilterConfiguration());
+  addMap(map, other, {}, GridOptions(), AssociationOptions(), LineDatabaseOptions());
   EXPECT_EQ(map.grid.tiles().at({0, 0}), 22);
   EXPECT_EQ(map.grid.tiles().at({1, 0}), 56);  // 0.97
   EXPECT_EQ(map.grid.tiles().at({2, 0}), -5);
@@ -70,7 +70,7 @@ TEST(AddMap, TheSameWallIsOneLine) {
                       LineDatabase(transformed(std::vector<DatabaseLine>{lineOf({2, 0.02}, {9, 0.02}, 3),
                                                                          lineOf({5, 5}, {12, 5}, 3)},
                                                TPose2D() - frame))};
-  addMap(map, other, frame, FilterConfiguration());
+  addMap(map, other, frame, GridOptions(), AssociationOptions(), LineDatabaseOptions());
   ASSERT_EQ(map.lines.lines().size(), 3u);
   const DatabaseLine& wall = map.lines.lines()[0];
   EXPECT_NEAR(wall.length, 9, 0.01);

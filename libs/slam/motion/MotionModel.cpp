@@ -44,6 +44,7 @@ void MotionModelOptions::describe(OptionTable& t) {
   t.addAngle("min_std_phi_deg", minStdPhi, 0, 60, "minimum standard deviation of the turn per step");
 }
 
+// Sec. III-A, step 1 (sampling).
 TPose2D sampleMotion(const TPose2D& odometry, const MotionModelOptions& o, RandomStream& random) {
   std::array<double, 3> normals;
   for (double& normal : normals) normal = random.gaussian();

@@ -58,7 +58,7 @@ struct MotionModelOptions : Options {
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  RandomStream& random);
 
-/// Likewise, with given standard normal numbers for D, C and T.
+/// Returns the increment that given standard normal numbers for D, C and T select.
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  const std::array<double, 3>& normals);
 
@@ -71,7 +71,7 @@ struct MotionDistribution {
 MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
                                       const MotionModelOptions& options);
 
-/// The closest Gaussian motion model of MRPT, for MRPT code that samples by itself. It has one standard
+/// The closest Gaussian motion model of MRPT, for MRPT code that does its own sampling. It has one standard
 /// deviation for both axes, which includes the systematic error.
 mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelOptions& options);
 

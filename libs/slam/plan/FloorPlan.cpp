@@ -82,8 +82,8 @@ std::vector<Stretch> joined(const WallLine& group, const GridProbe& probe) {
   return result;
 }
 
-Wall wallOf(const Stretch& stretch, const LineEstimate& line) {
-  Wall wall;
+PlanWall wallOf(const Stretch& stretch, const LineEstimate& line) {
+  PlanWall wall;
   const bool isReversed = stretch.backwards > stretch.forwards;
   wall.line = isReversed ? line.reversed() : line;
   wall.start = line.point(isReversed ? stretch.to : stretch.from);
@@ -114,7 +114,7 @@ FloorPlan floorPlanOf(const std::vector<DatabaseLine>& lines, const OccupancyGri
       if (j > 0 && isDoor(stretches[j - 1], stretches[j], line, probe))
         plan.openings.push_back({line.point(stretches[j - 1].to), line.point(stretches[j].from)});
       if (stretches[j].to - stretches[j].from < kShortest) continue;
-      Wall& wall = plan.walls.emplace_back(wallOf(stretches[j], line));
+      PlanWall& wall = plan.walls.emplace_back(wallOf(stretches[j], line));
       wall.group = static_cast<int>(i);
       wall.isSnapped = isSnapped;
     }

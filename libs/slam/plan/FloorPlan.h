@@ -11,7 +11,7 @@
 namespace hybrid_slam {
 
 /// One straight face of a wall. The free side is on the left of start -> end.
-struct Wall {
+struct PlanWall {
   mrpt::math::TPoint2D start, end;  ///< m, map frame
   LineEstimate line;                ///< through them; the covariance excludes the drift of the map
   int count = 0;                    ///< observations of its database lines; 0: from the grid only
@@ -31,7 +31,7 @@ struct Opening {
 };
 
 struct FloorPlan {
-  std::vector<Wall> walls;
+  std::vector<PlanWall> walls;
   std::vector<Opening> openings;
   std::vector<double> directions;  ///< rad in [-pi/4, pi/4]: of the building's wings, modulo 90 deg
 };

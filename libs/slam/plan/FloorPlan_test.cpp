@@ -66,7 +66,7 @@ TEST(FloorPlan, TwoPiecesOfALineKeepTheDoorBetweenThem) {
   const auto [a, b] = plan.openings[0];
   EXPECT_NEAR(std::min(a.x, b.x), 3, kCell);
   EXPECT_NEAR(std::max(a.x, b.x), 4, kCell);
-  for (const Wall& wall : plan.walls) {
+  for (const PlanWall& wall : plan.walls) {
     EXPECT_NEAR(wall.length(), 3, 2 * kCell);
     EXPECT_NEAR(wall.start.y, 0.022, 0.005);
     EXPECT_NEAR(wall.end.y, 0.022, 0.005);
@@ -86,7 +86,7 @@ TEST(FloorPlan, AGapThatIsNotFreeIsClosed) {
   EXPECT_NEAR(plan.walls[0].length(), 7, 2 * kCell);
 }
 
-// The mouth of an alcove is no door.
+// The mouth of an alcove is not a door.
 TEST(FloorPlan, AnAlcoveIsNoOpening) {
   PaintedGrid map;
   map.free(0, -2, 7, 0.3);
@@ -106,7 +106,7 @@ TEST(FloorPlan, TheTwoFacesOfAWallArePaired) {
   ASSERT_EQ(plan.walls.size(), 2u);
   EXPECT_EQ(plan.walls[0].pair, 1);
   EXPECT_EQ(plan.walls[1].pair, 0);
-  for (const Wall& wall : plan.walls) {
+  for (const PlanWall& wall : plan.walls) {
     EXPECT_NEAR(wall.thickness, 0.15, 0.005);
     EXPECT_NEAR(wall.length(), 5, 2 * kCell);
     // The free side is on the left.
@@ -116,8 +116,8 @@ TEST(FloorPlan, TheTwoFacesOfAWallArePaired) {
 
 /// Returns whether an end of a wall along x and one of a wall along y coincide.
 bool hasCorner(const FloorPlan& plan) {
-  for (const Wall& a : plan.walls)
-    for (const Wall& b : plan.walls)
+  for (const PlanWall& a : plan.walls)
+    for (const PlanWall& b : plan.walls)
       for (const TPoint2D& p : {a.start, a.end})
         for (const TPoint2D& q : {b.start, b.end})
           if (std::abs(std::sin(a.line.angle - b.line.angle)) > 0.9 && (p - q).norm() < 1e-6) return true;
@@ -149,7 +149,7 @@ TEST(FloorPlan, AShortSlantedWallTakesTheBuildingsDirection) {
   ASSERT_EQ(plan.directions.size(), 1u);
   EXPECT_NEAR(plan.directions[0], 0, 1e-3);
   int shortOnes = 0;
-  for (const Wall& wall : plan.walls) {
+  for (const PlanWall& wall : plan.walls) {
     const TPoint2D middle = (wall.start + wall.end) * 0.5;
     if (std::abs(middle.y - 5) < 0.1 && wall.length() > 0.5) {
       ++shortOnes;
@@ -176,7 +176,7 @@ TEST(FloorPlan, AnyMapGivesAPlanOfFiniteWalls) {
     const FloorPlan plan = floorPlanOf(lines, map.grid);
     EXPECT_GT(plan.walls.size(), 10u);
     for (size_t i = 0; i < plan.walls.size(); ++i) {
-      const Wall& wall = plan.walls[i];
+      const PlanWall& wall = plan.walls[i];
       for (const TPoint2D& p : {wall.start, wall.end}) {
         ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
         ASSERT_LT(std::hypot(p.x - 10, p.y - 10), 30);
@@ -201,7 +201,7 @@ Face face(const TPoint2D& start, const TPoint2D& end) {
   return result;
 }
 
-// Minutes if the number of comparisons grew with the square.
+// This would take minutes if the number of comparisons grew quadratically.
 TEST(WallLines, AHundredThousandFacesAreGrouped) {
   std::vector<Face> faces;
   std::mt19937 random(1);

@@ -15,7 +15,7 @@ using mrpt::math::TPoint2D;
 constexpr double kShortest = 0.8;  // m
 constexpr double kTouch = 0.12;    // m
 
-double distance(const TPoint2D& p, const Wall& wall) {
+double distance(const TPoint2D& p, const PlanWall& wall) {
   const TPoint2D d = wall.end - wall.start, q = p - wall.start;
   const double t = std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
   return (q - d * t).norm();
@@ -37,7 +37,7 @@ class Clusters {
 
 }  // namespace
 
-void removeClutter(std::vector<Wall>& walls) {
+void removeClutter(std::vector<PlanWall>& walls) {
   PointIndex index(kTouch);
   for (size_t i = 0; i < walls.size(); ++i) index.add(walls[i].start, walls[i].end, static_cast<int>(i));
   Clusters clusters(walls.size());
@@ -49,7 +49,7 @@ void removeClutter(std::vector<Wall>& walls) {
       });
   std::vector<double> length(walls.size(), 0);
   for (size_t i = 0; i < walls.size(); ++i) length[clusters.of(i)] += walls[i].length();
-  std::vector<Wall> kept;
+  std::vector<PlanWall> kept;
   for (size_t i = 0; i < walls.size(); ++i)
     if (length[clusters.of(i)] >= kShortest) kept.push_back(walls[i]);
   walls = std::move(kept);

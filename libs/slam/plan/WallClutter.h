@@ -1,5 +1,5 @@
 /// @file WallClutter.h
-/// @brief Tells walls from legs of chairs and single echoes.
+/// @brief Distinguishes walls from chair legs and single echoes.
 #pragma once
 
 #include <vector>
@@ -9,6 +9,6 @@
 namespace hybrid_slam {
 
 /// Removes walls that, with all walls that they touch, are shorter than 0.8 m.
-void removeClutter(std::vector<Wall>& walls);
+void removeClutter(std::vector<PlanWall>& walls);
 
 }  // namespace hybrid_slam

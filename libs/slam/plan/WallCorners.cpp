@@ -23,7 +23,7 @@ struct Meeting {
   double alongA, alongB;
 };
 
-std::optional<Meeting> meeting(const Wall& a, const Wall& b) {
+std::optional<Meeting> meeting(const PlanWall& a, const PlanWall& b) {
   const TPoint2D u = a.line.direction(), v = b.line.direction();
   const double sine = u.x * v.y - u.y * v.x;
   if (std::abs(sine) < std::sin(kLeastTurn)) return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<Meeting> meeting(const Wall& a, const Wall& b) {
 
 class Corners {
  public:
-  Corners(std::vector<Wall>& walls, const GridProbe& probe) : walls_(walls), probe_(probe) {
+  Corners(std::vector<PlanWall>& walls, const GridProbe& probe) : walls_(walls), probe_(probe) {
     for (size_t i = 0; i < walls.size(); ++i) index_.add(walls[i].start, walls[i].end, static_cast<int>(i));
   }
 
@@ -55,13 +55,13 @@ class Corners {
  private:
   /// The nearest point where an end of a wall meets another wall.
   TPoint2D moved(size_t i, bool isStart) const {
-    const Wall& wall = walls_[i];
+    const PlanWall& wall = walls_[i];
     const TPoint2D end = isStart ? wall.start : wall.end;
     TPoint2D best = end;
     double least = kReach;
     index_.near(end, [&](int other) {
       if (static_cast<size_t>(other) == i) return;
-      const Wall& b = walls_[static_cast<size_t>(other)];
+      const PlanWall& b = walls_[static_cast<size_t>(other)];
       const auto m = meeting(wall, b);
       if (!m) return;
       const double move = isStart ? -m->alongA : m->alongA - wall.length();  // outwards
@@ -81,13 +81,13 @@ class Corners {
     return best;
   }
 
-  std::vector<Wall>& walls_;
+  std::vector<PlanWall>& walls_;
   const GridProbe& probe_;
   PointIndex index_{kReach};
 };
 
 }  // namespace
 
-void closeCorners(std::vector<Wall>& walls, const GridProbe& probe) { Corners(walls, probe).close(); }
+void closeCorners(std::vector<PlanWall>& walls, const GridProbe& probe) { Corners(walls, probe).close(); }
 
 }  // namespace hybrid_slam

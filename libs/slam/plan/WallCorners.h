@@ -11,6 +11,6 @@ namespace hybrid_slam {
 
 /// Moves the ends of walls to the intersection with another wall's line (L and T), if this is near and the
 /// grid is not free in between.
-void closeCorners(std::vector<Wall>& walls, const GridProbe& probe);
+void closeCorners(std::vector<PlanWall>& walls, const GridProbe& probe);
 
 }  // namespace hybrid_slam

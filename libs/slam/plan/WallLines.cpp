@@ -66,7 +66,7 @@ std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid) {
       last = i;
     }
     if (first < 0 || i - last <= gap) continue;
-    // What is shorter is a wall that crosses.
+    // A shorter stretch is a crossing wall.
     if (last - first >= 4) {
       Face face;
       face.start = line.start + d * (first * grid.resolution());

@@ -17,13 +17,13 @@ constexpr double kThickest = 0.4;                 // m
 constexpr double kSteepest = mrpt::DEG2RAD(5.0);  // rad: allowed for short faces, beyond their covariance
 
 /// Length (m) by which the faces overlap.
-double overlap(const Wall& a, const Wall& b) {
+double overlap(const PlanWall& a, const PlanWall& b) {
   const double from = a.line.along(b.end), to = a.line.along(b.start);
   return std::min(to, a.line.along(a.end)) - std::max(from, a.line.along(a.start));
 }
 
 /// Distance (m) between two faces that may belong to one wall; 0 if they cannot.
-double thickness(const Wall& a, const Wall& b, const GridProbe& probe) {
+double thickness(const PlanWall& a, const PlanWall& b, const GridProbe& probe) {
   if (std::abs(std::remainder(a.line.angle - b.line.angle + M_PI, 2 * M_PI)) > kSteepest) return 0;
   const double shared = overlap(a, b);
   if (shared < std::min(a.length(), b.length()) / 2) return 0;
@@ -42,7 +42,7 @@ double thickness(const Wall& a, const Wall& b, const GridProbe& probe) {
 
 }  // namespace
 
-void pairFaces(std::vector<Wall>& walls, const GridProbe& probe) {
+void pairFaces(std::vector<PlanWall>& walls, const GridProbe& probe) {
   PointIndex index(kThickest);
   for (size_t i = 0; i < walls.size(); ++i) index.add(walls[i].start, walls[i].end, static_cast<int>(i));
   std::vector<int> best(walls.size(), -1);

@@ -11,6 +11,6 @@ namespace hybrid_slam {
 
 /// Sets `pair` and `thickness` of faces that are parallel, at most 0.4 m apart, overlap by half of the
 /// shorter one's length and have no free cells between them.
-void pairFaces(std::vector<Wall>& walls, const GridProbe& probe);
+void pairFaces(std::vector<PlanWall>& walls, const GridProbe& probe);
 
 }  // namespace hybrid_slam

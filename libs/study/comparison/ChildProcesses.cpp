@@ -17,7 +17,7 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-pid_t start(const Command& command) {
+pid_t start(const ChildCommand& command) {
   // Allocate before fork: the child of a multithreaded program must not.
   std::vector<char*> arguments;
   for (const std::string& argument : command.arguments)
@@ -52,7 +52,7 @@ std::string lastError(const std::filesystem::path& messages) {
   return error.empty() ? last : error;
 }
 
-std::string errorOf(int status, const Command& command) {
+std::string errorOf(int status, const ChildCommand& command) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status));
   const std::string error = lastError(command.messages);
@@ -61,7 +61,7 @@ std::string errorOf(int status, const Command& command) {
 
 }  // namespace
 
-bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std::atomic<bool>& stop,
+bool runCommands(const std::vector<ChildCommand>& commands, size_t atOnce, const std::atomic<bool>& stop,
                  const std::function<void(size_t)>& onStart, const CommandEnd& onEnd) {
   std::map<pid_t, size_t> running;
   const auto endAll = [&running] {

@@ -10,7 +10,7 @@
 
 namespace hybrid_slam::comparison {
 
-struct Command {
+struct ChildCommand {
   std::vector<std::string> arguments;  ///< program first; searched in PATH if it has no slash
   std::filesystem::path messages;      ///< file for standard error; standard output is discarded
 };
@@ -22,7 +22,7 @@ using CommandEnd = std::function<void(size_t command, const std::string& error)>
 /// Children do not receive the terminal's signals (the caller handles Ctrl-C) and do not outlive the caller.
 /// @param stop  set from outside: running children are killed, without `onEnd`
 /// @returns whether all commands ran
-bool runCommands(const std::vector<Command>& commands, size_t atOnce, const std::atomic<bool>& stop,
+bool runCommands(const std::vector<ChildCommand>& commands, size_t atOnce, const std::atomic<bool>& stop,
                  const std::function<void(size_t)>& onStart, const CommandEnd& onEnd);
 
 }  // namespace hybrid_slam::comparison

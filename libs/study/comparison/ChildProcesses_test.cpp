@@ -25,12 +25,12 @@ struct ChildProcessesTest : testing::Test {
   size_t running = 0, most = 0;
 
   bool run(const std::vector<std::string>& scripts, size_t atOnce) {
-    std::vector<Command> commands;
+    std::vector<ChildCommand> commands;
     for (const std::string& script : scripts)
       commands.push_back({{"sh", "-c", script}, folder.path("messages" + std::to_string(commands.size()))});
     return runAll(commands, atOnce);
   }
-  bool runAll(const std::vector<Command>& commands, size_t atOnce) {
+  bool runAll(const std::vector<ChildCommand>& commands, size_t atOnce) {
     return runCommands(
         commands, atOnce, stop, [&](size_t) { most = std::max(most, ++running); },
         [&](size_t i, const std::string& error) {

@@ -22,7 +22,7 @@ SweepOutcome runSweep(const std::vector<ComparisonRun>& runs, size_t atOnce, con
                    [](const auto* a, const auto* b) { return a->run.seed < b->run.seed; });
 
   const auto messagesOf = [](const ComparisonRun& r) { return r.folder.partial() / "messages.txt"; };
-  std::vector<Command> commands;
+  std::vector<ChildCommand> commands;
   for (const ComparisonRun* r : todo) {
     std::vector<std::string> arguments = r->command;
     arguments.insert(arguments.end(), {"-o", r->folder.partial().string()});

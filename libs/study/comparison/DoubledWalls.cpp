@@ -91,7 +91,7 @@ class Images {
 
 }  // namespace
 
-WallSightings::WallSightings(const simulation::FloorPlan& plan, const files::Trajectory& reference,
+WallSightings::WallSightings(const simulation::BuildingPlan& plan, const files::Trajectory& reference,
                              const std::vector<readings::EndPoints>& scans, double tolerance) {
   for (size_t w = 0; w < plan.walls().size(); ++w) {
     const simulation::Wall& wall = plan.walls()[w];

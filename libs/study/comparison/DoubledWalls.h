@@ -10,7 +10,7 @@
 
 #include "files/Trajectory.h"
 #include "readings/EndPoints.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::comparison {
 
@@ -23,7 +23,7 @@ class WallSightings {
   /// @param reference  true poses in the plan's frame
   /// @param tolerance  s; largest time difference between a scan and its true pose; scans without one are
   ///                   skipped
-  WallSightings(const simulation::FloorPlan& plan, const files::Trajectory& reference,
+  WallSightings(const simulation::BuildingPlan& plan, const files::Trajectory& reference,
                 const std::vector<readings::EndPoints>& scans, double tolerance);
 
   /// True if no scan sees a wall.

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 /// Scans of a 360 deg laser in a plan from the true poses, and the poses of a run.
 struct Drive {
-  simulation::FloorPlan plan;
+  simulation::BuildingPlan plan;
   size_t beams = 360;
   double maxRange = 20;
   double noise = 0.02;  // m
@@ -39,11 +39,11 @@ struct Drive {
   double share() const { return sightings().doubledShare(run).value(); }
 };
 
-simulation::FloorPlan room(double length, double width) {
-  return simulation::FloorPlan({simulation::Wall::straight({0, 0}, {length, 0}),
-                                simulation::Wall::straight({length, 0}, {length, width}),
-                                simulation::Wall::straight({length, width}, {0, width}),
-                                simulation::Wall::straight({0, width}, {0, 0})});
+simulation::BuildingPlan room(double length, double width) {
+  return simulation::BuildingPlan({simulation::Wall::straight({0, 0}, {length, 0}),
+                                   simulation::Wall::straight({length, 0}, {length, width}),
+                                   simulation::Wall::straight({length, width}, {0, width}),
+                                   simulation::Wall::straight({0, width}, {0, 0})});
 }
 
 /// Drives along a corridor of 20 m x 3 m, and again `pause` s later with poses that are `shift` off.
@@ -119,7 +119,7 @@ TEST(DoubledWalls, HeadingErrorsByHand) {
   // A drift to 0.06 rad that closes: within a pass, 80 % of it lie between the percentiles, 0.2 m at 4.17 m.
   const Drive closing = turning([](int, double progress) { return 0.06 * (1 - std::abs(2 * progress - 1)); });
   EXPECT_NEAR(closing.share(), 4 * (6 - 0.2 / 0.048) / 40, 0.006);
-  // To 0.04 rad: 0.19 m in the corners.
+  // A drift to 0.04 rad displaces even the corners by only 0.19 m.
   EXPECT_EQ(turning([](int, double progress) { return 0.04 * (1 - std::abs(2 * progress - 1)); }).share(), 0);
 }
 
@@ -129,14 +129,14 @@ TEST(DoubledWalls, NoShownWallGivesNoShare) {
   files::Trajectory late = drive.run;
   for (files::StampedPose& p : late) p.timestamp += 1e4;
   EXPECT_FALSE(drive.sightings().doubledShare(late));
-  const simulation::FloorPlan elsewhere({simulation::Wall::straight({100, 0}, {120, 0})});
+  const simulation::BuildingPlan elsewhere({simulation::Wall::straight({100, 0}, {120, 0})});
   EXPECT_TRUE(WallSightings(elsewhere, drive.truth, drive.scans, 0.02).empty());
   EXPECT_TRUE(WallSightings(drive.plan, late, drive.scans, 0.02).empty());
 }
 
 // The loop of the experiments: its last 14 m revisit the south corridor, where it began.
 TEST(DoubledWalls, TheCsieLoopsReturnIsFound) {
-  Drive drive{simulation::FloorPlan::load(SOURCE_DIR "/datasets/csie/csie.plan")};
+  Drive drive{simulation::BuildingPlan::load(SOURCE_DIR "/datasets/csie/csie.plan")};
   const files::Trajectory truth = files::loadTum(SOURCE_DIR "/datasets/csie/csie-loop.tum");
   for (size_t i = 0; i < truth.size(); i += 2) drive.add(truth[i].timestamp, truth[i].pose, truth[i].pose);
   const WallSightings sightings = drive.sightings();

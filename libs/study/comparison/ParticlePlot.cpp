@@ -83,7 +83,7 @@ double ticStep(double side) {
 }  // namespace
 
 Plot plotParticles(const ParticleSnapshot& snapshot, const TPose2D& alignment,
-                   const simulation::FloorPlan* plan, double side, const std::string& title) {
+                   const simulation::BuildingPlan* plan, double side, const std::string& title) {
   constexpr size_t kParticles = 200;
   const TPose2D robot = alignment + snapshot.best();
   const TPoint2D half(side / 2, side / 2), low = TPoint2D(robot.x, robot.y) - half, high = low + half + half;

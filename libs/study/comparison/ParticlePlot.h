@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "study/comparison/Gnuplot.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::comparison {
 
@@ -43,6 +43,6 @@ const ParticleSnapshot& nearestSnapshot(const std::vector<ParticleSnapshot>& run
 /// @param plan       may be null
 /// @param side       m, of the square that is shown, around the robot
 Plot plotParticles(const ParticleSnapshot& snapshot, const mrpt::math::TPose2D& alignment,
-                   const simulation::FloorPlan* plan, double side, const std::string& title);
+                   const simulation::BuildingPlan* plan, double side, const std::string& title);
 
 }  // namespace hybrid_slam::comparison

@@ -58,7 +58,7 @@ TEST(Particles, SnapshotsAreAtTheLargestTurns) {
 
 TEST(Particles, ArePlottedAroundTheRobot) {
   ParticleSnapshot snapshot{5, {{{1, 1, 0}, 0}, {{1.1, 1, 0.1}, -1}, {{30, 1, 0}, -9}}};
-  const simulation::FloorPlan plan(
+  const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 1.5}, {4, 1.5}), simulation::Wall::straight({50, 0}, {50, 9})});
   const Plot plot = plotParticles(snapshot, {0, 0, 0}, &plan, 2, "hybrid-20, 5 s");
   EXPECT_EQ(plot.description, "particles of hybrid-20, 5 s");

@@ -37,7 +37,7 @@ Plot sized(const std::string& description, const TPoint2D& extent, double side) 
 
 }  // namespace
 
-std::string wallBlock(const simulation::FloorPlan& plan) {
+std::string wallBlock(const simulation::BuildingPlan& plan) {
   DataBlock walls("walls");
   for (const simulation::Wall& wall : plan.walls()) {
     const int pieces = wall.isArc() ? 24 : 1;
@@ -62,7 +62,7 @@ std::string planFrame(const std::string& title, const TPoint2D& low, const TPoin
 
 Plot plotTrajectories(const std::string& group, int colour,
                       const std::vector<files::Trajectory>& trajectories, const files::Trajectory& reference,
-                      const simulation::FloorPlan* plan) {
+                      const simulation::BuildingPlan* plan) {
   TPoint2D low(INFINITY, INFINITY), high(-INFINITY, -INFINITY);
   const auto take = [&](double x, double y) {
     low = {std::min(low.x, x), std::min(low.y, y)};
@@ -97,7 +97,7 @@ Plot plotTrajectories(const std::string& group, int colour,
 }
 
 Plot plotCellsOverWalls(const std::vector<TPoint2D>& cells, double resolution,
-                        const simulation::FloorPlan& plan, const std::string& title) {
+                        const simulation::BuildingPlan& plan, const std::string& title) {
   constexpr double kSide = 480, kAround = 2;
   const TPoint2D low = plan.lowerLeft() - TPoint2D(kAround, kAround);
   const TPoint2D high = plan.upperRight() + TPoint2D(kAround, kAround), extent = high - low;

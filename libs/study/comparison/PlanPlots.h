@@ -9,12 +9,12 @@
 
 #include "files/Trajectory.h"
 #include "study/comparison/Gnuplot.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::comparison {
 
 /// The commands for the block `$walls`, to be drawn with lines.
-std::string wallBlock(const simulation::FloorPlan& plan);
+std::string wallBlock(const simulation::BuildingPlan& plan);
 
 /// The commands for a plot with axes x and y of the same scale.
 std::string planFrame(const std::string& title, const mrpt::math::TPoint2D& low,
@@ -25,7 +25,7 @@ std::string planFrame(const std::string& title, const mrpt::math::TPoint2D& low,
 /// @param colour  0xRRGGBB; @param plan  may be null; @param reference  may be empty
 Plot plotTrajectories(const std::string& group, int colour,
                       const std::vector<files::Trajectory>& trajectories, const files::Trajectory& reference,
-                      const simulation::FloorPlan* plan);
+                      const simulation::BuildingPlan* plan);
 
 /// The paper's Fig. 6: a map's occupied cells over the walls, coloured by their distance to the nearest wall;
 /// cells more than 2 m outside of the plan are left out. The picture has at most 480 pixels a side, each with
@@ -33,6 +33,6 @@ Plot plotTrajectories(const std::string& group, int colour,
 /// @param cells       m, centres in the plan's frame
 /// @param resolution  m, side of a cell
 Plot plotCellsOverWalls(const std::vector<mrpt::math::TPoint2D>& cells, double resolution,
-                        const simulation::FloorPlan& plan, const std::string& title);
+                        const simulation::BuildingPlan& plan, const std::string& title);
 
 }  // namespace hybrid_slam::comparison

@@ -28,7 +28,7 @@ std::string drawn(const Plot& plot) {
 }
 
 TEST(PlanPlots, WallsAreLines) {
-  const simulation::FloorPlan plan(
+  const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 0}, {10, 0}), simulation::Wall::arc({5, 1}, 0.5, 0, 6)});
   const std::string walls = block(wallBlock(plan), "walls");
   EXPECT_THAT(walls, HasSubstr("0 0\n10 0\n\n5.5 1\n"));
@@ -38,7 +38,7 @@ TEST(PlanPlots, WallsAreLines) {
 TEST(PlanPlots, TrajectoriesLieOverReferenceAndPlan) {
   files::Trajectory way;
   for (int i = 0; i < 50; ++i) way.push_back({0.1 * i, {0.2 * i, 1, 0}});
-  const simulation::FloorPlan plan(
+  const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 0}, {10, 0}), simulation::Wall::straight({0, 2}, {10, 2})});
   const Plot plot = plotTrajectories("hybrid-20", 0xd55e00, {way, way}, way, &plan);
   EXPECT_EQ(plot.description, "trajectories of hybrid-20");
@@ -70,9 +70,9 @@ TEST(PlanPlots, LongTrajectoriesAreThinned) {
 }
 
 TEST(CellsOverWalls, AreColouredByTheirDistance) {
-  const simulation::FloorPlan plan(
+  const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 0}, {10, 0}), simulation::Wall::straight({0, 10}, {10, 10})});
-  // On a wall twice, 0.2 m off, 1 m off, and far outside of the plan.
+  // Two cells are on a wall, one is 0.2 m off, one 1 m off, and one far outside the plan.
   const Plot plot =
       plotCellsOverWalls({{1, 0}, {2, 0.05}, {3, 0.2}, {4, 1}, {5, 99}}, 0.05, plan, "hybrid-20: a < b");
   EXPECT_EQ(plot.description, "occupied cells over the walls, hybrid-20: a < b");
@@ -87,7 +87,7 @@ TEST(CellsOverWalls, AreColouredByTheirDistance) {
 }
 
 TEST(CellsOverWalls, ThePictureOfALargeMapIsSmall) {
-  const simulation::FloorPlan plan(
+  const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 0}, {300, 0}), simulation::Wall::straight({0, 0}, {0, 200})});
   std::vector<TPoint2D> cells;
   for (int i = 0; i < 20000; ++i) cells.push_back({std::fmod(3.7 * i, 300), std::fmod(1.1 * i, 200)});

@@ -33,7 +33,7 @@ struct PlotsTest : testing::Test {
         r[Figure::success] = seed > 1;
         results.push_back(r);
       }
-    summaries = summarise(groups.size(), results);
+    summaries = groupSummaries(groups.size(), results);
   }
   static const FigureName& name(Figure f) { return kFigureNames[static_cast<size_t>(f)]; }
   std::string drawn(const Plot& plot) {

@@ -14,7 +14,7 @@
 namespace hybrid_slam::comparison {
 namespace {
 
-const simulation::FloorPlan* planOf(const ReportInput& input) {
+const simulation::BuildingPlan* planOf(const ReportInput& input) {
   return input.truth.plan ? &*input.truth.plan : nullptr;
 }
 

@@ -27,7 +27,7 @@ std::vector<RunResult> runs(int successes) {
 }
 
 std::string table(const std::vector<RunResult>& results, bool withSuccess = true) {
-  return summaryTable(kGroups, summarise(1, results), kErrors, withSuccess);
+  return summaryTable(kGroups, groupSummaries(1, results), kErrors, withSuccess);
 }
 
 TEST(SummaryTable, SuccessIsCountedFirst) {
@@ -62,10 +62,10 @@ TEST(PairedTable, HasTheRatiosOfTheMedians) {
       if (r[Figure::ate]) *r[Figure::ate] *= g == 0 ? 1 : 3;
       results.push_back(r);
     }
-  const std::string paired = pairedTable(groups, summarise(2, results));
+  const std::string paired = pairedTable(groups, groupSummaries(2, results));
   EXPECT_THAT(paired, HasSubstr("<td>general-20</td><td>4</td>"));
   EXPECT_THAT(paired, HasSubstr("<td>3 <small>"));
-  EXPECT_EQ(pairedTable(kGroups, summarise(1, runs(4))), "");
+  EXPECT_EQ(pairedTable(kGroups, groupSummaries(1, runs(4))), "");
 }
 
 TEST(FailureTable, NamesTheErrors) {

@@ -1,6 +1,7 @@
 #include "study/comparison/ReturnError.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
@@ -13,7 +14,7 @@ TEST(ReturnError, ByHand) {
   // The reference comes back to its start, turned by 90 deg; the estimate misses it by (0.3, 0.4) and 2 deg.
   const files::Trajectory reference{{0, {5, 6, M_PI / 2}}, {1, {9, 9, 0}}, {2, {5, 6, M_PI}}};
   const files::Trajectory estimate{
-      {0.01, {0, 0, 0}}, {1.01, {7, 7, 1}}, {2.01, {0.3, 0.4, M_PI / 2 + 2 * M_PI / 180}}};
+      {0.01, {0, 0, 0}}, {1.01, {7, 7, 1}}, {2.01, {0.3, 0.4, M_PI / 2 + mrpt::DEG2RAD(2.0)}}};
   const ReturnError error = returnError(estimate, reference, 0.02);
   EXPECT_NEAR(error.translation, 0.5, 1e-12);
   EXPECT_NEAR(error.rotation * 180 / M_PI, 2, 1e-9);

@@ -13,7 +13,7 @@
 #include "study/comparison/RunFolder.h"
 #include "study/evaluation/RelationErrors.h"
 #include "study/evaluation/RevisitError.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::comparison {
 
@@ -30,8 +30,8 @@ struct SuccessCriterion {
 struct GroundTruth {
   files::Trajectory reference;                  ///< may be empty
   std::vector<evaluation::Relation> relations;  ///< may be empty
-  files::Trajectory odometry;                 ///< to extrapolate poses to the relations' times; may be empty
-  std::optional<simulation::FloorPlan> plan;  ///< in the reference's frame
+  files::Trajectory odometry;  ///< to extrapolate poses to the relations' times; may be empty
+  std::optional<simulation::BuildingPlan> plan;  ///< in the reference's frame
   std::optional<evaluation::RevisitOptions> revisits;
   std::vector<readings::EndPoints> scans;  ///< of the log, for the revisits
   std::optional<WallSightings> sightings;  ///< of the same scans, for the share of doubled wall

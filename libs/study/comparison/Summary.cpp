@@ -56,7 +56,7 @@ PairedComparison compare(const BySeed& values, const BySeed& first) {
 
 }  // namespace
 
-std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>& results) {
+std::vector<GroupSummary> groupSummaries(size_t groups, const std::vector<RunResult>& results) {
   std::vector<GroupSummary> summaries(groups);
   for (const RunResult& r : results) {
     summaries[r.run.group].done += r.status == RunResult::Status::done;

@@ -46,7 +46,7 @@ struct GroupSummary {
 };
 
 /// @param results  all runs; groups are in order of their numbers
-std::vector<GroupSummary> summarise(size_t groups, const std::vector<RunResult>& results);
+std::vector<GroupSummary> groupSummaries(size_t groups, const std::vector<RunResult>& results);
 
 /// One row per group and figure.
 void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,

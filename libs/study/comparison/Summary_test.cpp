@@ -44,7 +44,7 @@ std::vector<RunResult> results() {
 constexpr auto kAte = static_cast<size_t>(Figure::ate);
 
 TEST(Summary, GroupsByHand) {
-  const auto s = summarise(3, results());
+  const auto s = groupSummaries(3, results());
   EXPECT_EQ(s[0].done, 4u);
   EXPECT_EQ(s[0].failed, 1u);
   EXPECT_EQ(s[0].figures[kAte].runs, 4u);
@@ -55,7 +55,7 @@ TEST(Summary, GroupsByHand) {
 }
 
 TEST(Summary, AFailedRunIsNotASuccessAndAMissingOneIsNotCounted) {
-  const auto s = summarise(3, results());
+  const auto s = groupSummaries(3, results());
   EXPECT_EQ(s[0].successes, 1u);
   EXPECT_DOUBLE_EQ(s[0].successRate, 1.0 / 5);
   EXPECT_EQ(s[1].successes, 4u);
@@ -70,7 +70,7 @@ TEST(Summary, AFailedRunIsNotASuccessAndAMissingOneIsNotCounted) {
 TEST(Summary, SuccessfulRunsHaveAMedianOfTheirOwn) {
   auto runs = results();
   runs[3][Figure::success] = 1;  // general: 3 and 4 of 1, 2, 3, 4
-  const auto s = summarise(3, runs);
+  const auto s = groupSummaries(3, runs);
   EXPECT_EQ(s[0].figures[kAte].successfulRuns, 2u);
   EXPECT_DOUBLE_EQ(*s[0].figures[kAte].successfulMedian, 3.5);
   EXPECT_DOUBLE_EQ(s[0].figures[kAte].quartiles->median, 2.5);
@@ -82,7 +82,7 @@ TEST(Summary, SuccessfulRunsHaveAMedianOfTheirOwn) {
 }
 
 TEST(Summary, PairsAreTheCommonSeeds) {
-  const auto s = summarise(3, results());
+  const auto s = groupSummaries(3, results());
   ASSERT_TRUE(s[1].paired[kAte]);
   const PairedComparison& p = *s[1].paired[kAte];
   EXPECT_EQ(p.pairs, 3u);  // without the seeds that failed in one group or are missing in the other
@@ -97,11 +97,11 @@ TEST(Summary, PairsAreTheCommonSeeds) {
 TEST(Summary, WithoutACriterionThereIsNoSuccess) {
   RunResult r = done(0, 1, 1, false);
   r[Figure::success].reset();
-  EXPECT_FALSE(summarise(1, {r})[0].successes);
+  EXPECT_FALSE(groupSummaries(1, {r})[0].successes);
 }
 
 TEST(Summary, TablesHaveTheirColumnsInEveryRow) {
-  const auto s = summarise(3, results());
+  const auto s = groupSummaries(3, results());
   std::ostringstream summaryText, resultText;
   writeSummary(kGroups, s, summaryText);
   writeResults(kGroups, results(), resultText);
@@ -131,7 +131,7 @@ TEST(Summary, TablesHaveTheirColumnsInEveryRow) {
 }
 
 TEST(Summary, JsonHasTheSameContent) {
-  const auto json = summaryJson(kGroups, summarise(3, results()));
+  const auto json = summaryJson(kGroups, groupSummaries(3, results()));
   ASSERT_EQ(json.at("groups").size(), 3u);
   const auto& group = json["groups"][1];
   EXPECT_EQ(group.at("group"), "hybrid-eq9-20");

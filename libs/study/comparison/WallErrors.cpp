@@ -27,7 +27,7 @@ std::vector<TPoint2D> occupiedCells(const COccupancyGridMap2D& map) {
   return cells;
 }
 
-WallErrors wallErrors(const COccupancyGridMap2D& map, const simulation::FloorPlan& plan,
+WallErrors wallErrors(const COccupancyGridMap2D& map, const simulation::BuildingPlan& plan,
                       const TPose2D& alignment) {
   std::vector<double> distances;
   double sum = 0;

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace mrpt::maps {
 class COccupancyGridMap2D;
@@ -26,7 +26,7 @@ struct WallErrors {
 /// @param alignment  of the map's frame in the floor plan's: rigid alignment of the trajectory to the
 ///                   reference
 /// @throws std::runtime_error for a map without occupied cells
-WallErrors wallErrors(const mrpt::maps::COccupancyGridMap2D& map, const simulation::FloorPlan& plan,
+WallErrors wallErrors(const mrpt::maps::COccupancyGridMap2D& map, const simulation::BuildingPlan& plan,
                       const mrpt::math::TPose2D& alignment);
 
 }  // namespace hybrid_slam::comparison

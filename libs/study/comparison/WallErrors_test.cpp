@@ -16,8 +16,8 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 /// A corridor of 20 m x 3 m with its four walls.
-const simulation::FloorPlan& corridor() {
-  static const simulation::FloorPlan plan(
+const simulation::BuildingPlan& corridor() {
+  static const simulation::BuildingPlan plan(
       {simulation::Wall::straight({0, 0}, {20, 0}), simulation::Wall::straight({20, 0}, {20, 3}),
        simulation::Wall::straight({20, 3}, {0, 3}), simulation::Wall::straight({0, 3}, {0, 0})});
   return plan;
@@ -33,7 +33,7 @@ struct Map {
     grid.setCell(grid.x2idx(p.x), grid.y2idx(p.y), 0.1f);
   }
   /// Every wall of the plan, each of its points moved by `shift`.
-  void draw(const simulation::FloorPlan& plan, const std::function<TPoint2D(TPoint2D)>& shift) {
+  void draw(const simulation::BuildingPlan& plan, const std::function<TPoint2D(TPoint2D)>& shift) {
     for (const simulation::Wall& wall : plan.walls())
       for (double way = 0; way <= wall.length(); way += 0.02) mark(shift(wall.pointAt(way / wall.length())));
   }

@@ -10,7 +10,7 @@
 namespace hybrid_slam::simulation {
 
 /// Walls in file order, doors already cut out.
-/// @throws InputError as FloorPlan::load
+/// @throws InputError as BuildingPlan::load
 std::vector<Wall> readWalls(const std::string& file);
 
 }  // namespace hybrid_slam::simulation

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "testing/CommaLocale.h"
 #include "testing/TemporaryFile.h"
 
@@ -56,7 +56,7 @@ TEST(FloorPlanFile, CommentsAndEmptyLinesAreSkipped) {
 
 TEST(FloorPlanFile, ADoorIsAGapAnywhereInTheFile) {
   for (const char* text : {"wall 0 0 10 0\ndoor 4 0 5 0\n", "door 5 0 4 0\nwall 10 0 0 0\n"}) {
-    const FloorPlan plan(wallsOf(text));
+    const BuildingPlan plan(wallsOf(text));
     EXPECT_EQ(plan.walls().size(), 2u);
     for (double x = 0.05; x < 10; x += 0.1)
       EXPECT_EQ(plan.castRay({x, -1}, M_PI / 2, 5).has_value(), x < 4 || x > 5) << x;
@@ -68,19 +68,19 @@ TEST(FloorPlanFile, ADoorIsAGapAnywhereInTheFile) {
 }
 
 TEST(FloorPlanFile, ADoorWithDepthOpensBothFacesAndHasJambs) {
-  const FloorPlan plan(wallsOf("wall 0 0 10 0\nwall 0 0.2 10 0.2\ndoor 4 0 5 0 0.2\n"));
+  const BuildingPlan plan(wallsOf("wall 0 0 10 0\nwall 0 0.2 10 0.2\ndoor 4 0 5 0 0.2\n"));
   EXPECT_NEAR(totalLength(plan.walls()), 9 + 9 + 0.2 + 0.2, 1e-9);
   EXPECT_FALSE(plan.castRay({4.5, -1}, M_PI / 2, 5));
   EXPECT_NEAR(plan.castRay({4.5, 0.1}, 0, 5).value(), 0.5, 1e-9);
 }
 
 TEST(FloorPlanFile, ARecessStandsBackFromTheWallOnTheLeft) {
-  const FloorPlan plan(wallsOf("wall 0 0 10 0\nrecess 4 0 5 0 0.3\n"));
+  const BuildingPlan plan(wallsOf("wall 0 0 10 0\nrecess 4 0 5 0 0.3\n"));
   EXPECT_NEAR(plan.castRay({4.5, -1}, M_PI / 2, 5).value(), 1.3, 1e-9);
   EXPECT_NEAR(plan.castRay({3.5, -1}, M_PI / 2, 5).value(), 1.0, 1e-9);
   EXPECT_NEAR(plan.castRay({4.5, 0.2}, M_PI, 5).value(), 0.5, 1e-9);
   // The other way round, to the other side.
-  const FloorPlan niche(wallsOf("wall 0 0 10 0\nrecess 5 0 4 0 0.3\n"));
+  const BuildingPlan niche(wallsOf("wall 0 0 10 0\nrecess 5 0 4 0 0.3\n"));
   EXPECT_NEAR(niche.castRay({4.5, -1}, M_PI / 2, 5).value(), 0.7, 1e-9);
 }
 
@@ -113,8 +113,8 @@ TEST(FloorPlanFile, ErrorsNameTheLineAndWhatWasExpected) {
 }
 
 TEST(FloorPlanFile, MissingFileAndFolderAreErrors) {
-  EXPECT_THROW(FloorPlan::load("/nowhere/at.all"), InputError);
-  EXPECT_THROW(FloorPlan::load("/"), InputError);
+  EXPECT_THROW(BuildingPlan::load("/nowhere/at.all"), InputError);
+  EXPECT_THROW(BuildingPlan::load("/"), InputError);
 }
 
 }  // namespace

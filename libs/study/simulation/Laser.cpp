@@ -10,7 +10,7 @@
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "base/RandomStream.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::simulation {
 namespace {
@@ -62,7 +62,7 @@ Laser::Laser(const LaserOptions& options) : options_(options), spec_(laserSpec(o
 }
 
 /// @return m, before rounding; infinity if nothing is in range
-double Laser::reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
+double Laser::reading(const BuildingPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
                       RandomStream& random) const {
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   // Noise may bring a reading beyond the maximum back into range.
@@ -77,13 +77,13 @@ double Laser::reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin,
   return options_.noise ? range + spec_.sigma * random.gaussian() : range;
 }
 
-mrpt::obs::CObservation2DRangeScan Laser::scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
+mrpt::obs::CObservation2DRangeScan Laser::scan(const BuildingPlan& plan, const mrpt::math::TPose2D& robotPose,
                                                RandomStream& random) const {
   return scan(
       plan, [&](double) { return robotPose; }, random);
 }
 
-mrpt::obs::CObservation2DRangeScan Laser::scan(const FloorPlan& plan, const Motion& motion,
+mrpt::obs::CObservation2DRangeScan Laser::scan(const BuildingPlan& plan, const Motion& motion,
                                                RandomStream& random) const {
   mrpt::obs::CObservation2DRangeScan observation;
   observation.sensorLabel = "LASER";

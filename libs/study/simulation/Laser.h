@@ -19,7 +19,7 @@ class RandomStream;
 
 namespace hybrid_slam::simulation {
 
-class FloorPlan;
+class BuildingPlan;
 
 enum class LaserType { lms100, lms200 };
 
@@ -63,14 +63,14 @@ class Laser {
   using Motion = std::function<mrpt::math::TPose2D(double)>;
   /// Returns the scan of a moving robot, with label LASER, right to left, without timestamp. Beams without a
   /// return have the maximum range and are marked invalid.
-  mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const Motion& motion,
+  mrpt::obs::CObservation2DRangeScan scan(const BuildingPlan& plan, const Motion& motion,
                                           RandomStream& random) const;
-  /// Likewise for a robot that stands still.
-  mrpt::obs::CObservation2DRangeScan scan(const FloorPlan& plan, const mrpt::math::TPose2D& robotPose,
+  /// Returns the scan of a robot that stands still, in the same form.
+  mrpt::obs::CObservation2DRangeScan scan(const BuildingPlan& plan, const mrpt::math::TPose2D& robotPose,
                                           RandomStream& random) const;
 
  private:
-  double reading(const FloorPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
+  double reading(const BuildingPlan& plan, const mrpt::math::TPoint2D& origin, double heading,
                  RandomStream& random) const;
 
   LaserOptions options_;

@@ -10,7 +10,7 @@
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/RandomStream.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::simulation {
 namespace {
@@ -30,7 +30,7 @@ LaserOptions exactLms100() {
 
 TEST(Laser, BeamCountsApertureAndRangeAreTheSensors) {
   RandomStream random(1, 0, 0);
-  const FloorPlan plan(room());
+  const BuildingPlan plan(room());
   const auto check = [&](LaserType type, double resolution, size_t beams, double aperture, float maxRange) {
     LaserOptions options;
     options.sensor = type;
@@ -48,7 +48,7 @@ TEST(Laser, BeamCountsApertureAndRangeAreTheSensors) {
 
 /// By toLaserScan, every beam's end point is on a wall.
 TEST(Laser, WithoutNoiseEveryBeamEndsOnAWall) {
-  const FloorPlan plan(room());
+  const BuildingPlan plan(room());
   LaserOptions options = exactLms100();
   options.x = 0.2;
   options.y = -0.1;
@@ -71,7 +71,7 @@ TEST(Laser, WithoutNoiseEveryBeamEndsOnAWall) {
 }
 
 TEST(Laser, ReadingsAreWholeMillimetresOrCentimetres) {
-  const FloorPlan plan(room());
+  const BuildingPlan plan(room());
   for (const auto& [type, step] : {std::pair(LaserType::lms100, 0.001), std::pair(LaserType::lms200, 0.01)}) {
     LaserOptions options;
     options.sensor = type;
@@ -85,7 +85,7 @@ TEST(Laser, ReadingsAreWholeMillimetresOrCentimetres) {
 }
 
 TEST(Laser, NothingInRangeIsInvalidAndHoldsTheMaximum) {
-  const FloorPlan plan({Wall::straight({5, -50}, {5, 50}), Wall::straight({-20.15, -50}, {-20.15, 50})});
+  const BuildingPlan plan({Wall::straight({5, -50}, {5, 50}), Wall::straight({-20.15, -50}, {-20.15, 50})});
   RandomStream random(4, 0, 0);
   const auto scan = Laser(exactLms100()).scan(plan, {0, 0, M_PI}, random);
   EXPECT_FALSE(scan.getScanRangeValidity(270));  // 20 m exactly: the limit itself is not valid
@@ -97,7 +97,7 @@ TEST(Laser, NothingInRangeIsInvalidAndHoldsTheMaximum) {
 }
 
 TEST(Laser, NoiseHasTheSensorsSigmaAndNoBias) {
-  const FloorPlan plan(room());
+  const BuildingPlan plan(room());
   for (const LaserType type : {LaserType::lms100, LaserType::lms200}) {
     LaserOptions options;
     options.sensor = type;
@@ -127,7 +127,7 @@ TEST(Laser, NoiseHasTheSensorsSigmaAndNoBias) {
 
 TEST(Laser, MixedPixelsLieBetweenTheTwoSidesOfAnEdge) {
   // A pillar's edge straight ahead at 2 m, a wall behind it at 6 m.
-  const FloorPlan plan({Wall::straight({2, 0}, {2, 1}), Wall::straight({6, -9}, {6, 9})});
+  const BuildingPlan plan({Wall::straight({2, 0}, {2, 1}), Wall::straight({6, -9}, {6, 9})});
   LaserOptions options = exactLms100();
   options.x = 0;
   const size_t ahead = 270;

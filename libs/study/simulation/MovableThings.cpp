@@ -5,7 +5,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/NoiseStream.h"
 #include "study/simulation/RecordFile.h"
 
@@ -27,7 +27,7 @@ std::vector<Wall> rectangle(const TPoint2D& low, const TPoint2D& size) {
 }
 
 /// Returns whether a wall crosses the rectangle's sides or lies inside.
-bool touchesWall(const FloorPlan& plan, const TPoint2D& low, const TPoint2D& high) {
+bool touchesWall(const BuildingPlan& plan, const TPoint2D& low, const TPoint2D& high) {
   for (const Wall& side : rectangle(low, {high.x - low.x, high.y - low.y})) {
     const double dx = side.end.x - side.start.x, dy = side.end.y - side.start.y;
     if (plan.castRay(side.start, std::atan2(dy, dx), std::hypot(dx, dy))) return true;
@@ -38,7 +38,7 @@ bool touchesWall(const FloorPlan& plan, const TPoint2D& low, const TPoint2D& hig
   });
 }
 
-Wall doorOf(const Record& record, const FloorPlan& plan) {
+Wall doorOf(const Record& record, const BuildingPlan& plan) {
   expectNumbers(record, "X1 Y1 X2 Y2");
   const std::vector<double>& v = record.numbers;
   const Wall door = Wall::straight({v[0], v[1]}, {v[2], v[3]});
@@ -51,7 +51,7 @@ Wall doorOf(const Record& record, const FloorPlan& plan) {
 
 }  // namespace
 
-MovableThings MovableThings::load(const std::string& file, const FloorPlan& plan) {
+MovableThings MovableThings::load(const std::string& file, const BuildingPlan& plan) {
   MovableThings things;
   size_t places = 0;
   for (const Record& record : readRecords(file, {"door", "box"})) {
@@ -76,8 +76,8 @@ MovableThings MovableThings::load(const std::string& file, const FloorPlan& plan
   return things;
 }
 
-void MovableThings::expectFree(const FloorPlan& plan) const {
-  const FloorPlan obstacles = plan.with(doors_);
+void MovableThings::expectFree(const BuildingPlan& plan) const {
+  const BuildingPlan obstacles = plan.with(doors_);
   for (const Box& box : boxes_)
     for (const TPoint2D& place : box.places) {
       const TPoint2D low(place.x - kTolerance, place.y - kTolerance);

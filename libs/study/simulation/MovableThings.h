@@ -12,7 +12,7 @@
 
 namespace hybrid_slam::simulation {
 
-class FloorPlan;
+class BuildingPlan;
 
 /// A door or a box that stands in the building in one session.
 struct PlacedThing {
@@ -29,7 +29,7 @@ class MovableThings {
   /// File format: doc/simulation.md.
   /// @throws InputError naming file and line: as readRecords, door without length or along a wall, box
   ///         without area or with fewer than two places, place on a wall, a door or a place of another box
-  static MovableThings load(const std::string& file, const FloorPlan& plan);
+  static MovableThings load(const std::string& file, const BuildingPlan& plan);
 
   bool empty() const { return doors_.empty() && boxes_.empty(); }
   /// Returns the closed doors and all boxes of a session. The same seed and session give the same result;
@@ -45,7 +45,7 @@ class MovableThings {
     std::vector<mrpt::math::TPoint2D> places;  ///< lower left corners
     std::string where;                         ///< "file F, line N"
   };
-  void expectFree(const FloorPlan& plan) const;
+  void expectFree(const BuildingPlan& plan) const;
 
   std::vector<Wall> doors_;
   std::vector<Box> boxes_;

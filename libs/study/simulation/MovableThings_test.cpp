@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/Simulation.h"
 #include "study/simulation/SimulationOutput.h"
@@ -24,8 +24,8 @@ using testing::HasSubstr;
 const std::string kCsie = SOURCE_DIR "/datasets/csie/";
 
 /// A room of 8 m x 6 m with a gap in its south wall and a column.
-FloorPlan room() {
-  return FloorPlan::load(
+BuildingPlan room() {
+  return BuildingPlan::load(
       test::TemporaryFile("rectangle 0 0 8 6\ndoor 2 0 3 0\ncircle 6 4 0.5\nwall 1 5 1.1 5\n").path());
 }
 
@@ -73,7 +73,7 @@ TEST(MovableThings, ADoorIsAWallOrNothingAndABoxFourWallsAtOneOfItsPlaces) {
 }
 
 TEST(MovableThings, ASessionIsReproducibleAndAnotherSessionOrSeedIsNot) {
-  const FloorPlan plan = FloorPlan::load(kCsie + "csie.plan");
+  const BuildingPlan plan = BuildingPlan::load(kCsie + "csie.plan");
   const MovableThings things = MovableThings::load(kCsie + "csie.things", plan);
   std::set<std::string> sessions;
   for (uint64_t session = 1; session <= 10; ++session) {
@@ -111,13 +111,13 @@ TEST(MovableThings, TheNoiseOfTwoSessionsDiffersInTheSameWorld) {
 }
 
 TEST(MovableThings, TheFloorPlanOfASessionIsReadBack) {
-  const FloorPlan plan = FloorPlan::load(kCsie + "csie.plan");
+  const BuildingPlan plan = BuildingPlan::load(kCsie + "csie.plan");
   const MovableThings things = MovableThings::load(kCsie + "csie.things", plan);
   const std::vector<PlacedThing> placed = things.inSession(1, 3);
-  const FloorPlan expected = plan.with(wallsOf(placed));
+  const BuildingPlan expected = plan.with(wallsOf(placed));
   const test::TemporaryFile file("");
   writeFloorPlan(plan, placed, file.path());
-  const FloorPlan read = FloorPlan::load(file.path());
+  const BuildingPlan read = BuildingPlan::load(file.path());
   ASSERT_EQ(read.walls().size(), expected.walls().size());
   for (size_t i = 0; i < read.walls().size(); ++i)
     for (const double fraction : {0.0, 0.3, 1.0})

@@ -5,7 +5,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::simulation {
 
@@ -49,7 +49,7 @@ Route::Progress Route::progressAt(double time) const {
   return progress;
 }
 
-void Route::checkClear(const FloorPlan& plan, double robotRadius) const {
+void Route::checkClear(const BuildingPlan& plan, double robotRadius) const {
   const std::string radius = numberText(robotRadius) + " m";
   const auto check = [&](const TPose2D& pose, const Piece& piece, const char* what) {
     if (plan.distanceToNearestWall({pose.x, pose.y}) < robotRadius)

@@ -9,7 +9,7 @@
 
 namespace hybrid_slam::simulation {
 
-class FloorPlan;
+class BuildingPlan;
 
 /// A path of pieces with constant speed and turn rate: straight lines, circular arcs, turns on the spot.
 ///
@@ -43,7 +43,7 @@ class Route {
   Progress progressAt(double time) const;
 
   /// @throws InputError if a way point or the path is closer than `robotRadius` (m) to a wall
-  void checkClear(const FloorPlan& plan, double robotRadius) const;
+  void checkClear(const BuildingPlan& plan, double robotRadius) const;
 
  private:
   std::vector<Piece> pieces_;  ///< at least one, in order of time, without gaps

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "testing/TemporaryFile.h"
 
 namespace hybrid_slam::simulation {
@@ -107,7 +107,7 @@ TEST(Route, ErrorsNameTheLine) {
 }
 
 std::string clearanceError(const std::string& text, double radius) {
-  const FloorPlan room(
+  const BuildingPlan room(
       {Wall::straight({0, 0}, {10, 0}), Wall::straight({5, 1}, {5, 4}), Wall::straight({0, 4}, {10, 4})});
   try {
     routeOf(text).checkClear(room, radius);

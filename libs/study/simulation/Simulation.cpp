@@ -5,7 +5,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/NoiseStream.h"
 #include "study/simulation/Route.h"
 
@@ -74,7 +74,7 @@ void SimulationOptions::describe(OptionTable& t) {
   t.add("robot_radius", robotRadius, 0, 5, "m", "minimum distance of the path from all walls");
 }
 
-SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
+SimulatedLog simulate(const BuildingPlan& plan, const Route& route, const SimulationOptions& options,
                       const LaserOptions& laserOptions, const OdometryOptions& odometryOptions) {
   const Laser laser(laserOptions);
   const std::vector<Slip> slips = parseSlips(odometryOptions.slips);

@@ -15,7 +15,7 @@
 
 namespace hybrid_slam::simulation {
 
-class FloorPlan;
+class BuildingPlan;
 class Route;
 
 /// Pose of the robot's centre in the frame of the floor plan (m, rad).
@@ -51,7 +51,7 @@ struct SimulationOptions : Options {
 /// Scans at 0, 1/rate, 2/rate ... s; odometry readings have a separate rate and a phase offset of 30 ms, as
 /// with two devices. The same options (with seed and session) give the same log.
 /// @throws InputError for a route that touches walls, or is too short for the number of scans
-SimulatedLog simulate(const FloorPlan& plan, const Route& route, const SimulationOptions& options,
+SimulatedLog simulate(const BuildingPlan& plan, const Route& route, const SimulationOptions& options,
                       const LaserOptions& laser, const OdometryOptions& odometry);
 
 }  // namespace hybrid_slam::simulation

@@ -17,7 +17,7 @@
 
 #include "base/Numbers.h"
 #include "readings/SweepTimes.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/MovableThings.h"
 
 namespace hybrid_slam::simulation {
@@ -163,7 +163,8 @@ std::string planLine(const Wall& wall) {
 
 }  // namespace
 
-void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& things, const std::string& file) {
+void writeFloorPlan(const BuildingPlan& fixed, const std::vector<PlacedThing>& things,
+                    const std::string& file) {
   std::ofstream out(file);
   for (const Wall& wall : fixed.walls()) out << planLine(wall) << '\n';
   for (const PlacedThing& thing : things)
@@ -172,7 +173,7 @@ void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& thin
   if (!out) throw std::runtime_error("cannot write " + file);
 }
 
-void writePicture(const FloorPlan& plan, const std::vector<TruePose>& poses, const std::string& file) {
+void writePicture(const BuildingPlan& plan, const std::vector<TruePose>& poses, const std::string& file) {
   const TPoint2D &low = plan.lowerLeft(), &high = plan.upperRight();
   Drawing drawing(low, high);
   constexpr double kGrid = 5;  // m

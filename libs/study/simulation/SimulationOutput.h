@@ -12,7 +12,7 @@
 
 namespace hybrid_slam::simulation {
 
-class FloorPlan;
+class BuildingPlan;
 struct PlacedThing;
 
 /// Returns observations in order of time, or one (action, observation) pair per scan; the first action is
@@ -27,10 +27,11 @@ void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& fil
 
 /// Writes a floor plan file of single walls; the walls of a door or box have its name as a comment.
 /// @throws std::runtime_error if it cannot be written
-void writeFloorPlan(const FloorPlan& fixed, const std::vector<PlacedThing>& things, const std::string& file);
+void writeFloorPlan(const BuildingPlan& fixed, const std::vector<PlacedThing>& things,
+                    const std::string& file);
 
 /// Writes a PNG: walls black, path blue, start green, end red, grid lines every 5 m.
 /// @throws std::runtime_error if it cannot be written
-void writePicture(const FloorPlan& plan, const std::vector<TruePose>& poses, const std::string& file);
+void writePicture(const BuildingPlan& plan, const std::vector<TruePose>& poses, const std::string& file);
 
 }  // namespace hybrid_slam::simulation

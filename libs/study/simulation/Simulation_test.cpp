@@ -11,7 +11,7 @@
 
 #include "base/Errors.h"
 #include "readings/RawlogSource.h"
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
 #include "testing/CommaLocale.h"
@@ -25,8 +25,8 @@ using testing::HasSubstr;
 
 /// A room of 10 m x 6 m, and 20 s of straight runs, a turn on the spot, a wait and a curve in it.
 struct TestDrive {
-  FloorPlan plan{{Wall::straight({0, 0}, {10, 0}), Wall::straight({10, 0}, {10, 6}),
-                  Wall::straight({10, 6}, {0, 6}), Wall::straight({0, 6}, {0, 0})}};
+  BuildingPlan plan{{Wall::straight({0, 0}, {10, 0}), Wall::straight({10, 0}, {10, 6}),
+                     Wall::straight({10, 6}, {0, 6}), Wall::straight({0, 6}, {0, 0})}};
   Route route = Route::load(
       test::TemporaryFile("start 1 1 0\nspeed 0.5\nturn_speed 45\nvia 5 1 1\ngo 5 4\nwait 1\ngo 3 4\n")
           .path());

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 #include "window/gui/WhatIsThis.h"
 
 namespace hybrid_slam::window {

@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of an installation, or of the sources around the program's build folder or the working folder; empty if
-/// the page is in none.
+/// Returns the installed page, or the one in the sources around the build or working folder; empty if neither
+/// exists.
 std::string fileOf(const std::string& page, const fs::path& bin) {
   if (const std::string installed = files::withInstalledPages(page, bin); installed != page) return installed;
   std::error_code ignored;

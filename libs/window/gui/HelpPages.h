@@ -18,9 +18,9 @@ struct HelpPage {
 /// Returns the pages in the order of the commands from kFirstPage on.
 const std::vector<HelpPage>& helpPages();
 
-/// Opens a page, of the installation or else of the sources, with the desktop's program for such files.
+/// Opens the installed page, or else the one in the sources, with the desktop's program for such files.
 /// @param bin  folder of the program
-/// @throws InputError if the page is in neither, or no program shows it
+/// @throws InputError if the page is in neither, or no program can show it
 void openPage(const std::string& page, const std::filesystem::path& bin = files::programFolder());
 
 }  // namespace hybrid_slam::window

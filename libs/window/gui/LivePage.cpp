@@ -2,7 +2,7 @@
 
 #include <wx/sizer.h>
 
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 #include "window/gui/WhatIsThis.h"
 
 namespace hybrid_slam::window {
@@ -82,7 +82,7 @@ void LivePage::start() {
   live::hostAndPort(server, "the live view's server");
   session_.reset();
   shown_.reset();
-  // As hybrid-slam-live does, without the settings read off the log that is replayed.
+  // As in hybrid-slam-live, settings derived from the replayed log are not used.
   used_ = settings_->withLog(nullptr)->copy({"run.output=" + output_->GetValue().utf8_string()});
   session_ = std::make_unique<LiveSession>(used_->configuration, used_->live, server);
 }

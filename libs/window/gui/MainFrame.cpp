@@ -9,7 +9,7 @@
 
 #include "base/Errors.h"
 #include "window/gui/HelpPages.h"
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 #include "window/gui/ParametersDialog.h"
 #include "window/gui/PlayerKeys.h"
 

@@ -11,7 +11,7 @@
 #include "readings/LogFormats.h"
 #include "window/gui/MainFrame.h"
 #include "window/gui/MapDialog.h"
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 
 namespace hybrid_slam::window {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 
 namespace hybrid_slam::window {
 namespace {
@@ -39,7 +39,7 @@ MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
                            "*.hslam;*.yaml;*.gridmap;*.gridmap.gz;*.geojson;*.dxf;*.svg|All files|*",
                            wxDefaultPosition, FromDIP(wxSize(460, -1)), wxFLP_OPEN | wxFLP_USE_TEXTCTRL);
   add(file_);
-  const wxString uses[] = {"none: a new map", "continue mapping in it", "localise in it; it stays as it is",
+  const wxString uses[] = {"none: a new map", "continue mapping in it", "localise in it without changing it",
                            "begin with the lines of this floor plan"};
   use_ = new wxRadioBox(this, wxID_ANY, "Use", wxDefaultPosition, wxDefaultSize, 4, uses, 1);
   add(use_);

@@ -9,7 +9,7 @@ namespace {
 
 wxMenu* fileMenu() {
   auto* const file = new wxMenu;
-  file->Append(kOpenLog, "Open &log...\tCtrl+R", "Replays a log; settings are read off it");
+  file->Append(kOpenLog, "Open &log...\tCtrl+R", "Replays a log, from which settings are derived");
   file->Append(kOpenFolder, "Open recording f&older...\tCtrl+Shift+R",
                "Replays a ROS 2 bag, which is a folder of .db3 or .mcap files");
   file->Append(kOpenIni, "Open &INI file...\tCtrl+O", "Settings, and the log they name");
@@ -18,7 +18,7 @@ wxMenu* fileMenu() {
   file->Append(kRecentFiles, "Recent &files", new wxMenu, "Logs and INI files opened last");
   file->Append(kSaveIni, "&Save settings as INI...\tCtrl+S", "Every key with its value");
   file->AppendSeparator();
-  file->Append(kSaveMap, "Save map &now...\tCtrl+Shift+S", "Saves map and session; the run goes on");
+  file->Append(kSaveMap, "Save map &now...\tCtrl+Shift+S", "Saves map and session; the run continues");
   file->Append(kExportPicture, "Export &picture...\tCtrl+P", "The left pane's map as PNG or scene");
   file->Append(kExportResults, "&Export results...\tCtrl+E",
                "Writes them as hybrid-slam does; ends the replay");

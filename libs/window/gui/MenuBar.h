@@ -7,7 +7,7 @@
 namespace hybrid_slam::window {
 
 /// Menu entries.
-enum Command {
+enum MenuCommand {
   kOpenIni = wxID_HIGHEST + 1,
   kOpenLog,
   kOpenFolder,

@@ -12,7 +12,7 @@ namespace hybrid_slam::window {
 
 /// Space plays or pauses, the left and right arrows step, Ctrl with the up and down arrows changes the speed,
 /// as in video players. Otherwise a button, the slider or the page's tab would take these keys.
-inline std::optional<Command> playerCommand(const wxKeyEvent& key) {
+inline std::optional<MenuCommand> playerCommand(const wxKeyEvent& key) {
   const bool isPlain = key.GetModifiers() == wxMOD_NONE, isControl = key.GetModifiers() == wxMOD_CONTROL;
   switch (key.GetKeyCode()) {
     case WXK_SPACE:

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "window/gui/Messages.h"
+#include "window/gui/MessageDialogs.h"
 #include "window/gui/WhatIsThis.h"
 
 namespace hybrid_slam::window {
@@ -37,9 +37,10 @@ ReplayPage::ReplayPage(wxWindow* parent) : wxPanel(parent) {
   }
   column->Add(panes, 1, wxEXPAND);
   plots_ = new PlotPanel(this);
-  events_ = new EventList(this, wxSize(200, 60),
-                          "The lasers used, the settings read off the log, what is wrong with it, and what "
-                          "happened in the filters, the newest last");
+  events_ =
+      new EventList(this, wxSize(200, 60),
+                    "The lasers used, the settings derived from the log, what is wrong with it, and what "
+                    "happened in the filters, the newest last");
   auto* const below = new wxBoxSizer(wxHORIZONTAL);
   below->Add(plots_, wxSizerFlags(5).Expand());
   below->Add(events_, wxSizerFlags(2).Expand().Border(wxRIGHT, FromDIP(4)));

@@ -86,7 +86,7 @@ std::shared_ptr<Settings> Settings::defaults() const {
 
 std::shared_ptr<Settings> Settings::copy(const std::vector<std::string>& changes,
                                          const std::vector<std::string>& resets) const {
-  // Only what the user set: the rest follows from the log, which may change.
+  // Keep only what the user set; the other settings follow from the log, which may change.
   const std::string text =
       resets.empty() ? configuration.source.getContent() : textWithout(configuration.source, resets);
   const files::TemporaryFolder folder;

@@ -25,7 +25,7 @@ inline void explain(wxWindow* control, const wxString& text) {
   control->SetHelpText(text);
 }
 
-/// Likewise, and also as a tooltip.
+/// Sets the help text of a control, and shows it as a tooltip too.
 inline void explainWithTip(wxWindow* control, const wxString& text) {
   explain(control, text);
   control->SetToolTip(text);

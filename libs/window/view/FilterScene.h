@@ -11,8 +11,8 @@
 
 namespace hybrid_slam::window {
 
-/// Returns the caption of the map, one item per line: updates, place, lines, verdict. It counts as matched
-/// the lines drawn as such.
+/// Returns the caption of the map, one item per line: updates, place, lines, verdict. Its
+/// number of matched lines is that of the blue lines in filterScene.
 std::vector<std::string> captionOf(const FilterSnapshot& filter);
 
 /// Returns a view of the whole map, between the caption and room for the complete legend, so that maps of the

@@ -140,7 +140,7 @@ TEST(FilterScene, ThePictureShowsEverythingInItsPlace) {
   EXPECT_THAT(colourAt(11.02, 5.3), ElementsAre(220, 0, 0)) << "a particle";
 }
 
-/// Of the smallest window, 800 pixels wide.
+/// The pane is as narrow as in the smallest window (800 pixels).
 TEST(FilterScene, TheCaptionOfANarrowPaneEndsBeforeTheCompass) {
   FilterSnapshot filter = room();
   filter.method = "general";

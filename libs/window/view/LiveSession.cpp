@@ -48,7 +48,7 @@ LiveSession::LiveSession(const run::Configuration& configuration, const live::Li
       server_(live::hostAndPort(server, "the live view's server")),
       log_("live",
            [this](const std::string& line) {
-             publish([&line](LiveSnapshot& next) {
+             snapshot_.change([&line](LiveSnapshot& next) {
                next.events.push_back(line);
                if (next.events.size() > kEvents) next.events.erase(next.events.begin());
              });
@@ -62,32 +62,20 @@ void LiveSession::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::shared_ptr<const LiveSnapshot> LiveSession::snapshot() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return snapshot_;
-}
-
-template <class Change>
-void LiveSession::publish(const Change& change) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto next = std::make_shared<LiveSnapshot>(*snapshot_);
-  change(*next);
-  snapshot_ = next;
-}
-
 void LiveSession::work() {
   try {
     const std::string summary = run();
-    publish([&](LiveSnapshot& next) { next.state = LiveSnapshot::State::done, next.message = summary; });
+    snapshot_.change(
+        [&](LiveSnapshot& next) { next.state = LiveSnapshot::State::done, next.message = summary; });
   } catch (const std::exception& e) {
-    publish(
+    snapshot_.change(
         [&](LiveSnapshot& next) { next.state = LiveSnapshot::State::failed, next.message = messageOf(e); });
   }
 }
 
 /// Sets the verdict in the snapshot on display; later snapshots keep it.
 void LiveSession::showVerdict(const run::Verdict& verdict) {
-  publish([&](LiveSnapshot& next) {
+  snapshot_.change([&](LiveSnapshot& next) {
     if (!next.filter) return;
     const auto judged = std::make_shared<FilterSnapshot>(*next.filter);
     judged->verdict = verdict;
@@ -115,7 +103,7 @@ std::string LiveSession::run() {
       lastPicture = now;
       isOutdated = false;
     }
-    publish([&](LiveSnapshot& next) {
+    snapshot_.change([&](LiveSnapshot& next) {
       ++next.scans;
       if (!picture) return;
       if (next.filter && !picture->place) picture->verdict = next.filter->verdict;
@@ -126,13 +114,13 @@ std::string LiveSession::run() {
   client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
              [&] {
                if (const bool isConnected = client.isConnected(); isConnected != snapshot()->isConnected)
-                 publish([&](LiveSnapshot& next) { next.isConnected = isConnected; });
+                 snapshot_.change([&](LiveSnapshot& next) { next.isConnected = isConnected; });
                if (wantsSave_.exchange(false)) live.requestSave();
                return isStopping_ || live.hasFailed();
              });
-  publish([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
+  snapshot_.change([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   const std::string summary = live.finish(client.lost());
-  publish([&](LiveSnapshot& next) { next.recording = live.recording(); });
+  snapshot_.change([&](LiveSnapshot& next) { next.recording = live.recording(); });
   return summary;
 }
 

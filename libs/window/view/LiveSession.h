@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "live/EventLog.h"
 #include "live/LiveOptions.h"
 #include "window/view/FilterSnapshot.h"
+#include "window/view/Published.h"
 
 namespace hybrid_slam::window {
 
@@ -40,17 +40,15 @@ class LiveSession {
 
   /// Ends the run; the state becomes done after the results are written.
   void stop() { isStopping_ = true; }
-  /// Likewise, and waits for it.
+  /// Ends the run and waits until its results are written.
   void finish();
   /// Saves map and session to a dated subfolder after the next scan; an event names it.
   void saveMap() { wantsSave_ = true; }
-  std::shared_ptr<const LiveSnapshot> snapshot() const;
+  std::shared_ptr<const LiveSnapshot> snapshot() const { return snapshot_.get(); }
 
  private:
   void work();
   std::string run();
-  template <class Change>
-  void publish(const Change& change);
   void showVerdict(const run::Verdict& verdict);
 
   run::Configuration configuration_;
@@ -58,8 +56,7 @@ class LiveSession {
   std::pair<std::string, uint16_t> server_;
   live::EventLog log_;
   std::atomic<bool> isStopping_{false}, wantsSave_{false};
-  mutable std::mutex mutex_;
-  std::shared_ptr<const LiveSnapshot> snapshot_ = std::make_shared<LiveSnapshot>();
+  Published<LiveSnapshot> snapshot_;
   std::thread thread_;
 };
 

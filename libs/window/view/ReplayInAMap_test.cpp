@@ -52,7 +52,7 @@ TEST_F(ReplayInAMap, ShowsTheSearchForTheStartAndThenTheRobot) {
   const auto found = replay.snapshot()->filters[0];
   ASSERT_TRUE(found->place);
   EXPECT_EQ(describe(*found->place), "localised");
-  EXPECT_EQ(found->map.grey, searching->map.grey) << "it stays as it is";
+  EXPECT_EQ(found->map.grey, searching->map.grey) << "unchanged";
   ASSERT_FALSE(found->path.empty());
   EXPECT_LT(found->path.size(), found->updates) << "since the place has been known";
   EXPECT_EQ(found->plot.size(), found->path.size());

@@ -59,7 +59,8 @@ void ReplaySession::playOrPause() {
 
 void ReplaySession::startPlaying() {
   goal_ = Goal::play;
-  if (snapshot_->state == State::ended || snapshot_->state == State::failed) restartFrom(0);
+  const State state = snapshot()->state;
+  if (state == State::ended || state == State::failed) restartFrom(0);
   wake_.notify_all();
 }
 
@@ -85,7 +86,7 @@ size_t ReplaySession::goingTo() const { return goal_ == Goal::reach ? target_ : 
 void ReplaySession::reach(size_t scan) {
   goal_ = Goal::reach;
   target_ = scan;
-  if (snapshot_->state == State::failed) restartFrom(0);
+  if (snapshot()->state == State::failed) restartFrom(0);
   wake_.notify_all();
 }
 
@@ -110,11 +111,6 @@ void ReplaySession::saveMap(const std::string& folder) {
   const std::lock_guard<std::mutex> lock(mutex_);
   saveTo_ = folder;
   wake_.notify_all();
-}
-
-std::shared_ptr<const ReplaySnapshot> ReplaySession::snapshot() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return snapshot_;
 }
 
 void ReplaySession::work() {
@@ -143,7 +139,7 @@ void ReplaySession::readLog() {
   for (const std::string& line : applyLogSettings(*ofLog, configuration_)) event(line);
   for (const std::string& warning : configuration_.warnings) note("warning: " + warning);
   for (const std::string& warning : readings::warningsOf(summary, file)) note("warning: " + warning);
-  change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
+  snapshot_.change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
   log_ = std::move(summary);
 }
 
@@ -199,7 +195,7 @@ bool ReplaySession::hasWork(ReplayPass& pass) {
     if (goal_ != Goal::pause) continue;
 
     const State state = pass.isOver() ? State::ended : State::paused;
-    if (pass.isOutdated || snapshot_->state != state) {
+    if (pass.isOutdated || snapshot()->state != state) {
       lock.unlock();
       publish(pass, state, true);
       lock.lock();
@@ -283,16 +279,8 @@ void ReplaySession::savePass(ReplayPass& pass, const std::string& folder) {
   }
 }
 
-template <class Change>
-void ReplaySession::change(const Change& edit) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto next = std::make_shared<ReplaySnapshot>(*snapshot_);
-  edit(*next);
-  snapshot_ = next;
-}
-
 void ReplaySession::event(const std::string& text) {
-  change([&](ReplaySnapshot& next) {
+  snapshot_.change([&](ReplaySnapshot& next) {
     next.events.push_back(text);
     if (next.events.size() > kEvents) next.events.erase(next.events.begin());
   });
@@ -300,7 +288,7 @@ void ReplaySession::event(const std::string& text) {
 
 void ReplaySession::note(const std::string& text) {
   event(text);
-  change([&](ReplaySnapshot& next) { next.note = text; });
+  snapshot_.change([&](ReplaySnapshot& next) { next.note = text; });
 }
 
 void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
@@ -311,7 +299,7 @@ void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
     pass.lastPicture = Clock::now();
   }
   if (withMaps) pass.isOutdated = false;
-  change([&](ReplaySnapshot& next) {
+  snapshot_.change([&](ReplaySnapshot& next) {
     next.state = state;
     next.scans = pass.scans;
     next.total = pass.log.scans;
@@ -323,7 +311,7 @@ void ReplaySession::publish(ReplayPass& pass, State state, bool withMaps) {
 }
 
 void ReplaySession::tell(const std::string& message, bool isError, State state) {
-  change([&](ReplaySnapshot& next) {
+  snapshot_.change([&](ReplaySnapshot& next) {
     next.state = state;
     next.message = message;
     next.isError = isError;

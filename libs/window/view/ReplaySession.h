@@ -12,6 +12,7 @@
 
 #include "run/LogSettings.h"
 #include "window/view/Checkpoints.h"
+#include "window/view/Published.h"
 
 namespace hybrid_slam::window {
 
@@ -27,7 +28,7 @@ struct ReplaySnapshot {
   std::string message;          ///< one line: an error, or the result of an export
   bool isError = false;         ///< the message is an error
   std::string note;             ///< one line, shown last: a warning on the log, the map saved, a loop closed
-  std::vector<std::string> events;  ///< one line each: lasers, settings read off the log, all notes
+  std::vector<std::string> events;  ///< one line each: lasers, settings derived from the log, all notes
   size_t messages = 0;              ///< number of messages, so that each is shown once
   std::shared_ptr<const run::LogSettings> ofLog;               ///< null until the log has been read
   std::vector<std::shared_ptr<const FilterSnapshot>> filters;  ///< one per method; null before the first scan
@@ -66,7 +67,7 @@ class ReplaySession {
   /// with a message in the snapshot. The replay continues.
   void saveMap(const std::string& folder);
 
-  std::shared_ptr<const ReplaySnapshot> snapshot() const;
+  std::shared_ptr<const ReplaySnapshot> snapshot() const { return snapshot_.get(); }
 
  private:
   enum class Goal { pause, play, reach };
@@ -86,17 +87,15 @@ class ReplaySession {
   void advance(ReplayPass& pass);
   void exportPass(ReplayPass& pass, const std::string& folder);
   void savePass(ReplayPass& pass, const std::string& folder);
-  template <class Change>
-  void change(const Change& edit);
   void event(const std::string& text);
   void note(const std::string& text);
   void publish(ReplayPass& pass, ReplaySnapshot::State state, bool withMaps);
   void tell(const std::string& message, bool isError, ReplaySnapshot::State state);
 
-  run::Configuration configuration_;  ///< of the thread; with the settings read off the log
+  run::Configuration configuration_;  ///< of the thread; with the settings derived from the log
   const std::vector<Method> methods_;
 
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable wake_;
   /// @name Guarded by mutex_
   /// @{
@@ -107,8 +106,8 @@ class ReplaySession {
   double speed_ = 1;
   bool isClosing_ = false, wantsRestart_ = false;
   std::optional<std::string> exportTo_, saveTo_;
-  std::shared_ptr<const ReplaySnapshot> snapshot_ = std::make_shared<ReplaySnapshot>();
   /// @}
+  Published<ReplaySnapshot> snapshot_;
   /// @name Used by the session's thread only
   /// @{
   std::optional<readings::RawlogSummary> log_;

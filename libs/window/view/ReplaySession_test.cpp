@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <chrono>
+#include <fstream>
 
 #include "run/Replay.h"
 #include "testing/ReplaySessionTest.h"
@@ -189,7 +193,7 @@ TEST(Checkpoints, AreFartherApartWhenTheirMemoryIsUsedUp) {
   }
 }
 
-TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {
+TEST_F(ReplaySessionTest, KeepsTheLogsPace) {
   ReplaySession session(laps(), {Method::hybrid});
   ASSERT_TRUE(reaches(session, State::paused, 0));
   const auto start = std::chrono::steady_clock::now();
@@ -198,9 +202,15 @@ TEST_F(ReplaySessionTest, KeepsTheLogsPaceAndPauses) {
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->scans >= 11; }));
   // 10 gaps of 0.2 s at four times the pace.
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(490));
+}
+
+TEST_F(ReplaySessionTest, PausesBetweenScans) {
+  ReplaySession session(laps(), {Method::hybrid});
+  session.setSpeed(0.001);  // 200 s from scan to scan
+  session.play();
+  ASSERT_TRUE(reaches(session, State::playing, 1));
   session.pause();
-  ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::paused; }));
-  EXPECT_LT(session.snapshot()->scans, kScans);
+  EXPECT_TRUE(reaches(session, State::paused, 1));
 }
 
 TEST_F(ReplaySessionTest, AnExportBeforeTheEndEndsTheReplayAndPlayRestartsIt) {
@@ -290,20 +300,21 @@ TEST_F(ReplaySessionTest, ResultsThatCouldNotBeWrittenStayAFailure) {
   EXPECT_FALSE(session.snapshot()->isError) << session.snapshot()->message;
 }
 
+/// Writes a log of 100 million scans, which takes longer to read than a test may take, but only 20 MB.
+std::string writeEndless(const std::string& path) {
+  const std::string part = test::contentOf(test::writePlain(path, test::Log(20000, test::scan(1000))));
+  std::string compressed(ZSTD_compressBound(part.size()), '\0');
+  compressed.resize(ZSTD_compress(compressed.data(), compressed.size(), part.data(), part.size(), 1));
+  std::ofstream file(path, std::ios::binary);
+  for (int i = 0; i < 5000; ++i) file << compressed;
+  return path;
+}
+
 TEST_F(ReplaySessionTest, ClosingDoesNotWaitForALongLogToBeRead) {
-  const run::Configuration c =
-      configuration(test::writeGzipped(folder.path("long.rawlog"), test::laps(20000)));
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  summarise(c.run.rawlog, c.input);
-  const auto whole = Clock::now() - start;
-  bool isQuick = false;  // in one of three attempts: the machine may be busy
-  for (int attempt = 0; attempt < 3 && !isQuick; ++attempt) {
-    const auto opened = Clock::now();
-    { const ReplaySession session(c, {Method::hybrid}); }
-    isQuick = Clock::now() - opened < whole / 4;
-  }
-  EXPECT_TRUE(isQuick);
+  const run::Configuration c = configuration(writeEndless(folder.path("long.rawlog")));
+  const auto opened = std::chrono::steady_clock::now();
+  { const ReplaySession session(c, {Method::hybrid}); }
+  EXPECT_LT(std::chrono::steady_clock::now() - opened, std::chrono::minutes(1));
 }
 
 TEST_F(ReplaySessionTest, SavesTheMapAndGoesOn) {

@@ -1,4 +1,4 @@
-#include "slam/motion/OdometryIncrement.h"
+#include "base/OdometryIncrement.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CActionCollection.h>

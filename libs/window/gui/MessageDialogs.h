@@ -1,4 +1,4 @@
-/// @file Messages.h
+/// @file MessageDialogs.h
 /// @brief Dialogs with the one-line messages of the programs.
 #pragma once
 

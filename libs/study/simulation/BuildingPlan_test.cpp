@@ -1,4 +1,4 @@
-#include "study/simulation/FloorPlan.h"
+#include "study/simulation/BuildingPlan.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
@@ -25,9 +25,9 @@ double randomHeading(RandomStream& random) {
                                  : random.uniform() * 2 * M_PI - M_PI;
 }
 
-TEST(FloorPlan, RangesInARectangleAreExact) {
+TEST(BuildingPlan, RangesInARectangleAreExact) {
   const double width = 7.3, height = 4.1;
-  const FloorPlan plan(rectangle(0, 0, width, height));
+  const BuildingPlan plan(rectangle(0, 0, width, height));
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 20000; ++i) {
     const double x = random.uniform() * width, y = random.uniform() * height, heading = randomHeading(random);
@@ -40,10 +40,10 @@ TEST(FloorPlan, RangesInARectangleAreExact) {
   }
 }
 
-TEST(FloorPlan, RangesInsideACircleAreExact) {
+TEST(BuildingPlan, RangesInsideACircleAreExact) {
   const double radius = 3.7;
   const TPoint2D centre(-2, 5);
-  const FloorPlan plan({Wall::arc(centre, radius, 1, 2 * M_PI)});
+  const BuildingPlan plan({Wall::arc(centre, radius, 1, 2 * M_PI)});
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {
     const double r = radius * std::sqrt(random.uniform()) * 0.999, around = random.uniform() * 2 * M_PI;
@@ -56,9 +56,9 @@ TEST(FloorPlan, RangesInsideACircleAreExact) {
   }
 }
 
-TEST(FloorPlan, AnArcIsSeenOnlyWithinItsAngles) {
+TEST(BuildingPlan, AnArcIsSeenOnlyWithinItsAngles) {
   // The arc reaches from -30 to 45 deg, across the wrap of the angle.
-  const FloorPlan plan({Wall::arc({0, 0}, 2, mrpt::DEG2RAD(330.0), mrpt::DEG2RAD(75.0))});
+  const BuildingPlan plan({Wall::arc({0, 0}, 2, mrpt::DEG2RAD(330.0), mrpt::DEG2RAD(75.0))});
   for (double degrees = -179.5; degrees < 180; degrees += 1) {
     const auto range = plan.castRay({0, 0}, mrpt::DEG2RAD(degrees), 10);
     EXPECT_EQ(range.has_value(), degrees > -30 && degrees < 45) << degrees;
@@ -71,22 +71,22 @@ TEST(FloorPlan, AnArcIsSeenOnlyWithinItsAngles) {
   EXPECT_NEAR(plan.castRay({5, 0}, M_PI, 20).value(), 3, 1e-12);
 }
 
-TEST(FloorPlan, NothingBeyondTheMaximumRange) {
-  const FloorPlan plan({Wall::straight({5, -1}, {5, 1})});
+TEST(BuildingPlan, NothingBeyondTheMaximumRange) {
+  const BuildingPlan plan({Wall::straight({5, -1}, {5, 1})});
   EXPECT_FALSE(plan.castRay({0, 0}, 0, 4.999));
   EXPECT_TRUE(plan.castRay({0, 0}, 0, 5.001));
   EXPECT_FALSE(plan.castRay({0, 0}, M_PI, 100));
   EXPECT_FALSE(plan.castRay({0, 3}, 0, 100));
 }
 
-TEST(FloorPlan, ARayAlongAWallMeetsItsNearerEnd) {
-  const FloorPlan plan({Wall::straight({5, 0}, {3, 0})});
+TEST(BuildingPlan, ARayAlongAWallMeetsItsNearerEnd) {
+  const BuildingPlan plan({Wall::straight({5, 0}, {3, 0})});
   EXPECT_NEAR(plan.castRay({0, 0}, 0, 10).value(), 3, 1e-12);
   EXPECT_NEAR(plan.castRay({4, 0}, 0, 10).value(), 0, 1e-12);
   EXPECT_FALSE(plan.castRay({6, 0}, 0, 10));
 }
 
-TEST(FloorPlan, NoRayEscapesThroughTheCornersOfAClosedRoom) {
+TEST(BuildingPlan, NoRayEscapesThroughTheCornersOfAClosedRoom) {
   RandomStream random(3, 0, 0);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<TPoint2D> corners;
@@ -97,7 +97,7 @@ TEST(FloorPlan, NoRayEscapesThroughTheCornersOfAClosedRoom) {
     }
     std::vector<Wall> walls;
     for (int i = 0; i < n; ++i) walls.push_back(Wall::straight(corners[i], corners[(i + 1) % n]));
-    const FloorPlan plan(walls);
+    const BuildingPlan plan(walls);
     TPoint2D inside(0, 0);  // the mean of a convex polygon's corners
     for (const TPoint2D& corner : corners) inside += corner * (1.0 / n);
     for (const TPoint2D& corner : corners) {
@@ -132,12 +132,12 @@ std::vector<Wall> randomWalls(RandomStream& random) {
   return walls;
 }
 
-TEST(FloorPlan, TheIndexAgreesWithABruteForceSearch) {
+TEST(BuildingPlan, TheIndexAgreesWithABruteForceSearch) {
   RandomStream random(4, 0, 0);
   int hits = 0;
   for (int trial = 0; trial < 150; ++trial) {
     const std::vector<Wall> walls = randomWalls(random);
-    const FloorPlan plan(walls);
+    const BuildingPlan plan(walls);
     const TPoint2D extent = plan.upperRight() - plan.lowerLeft();
     for (int i = 0; i < 200; ++i) {
       // 1.5 times the extent of the walls, so that rays also start outside.
@@ -161,16 +161,16 @@ TEST(FloorPlan, TheIndexAgreesWithABruteForceSearch) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(FloorPlan, DistanceToAnArcCountsItsEnds) {
-  const FloorPlan plan({Wall::arc({0, 0}, 1, 0, M_PI / 2)});
+TEST(BuildingPlan, DistanceToAnArcCountsItsEnds) {
+  const BuildingPlan plan({Wall::arc({0, 0}, 1, 0, M_PI / 2)});
   EXPECT_NEAR(plan.distanceToNearestWall({0, 0}), 1, 1e-12);
   EXPECT_NEAR(plan.distanceToNearestWall({2, 2}), std::sqrt(8) - 1, 1e-12);
   EXPECT_NEAR(plan.distanceToNearestWall({-3, 1}), 3, 1e-12);
   EXPECT_NEAR(plan.distanceToNearestWall({1, -2}), 2, 1e-12);
 }
 
-TEST(FloorPlan, WithoutWallsNothingIsSeen) {
-  const FloorPlan plan({});
+TEST(BuildingPlan, WithoutWallsNothingIsSeen) {
+  const BuildingPlan plan({});
   EXPECT_FALSE(plan.castRay({0, 0}, 1, 1e6));
   EXPECT_EQ(plan.distanceToNearestWall({0, 0}), std::numeric_limits<double>::infinity());
 }

@@ -1,4 +1,4 @@
-#include "slam/motion/OdometryIncrement.h"
+#include "base/OdometryIncrement.h"
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>

@@ -1,4 +1,4 @@
-/// @file FloorPlan.h
+/// @file BuildingPlan.h
 /// @brief A building's walls, with ray casting and distance queries.
 #pragma once
 
@@ -13,15 +13,15 @@
 namespace hybrid_slam::simulation {
 
 /// Walls in one plane (m), read from a text file (format: doc/simulation.md).
-class FloorPlan {
+class BuildingPlan {
  public:
-  explicit FloorPlan(std::vector<Wall> walls) : index_(std::move(walls)) {}
+  explicit BuildingPlan(std::vector<Wall> walls) : index_(std::move(walls)) {}
   /// @throws InputError naming file and line: unreadable file, unknown word, wrong number of values,
   ///         zero-length wall, unclosed polygon, door not on a wall, no walls
-  static FloorPlan load(const std::string& file);
+  static BuildingPlan load(const std::string& file);
 
   /// Returns this plan with additional walls.
-  FloorPlan with(const std::vector<Wall>& more) const;
+  BuildingPlan with(const std::vector<Wall>& more) const;
 
   const std::vector<Wall>& walls() const { return index_.walls(); }
   /// Distance (m) to the first wall from `origin` towards `heading` (rad); empty beyond maxRange.
