@@ -1,16 +1,13 @@
-/// slam-compare from the command line: a complete comparison, interruption and resumption, failing runs, all
-/// kinds of invalid input.
+/// slam-compare from the command line: complete comparisons, failing runs, all kinds of invalid input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <utility>
 
-#include "ChildProgram.h"
 #include "InstalledProgram.h"
 #include "SlamCompareProgram.h"
 
@@ -18,12 +15,8 @@ namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
-using test::contentOf;
 using test::Outcome;
-using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 TEST_F(SlamCompare, HelpAndVersion) {
@@ -117,164 +110,24 @@ TEST_F(SlamCompare, TheTruthMayBeInstalledFiles) {
   EXPECT_THAT(errorLine(list("--reference data/none.tum")), HasSubstr("file `data/none.tum`;"));
 }
 
-TEST_F(SlamCompare, TheReportIsOneWellFormedFileWithItsPlots) {
-  ASSERT_EQ(run(kSmall + kTruth).status, 0);
-  const std::string report = this->report();
-  for (const char* part :
-       {"--methods hybrid,general --particles 4 --seeds 2", "Success rates",
-        "absolute trajectory error, rmse (m)", "heading error at the return (deg)", "share of doubled wall",
-        "Each group against the first", "spread of the heading (deg)", "CPU time (s)", "peak memory (MB)",
-        "trajectories of general-4", "median run", "worst run", "data:image/png;base64,iVBORw0KGgo"})
-    EXPECT_THAT(report, HasSubstr(part));
-  EXPECT_THAT(report, Not(HasSubstr("<script")));
-  const std::regex address("(src|href)=\"(?!data:)");
-  EXPECT_FALSE(std::regex_search(report, address));
-}
-
-TEST_F(SlamCompare, TheReportOf24RunsIsSmallAndReproducible) {
-  const std::string sweep =
-      "--methods hybrid,general -n 3,5 --seeds 6 -q --set run.particles_every=2" + kTruth;
-  ASSERT_EQ(run(sweep).status, 0);
-  const std::string report = this->report();
-  EXPECT_LT(report.size(), 2000000u);
-  for (const char* plot : {"success rates",
-                           "absolute trajectory error, rmse (m)",
-                           "position error at the return (m)",
-                           "heading error at the return (deg)",
-                           "distance of occupied cells to the walls: mean (m)",
-                           "distance of occupied cells to the walls: 95th percentile (m)",
-                           "share of doubled wall",
-                           "spread along the heading (m)",
-                           "spread across the heading (m)",
-                           "spread of the heading (deg)",
-                           "spread in x (m)",
-                           "spread in y (m)",
-                           "particles of hybrid-3, ",
-                           "particles of general-5, ",
-                           "CPU time (s) against particles",
-                           "peak memory (MB) against particles",
-                           "trajectories of hybrid-5",
-                           "trajectories of general-3",
-                           "occupied cells over the walls, hybrid-3: mean ",
-                           "occupied cells over the walls, general-5: mean "})
-    EXPECT_THAT(report, HasSubstr("aria-label=\"" + std::string(plot)));
-  EXPECT_THAT(report, Not(HasSubstr("Without plots")));
-  ASSERT_EQ(run(sweep + " --report-only").status, 0);
-  // The same except for the command.
-  const auto body = [](const std::string& html) { return html.substr(html.find("</pre>")); };
-  EXPECT_EQ(body(this->report()), body(report));
-}
-
-TEST_F(SlamCompare, WithoutGnuplotTheReportHasItsTables) {
-  ASSERT_EQ(run(kSmall + kTruth).status, 0);
-  const std::string before = test::contentOf(folder.path("out/results.csv"));
-  const Outcome o = shell("PATH=/nowhere " + call(kSmall + kTruth + " --report-only"));
-  EXPECT_EQ(o.status, 0);
-  EXPECT_EQ(o.err,
-            "slam-compare: warning: report.html without plots: gnuplot: cannot be started: No such file or "
-            "directory; expected the Debian package gnuplot-nox\n");
-  EXPECT_EQ(test::contentOf(folder.path("out/results.csv")), before);
-  EXPECT_TRUE(fs::exists(folder.path("out/summary.json")));
-  const std::string report = this->report();
-  EXPECT_THAT(report, HasSubstr("Each group against the first"));
-  EXPECT_THAT(report, HasSubstr("data:image/png;base64,iVBORw0KGgo"));  // the maps
-  EXPECT_THAT(report, HasSubstr("Without plots: gnuplot: cannot be started"));
-  EXPECT_THAT(report, Not(HasSubstr("<svg")));
-}
-
-TEST_F(SlamCompare, WithoutTruthItReportsSpreadTimeAndMemory) {
-  const Outcome o = run("--methods general --seeds 2 -q");  // particles from the INI file
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(runs(), UnorderedElementsAre("general-3-1", "general-3-2"));
-  for (const auto& row : table("results.csv")) {
-    EXPECT_EQ(row.at("ate_rmse_m"), "");
-    EXPECT_EQ(row.at("success"), "");
-    EXPECT_GT(std::stod(row.at("std_phi_deg")), 0);
+TEST_F(SlamCompare, EachVariantOfTheInputHasItsOwnSettingsOfTheLog) {
+  test::Log log;
+  for (int i = 0; i < 40; ++i) {  // at 0.625 m/s, with odometry every 0.5 m
+    const double time = 1000 + 0.2 * i;
+    const test::TPose2D pose(-2.5 + 0.125 * i, 0, 0);
+    if (i % 4 == 0) log.push_back(test::odometry(time, pose));
+    log.push_back(test::scan(time, pose));
   }
-  const std::string report = this->report();
-  EXPECT_THAT(report, Not(HasSubstr("Success rates")));
-}
-
-TEST_F(SlamCompare, ParticlesArePlottedIfTheRunsHaveThem) {
-  ASSERT_EQ(run(kSmall + kTruth + " --set run.particles_every=2").status, 0);
-  const std::string report = this->report();
-  EXPECT_THAT(report, HasSubstr("particles of hybrid-4, "));
-  EXPECT_THAT(report, HasSubstr("particles of general-4, "));
-}
-
-TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
-  ASSERT_EQ(run(kSmall + kTruth).status, 0);
-  const std::string whole = untimedTable();
-  fs::remove_all(folder.path("out"));
-
-  test::ChildProgram stopped(
-      folder, "stopped",
-      {"/bin/sh", "-c", "cd '" + folder.path("") + "' && exec " + call(kSmall + kTruth + " -j 1")});
-  const auto isOneDone = [&] {
-    const auto names = runs();
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-      return name[0] != '.' && fs::exists(folder.path("out/runs/" + name + "/metrics.json"));
-    });
-  };
-  EXPECT_TRUE(test::happens([&] { return stopped.hasEnded() || isOneDone(); }));
-  stopped.signal(SIGINT);
-  EXPECT_EQ(stopped.wait(), 1);
-  EXPECT_THAT(stopped.err(), HasSubstr("slam-compare: error: interrupted: "));
-  EXPECT_THAT(stopped.err(), HasSubstr("of 4 runs are finished; the same command continues"));
-  EXPECT_FALSE(fs::exists(folder.path("out/report.html")));
-  const auto left = runs();
-  EXPECT_GE(left.size(), 1u);
-  EXPECT_LT(left.size(), 4u);
-  std::map<std::string, fs::file_time_type> finished;
-  for (const std::string& name : left) {
-    EXPECT_THAT(name, Not(StartsWith(".")));
-    finished[name] = fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json"));
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  for (const char* call : {"first", "second"}) {
+    const Outcome o = shell("'" SLAM_COMPARE "' " + config + " '" + path +
+                            "' -o out --methods general --seeds 1 -q --variant "
+                            "gap:input.max_odometry_gap=0.5");
+    EXPECT_EQ(o.status, 0) << call << ": " << o.err;
   }
-
-  EXPECT_EQ(run(kSmall + kTruth).status, 0);
-  EXPECT_EQ(untimedTable(), whole);
-  for (const auto& [name, time] : finished)
-    EXPECT_EQ(fs::last_write_time(folder.path("out/runs/" + name + "/metrics.json")), time) << name;
-}
-
-TEST_F(SlamCompare, ADamagedRunIsRunAgain) {
-  const std::string arguments = "--methods general --seeds 3 -q";
-  ASSERT_EQ(run(arguments).status, 0);
-  const std::string whole = untimedTable();
-  const std::string damaged = "out/runs/general-3-2/trajectory.tum";
-  fs::resize_file(folder.path(damaged), fs::file_size(folder.path(damaged)) / 2);
-  const Outcome report = run(arguments + " --report-only");
-  EXPECT_EQ(report.status, 1);
-  EXPECT_THAT(report.err,
-              HasSubstr("run cannot be evaluated: out/runs/general-3-2; damaged file: " + damaged));
-  EXPECT_EQ(table("results.csv")[1].at("status"), "failed");
-  EXPECT_EQ(table("results.csv")[2].at("status"), "done");
-  const Outcome again = run(arguments);
-  EXPECT_EQ(again.status, 0);
-  EXPECT_EQ(again.err, "slam-compare: warning: damaged run: " + damaged + "; it is run again\n");
-  EXPECT_EQ(untimedTable(), whole);
-}
-
-TEST_F(SlamCompare, MoreSeedsKeepExistingRuns) {
-  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
-  const auto before = fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json"));
-  ASSERT_EQ(run("--methods general --seeds 2 -q").status, 0);
-  EXPECT_EQ(table("results.csv").size(), 2u);
-  EXPECT_EQ(fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json")), before);
-}
-
-TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
-  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
-  const std::string error = errorLine(run("--methods general --seeds 1 -q --set grid.resolution=0.1"));
-  EXPECT_THAT(error, HasSubstr("out/runs/general-3-1"));
-  EXPECT_THAT(error, HasSubstr("[grid] resolution = 0.05, now 0.1"));
-
-  fs::copy(kLog, folder.path("copy.rawlog"));
-  const std::string withCopy =
-      std::string("'") + SLAM_COMPARE + "' " + config + " copy.rawlog -o out2 --methods general --seeds 1 -q";
-  ASSERT_EQ(shell(withCopy).status, 0);
-  fs::last_write_time(folder.path("copy.rawlog"), fs::file_time_type::clock::now() + std::chrono::hours(1));
-  EXPECT_THAT(errorLine(shell(withCopy)), HasSubstr("out2/runs/general-3-1"));
+  for (const auto& [name, distance] : {std::pair{"general-3-1", "0.1"}, {"general-gap-3-1", "0.02"}})
+    EXPECT_THAT(test::contentOf(folder.path(std::string("out/runs/") + name + "/config.ini")),
+                HasSubstr(std::string("update_distance = ") + distance));
 }
 
 TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersContinue) {
@@ -296,30 +149,6 @@ TEST_F(SlamCompare, AFailingRunIsRecordedAndTheOthersContinue) {
   EXPECT_EQ(json["groups"][1]["success"]["successes"], 0);
 }
 
-TEST_F(SlamCompare, ReportOnlyStartsNothing) {
-  ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
-  const Outcome o = run("--methods general --seeds 3 -q --report-only");
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(runs(), ElementsAre("general-3-1"));
-  const auto rows = table("results.csv");
-  ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0].at("status"), "done");
-  EXPECT_EQ(rows[2].at("status"), "missing");
-  report();
-}
-
-TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
-  const Outcome list = run("--methods general --seeds 1 --list --set 'input.sensor_label='");
-  ASSERT_EQ(list.status, 0) << list.err;
-  ASSERT_THAT(list.out, StartsWith("general-3-1\t"));
-  EXPECT_FALSE(fs::exists(folder.path("out")));
-  const std::string command =
-      list.out.substr(list.out.find('\t') + 1, list.out.find('\n') - list.out.find('\t') - 1);
-  ASSERT_EQ(shell(command + " -o out/runs/general-3-1").status, 0);
-  EXPECT_EQ(run("--methods general --seeds 1 -q --report-only").status, 0);
-  EXPECT_EQ(table("results.csv").at(0).at("status"), "done");
-}
-
 TEST_F(SlamCompare, OptionsMayPrecedeTheFiles) {
   for (const std::string last : {"-m hybrid,general", "-n 4,5"}) {
     const Outcome list = shell(std::string("'") + SLAM_COMPARE + "' -o out --seeds 1 --list " + last + " " +
@@ -327,12 +156,6 @@ TEST_F(SlamCompare, OptionsMayPrecedeTheFiles) {
     EXPECT_EQ(list.status, 0) << list.err;
     EXPECT_THAT(list.out, HasSubstr("general-"));
   }
-}
-
-TEST_F(SlamCompare, TwoProcessesInOneFolderAreAnError) {
-  fs::create_directories(folder.path("out"));
-  EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),
-              HasSubstr("another slam-compare is running"));
 }
 
 TEST_F(SlamCompare, EveryWrongInputIsOneLineAndStartsNoRun) {

@@ -81,7 +81,11 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
     source = std::move(owned);
   }
   live::LiveRun run(configuration, options, *log, isQuiet);
-  const auto finish = [&] { return run.finish(client ? client->lost() : 0); };
+  const auto finish = [&] {
+    const size_t lost = client ? client->lost() : 0;
+    source.reset();  // else observations would pile up unread
+    return run.finish(lost);
+  };
   try {
     source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },
                 [&] {

@@ -73,7 +73,6 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
     return 0;
   }
   const std::string usage = "expected hybrid-slam [config.ini] LOG";
-  stopOnSignals();
   run::Configuration configuration(line.files.config, settings);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
@@ -84,6 +83,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
     printTopics(configuration.run.rawlog);
     return 0;
   }
+  stopOnSignals();
   const auto outcome = run::replay(configuration, line.isQuiet, stop, line.wantsProfile);
   warn(outcome.warnings);
   if (!line.isQuiet) std::cout << outcome.summary << "\n" << outcome.verdict.line() << "\n";

@@ -94,7 +94,8 @@ int learn(const CommandLine& line, run::Configuration configuration) {
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
   warn(configuration.warnings);
-  const readings::RawlogSummary log = summarise(line.files.log, configuration.input);
+  const readings::RawlogSummary log =
+      summarise(line.files.log, configuration.input, [] { return stop.load(); });
   if (!log.hasMotion)
     throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
   warn(readings::warningsOf(log, line.files.log));

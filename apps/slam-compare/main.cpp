@@ -9,9 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "InputFiles.h"
@@ -23,10 +23,12 @@
 #include "readings/EndPointReader.h"
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
-#include "run/LogSettings.h"
+#include "run/Configuration.h"
 #include "run/TrajectoryRecorder.h"
 #include "study/comparison/Comparison.h"
 #include "study/comparison/Report.h"
+#include "study/comparison/RunSetup.h"
+#include "study/comparison/Sweep.h"
 
 namespace {
 
@@ -139,79 +141,15 @@ comparison::GroundTruth loadTruth(const CommandLine& line) {
   return truth;
 }
 
-/// A group's INI file and the settings on top of it.
-struct Setup {
-  std::string config;
-  std::vector<std::string> settings;
-};
-
-Setup setupOf(const CommandLine& line, const comparison::Group& group, int seed) {
-  const std::string& own = group.variant.iniFile;
-  Setup setup{own.empty() ? line.files.config : files::inputFile(own), line.settings};
-  std::vector<std::string>& settings = setup.settings;
-  settings.insert(settings.end(), group.variant.settings.begin(), group.variant.settings.end());
-  const std::string particles = std::to_string(group.particles);
-  set(settings, "run.rawlog", fs::weakly_canonical(fs::absolute(line.files.log)).string());
-  set(settings, "run.method", group.method);
-  set(settings, "particle_filter.particles", particles);
-  set(settings, "particle_filter.seed", std::to_string(seed));
-  set(settings, "particle_filter.threads", "1");
-  // MRPT's filter reads its own section, if there is one, with its own key for the number of particles.
-  if (group.method == "stock" &&
-      run::Configuration(setup.config, settings).source.sectionExists(run::kStockSection))
-    if (group.particles > 0) set(settings, std::string(run::kStockSection) + ".sampleSize", particles);
-  return setup;
-}
-
-/// The sections for MRPT, which config.ini does not hold.
-std::string otherSections(run::Configuration& configuration) {
-  std::vector<std::string> sections, keys;
-  configuration.source.getAllSections(sections);
-  std::string text;
-  for (const std::string& section : sections) {
-    if (section.rfind(run::kStockSection, 0) != 0) continue;
-    text += "[" + section + "]\n";
-    configuration.source.getAllKeys(section, keys);
-    for (const std::string& key : keys)
-      text += key + " = " + configuration.source.read_string(section, key, "") + "\n";
-  }
-  return text;
-}
-
 std::string besideThisProgram(const std::string& program) {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / program;
   return fs::exists(beside, error) ? beside.string() : program;
 }
 
-std::vector<comparison::ComparisonRun> makeSweep(const CommandLine& line,
-                                                 const std::vector<comparison::Group>& groups) {
-  const std::string program = besideThisProgram("hybrid-slam");
-  comparison::RunIdentity log;
-  comparison::noteLog(log, line.files.log);
-  std::map<std::string, run::LogSettings> byLaser;
-  const auto ofLog = [&](const readings::InputOptions& input) -> const run::LogSettings& {
-    const auto [found, isNew] = byLaser.try_emplace(input.sensorLabel);
-    if (isNew)
-      found->second = run::readLogSettings(line.files.log, input, readings::summarise(line.files.log, input));
-    return found->second;
-  };
-  std::vector<comparison::ComparisonRun> sweep;
-  for (const comparison::Run& run : comparison::makeRuns(groups.size(), line.firstSeed, line.seeds)) {
-    const comparison::Group& group = groups[run.group];
-    const Setup setup = setupOf(line, group, run.seed);
-    run::Configuration configuration(setup.config, setup.settings);
-    applyLogSettings(ofLog(configuration.input), configuration);
-    comparison::RunIdentity identity = log;
-    identity.configuration = configuration.text();
-    if (group.method == "stock") identity.otherSections = otherSections(configuration);
-    std::vector<std::string> command{program, "-q"};
-    if (!setup.config.empty()) command.push_back(setup.config);
-    for (const std::string& setting : setup.settings) command.insert(command.end(), {"--set", setting});
-    sweep.push_back(
-        {run, {fs::path(line.output) / "runs", comparison::runName(group, run.seed)}, identity, command});
-  }
-  return sweep;
+/// Ends the program after Ctrl-C outside the runs.
+void expectNoStop(const std::string& where) {
+  if (stop) throw std::runtime_error("interrupted: " + where);
 }
 
 struct LogSpan {
@@ -220,13 +158,17 @@ struct LogSpan {
 };
 
 /// One pass over the log, which finds errors before any run starts.
-LogSpan readLog(const CommandLine& line, const Setup& setup) {
-  const readings::InputOptions input = run::Configuration(setup.config, setup.settings).input;
-  const readings::RawlogSummary summary = summarise(line.files.log, input);
+LogSpan readLog(const CommandLine& line, const comparison::RunSetup& setup) {
+  const readings::InputOptions input = setup.configuration().input;
+  const readings::RawlogSummary summary =
+      readings::summarise(line.files.log, input, [] { return stop.load(); });
   warn(readings::warningsOf(summary, line.files.log));
   readings::RawlogSource source(line.files.log, input, summary);
   run::TrajectoryRecorder recorder;
-  while (const auto reading = source.next()) recorder.add(reading->timestamp, reading->motion, 0);
+  while (const auto reading = source.next()) {
+    expectNoStop(source.place());
+    recorder.add(reading->timestamp, reading->motion, 0);
+  }
   return {recorder.trajectory({}), summary.duration};
 }
 
@@ -274,8 +216,12 @@ int execute(const CommandLine& line, const std::string& command) {
     particles = {{"", run::Configuration(line.files.config, line.settings).filter.filter.particles}};
   const std::vector<comparison::Group> groups = comparison::makeGroups(line.methods, variants, particles);
   comparison::GroundTruth truth = loadTruth(line);
-  const std::vector<comparison::ComparisonRun> sweep = makeSweep(line, groups);
-  const Setup setup = setupOf(line, groups[0], line.firstSeed);
+  const comparison::CommonSetup common{line.files.config, line.files.log, line.settings};
+  const fs::path runs = fs::path(line.output) / "runs";
+  const std::vector<comparison::ComparisonRun> sweep =
+      comparison::makeSweep(common, groups, comparison::makeRuns(groups.size(), line.firstSeed, line.seeds),
+                            runs, besideThisProgram("hybrid-slam"), stop);
+  const comparison::RunSetup setup = comparison::setupOf(common, groups[0], line.firstSeed);
   const LogSpan log = readLog(line, setup);
   truth.expectOverlap(log.deadReckoning);
   if (line.isListOnly) {
@@ -284,12 +230,12 @@ int execute(const CommandLine& line, const std::string& command) {
     return 0;
   }
   if (truth.revisits || truth.plan)
-    truth.takeScans(readings::loadEndPoints(
-        line.files.log, run::Configuration(setup.config, setup.settings).input.sensorLabel));
+    truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input.sensorLabel));
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
 
   for (const comparison::ComparisonRun& r : sweep) {
+    expectNoStop("folder " + line.output);
     if (!r.folder.isFinished() || line.isReportOnly) continue;
     if (const std::string damaged = r.folder.damage(); !damaged.empty()) {
       warn({"damaged run: " + r.folder.file(damaged).string() + "; it is run again"});
@@ -314,8 +260,10 @@ int execute(const CommandLine& line, const std::string& command) {
   };
   comparison::SweepOutcome outcome;
   if (line.isReportOnly) {
-    for (const comparison::ComparisonRun& r : sweep)
+    for (const comparison::ComparisonRun& r : sweep) {
+      expectNoStop("folder " + line.output);
       if (r.folder.isFinished() && r.folder.damage().empty()) r.folder.expect(r.identity);
+    }
   } else {
     const size_t jobs =
         line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
@@ -336,8 +284,9 @@ int execute(const CommandLine& line, const std::string& command) {
                                  {},
                                  {},
                                  std::move(truth),
-                                 fs::path(line.output) / "runs"};
+                                 runs};
   for (const comparison::ComparisonRun& r : sweep) {
+    expectNoStop("folder " + line.output);
     report.results.push_back(comparison::evaluateRun(r.run, r.folder, report.truth));
     if (const comparison::RunResult& result = report.results.back();
         r.folder.isFinished() && result.status == comparison::RunResult::Status::failed)
@@ -374,14 +323,16 @@ int main(int argc, char** argv) {
                "slam-compare");
   CommandLine line;
   describe(app, line);
-  return exitCodeOf([&] {
+  const auto parseAndExecute = [&] {
     if (const auto code = parse(app, argc, argv)) return *code;
-    // Unlike stopOnSignals, a second signal does not kill: running children must be ended first.
-    onStopSignals([](int) { stop = true; });
+    stopOnSignals();
     std::vector<std::string> command{"slam-compare"};
     command.insert(command.end(), argv + 1, argv + argc);
     line.files.sort();
     files::findInputFiles({&line.reference, &line.relations, &line.odometry, &line.floorplan});
     return execute(line, quoted(command));
+  };
+  return exitCodeOf(parseAndExecute, [](const std::exception& e) {
+    return messageOf(e) + (stop ? "; the same command continues" : "");
   });
 }

@@ -15,9 +15,8 @@ enum class Compression { gzip, bzip2, zstd, lz4 };
 
 const char* nameOf(Compression compression);
 
-/// Detects the compression from the first kMagicSize bytes of a file, or all of a shorter one; empty: none.
+/// Detects the compression from the first 10 bytes of a file, or all of a shorter one; empty: none.
 std::optional<Compression> compressionOf(std::string_view beginning);
-constexpr size_t kMagicSize = 10;
 
 /// Thrown for bytes that violate the format; what() says how.
 struct Damaged : std::runtime_error {

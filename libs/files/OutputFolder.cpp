@@ -1,5 +1,7 @@
 #include "files/OutputFolder.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <locale>
 #include <system_error>
@@ -14,8 +16,8 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
   std::filesystem::create_directories(folder_, error);
   if (!std::filesystem::is_directory(folder_, error))
     throw InputError("no such folder, and it cannot be created", folder, expected);
-  const PartialFile probe(path("probe"));
-  if (!std::ofstream(probe.path())) throw InputError("output folder not writable", folder, expected);
+  if (::access(folder_.c_str(), W_OK | X_OK) != 0)
+    throw InputError("output folder not writable", folder, expected);
 }
 
 void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& fill) const {
@@ -29,18 +31,6 @@ GrowingFile::GrowingFile(const std::string& path) : file_(path) {
   errno = 0;
   out_.open(file_.path(), std::ios::binary);
   if (!out_) file_.fail(errno);
-}
-
-std::string GrowingFile::content() {
-  out_.flush();
-  std::ifstream in(file_.path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void GrowingFile::restart(const std::string& content) {
-  out_.close();
-  out_.open(file_.path(), std::ios::binary | std::ios::trunc);
-  out_ << content;
 }
 
 void GrowingFile::finish() {

@@ -28,17 +28,13 @@ class OutputFolder {
   std::filesystem::path folder_;
 };
 
-/// A file that grows during a run and gets its final name at the end; without `finish` it is removed.
+/// A file that gets its final name once it is complete; without `finish` it is removed.
 class GrowingFile {
  public:
   /// @throws InputError if it cannot be opened
   explicit GrowingFile(const std::string& path);
 
   std::ostream& stream() { return out_; }
-  /// Returns its content so far.
-  std::string content();
-  /// Replaces the content.
-  void restart(const std::string& content);
   /// @throws InputError if it could not be written completely
   void finish();
 

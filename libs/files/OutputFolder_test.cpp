@@ -74,6 +74,13 @@ TEST(OutputFolder, AFolderWithTheNameOfAResultIsAnError) {
   EXPECT_THAT(namesIn(root.path("out")), UnorderedElementsAre("x"));
 }
 
+TEST(OutputFolder, AFolderInItMayHaveAnyName) {
+  const TemporaryFolder root;
+  for (const char* name : {"probe", ".partial.probe"}) fs::create_directories(root.path("out") + "/" + name);
+  EXPECT_NO_THROW(OutputFolder{root.path("out")});
+  EXPECT_THAT(namesIn(root.path("out")), UnorderedElementsAre("probe", ".partial.probe"));
+}
+
 TEST(OutputFolder, NotWritable) {
   const TemporaryFolder root;
   fs::create_directory(root.path("out"));

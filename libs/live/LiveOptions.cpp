@@ -24,7 +24,8 @@ void LiveOptions::describe(OptionTable& t) {
 
 void ServerOptions::describe(OptionTable& t) {
   t.add("address", address,
-        "local address to listen on; all interfaces: 0.0.0.0 (IPv4) or ::, with a token only");
+        "local address to listen on, numeric or localhost; all interfaces: 0.0.0.0 (IPv4) or ::, with a "
+        "token only");
   t.add("token_file", tokenFile,
         "file whose first line, of 16 to 256 characters, clients must send; empty: none");
   t.add("port", port, 0, 65535, "TCP port; 0: any free port, printed on standard output");

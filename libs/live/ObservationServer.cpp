@@ -21,9 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeartbeat = 1000;                   // ms
-constexpr double kTokenPatience = 5;               // s
-constexpr size_t kMostReceived = size_t{1} << 20;  // bytes of a client, which has only a token to send
+constexpr std::chrono::milliseconds kHeartbeat{1000};  // without a message
+constexpr double kTokenPatience = 5;                   // s
+constexpr size_t kMostReceived = size_t{1} << 20;      // bytes of a client, which has only a token to send
 
 const std::string& checkedAddress(const std::string& address, const std::string& token) {
   if (token.empty() && !isLoopback(address))
@@ -85,17 +85,20 @@ void ObservationServer::enqueue(MessageKind kind, std::string payload) {
     // Number and queue in one step: a heartbeat ahead of its cycle would make it count as lost.
     const std::lock_guard<std::mutex> lock(mutex_);
     if (kind == MessageKind::cycle) ++number_;
-    const auto bytes =
-        std::make_shared<const std::string>(encode({kind, session_, number_, std::move(payload)}));
+    lastMessage_ = Clock::now();
+    const auto message =
+        std::make_shared<const Encoded>(Encoded{kind, encode({kind, session_, number_, std::move(payload)})});
     for (Client& client : clients_) {
       if (!client.isKnown) continue;
+      if (kind == MessageKind::heartbeat && !client.queue.empty()) continue;
       // A partly sent message must be finished; drop the next oldest.
       const auto oldest = client.queue.begin() + (client.sent > 0 ? 1 : 0);
-      if (client.queue.size() >= limits_.queue && oldest != client.queue.end()) {
+      if (kind == MessageKind::cycle && client.queue.size() >= limits_.queue &&
+          oldest != client.queue.end()) {
+        if ((*oldest)->kind == MessageKind::cycle) ++client.dropped, ++dropped_;
         client.queue.erase(oldest);
-        ++client.dropped, ++dropped_;
       }
-      client.queue.push_back(bytes);
+      client.queue.push_back(message);
     }
   }
   wake();
@@ -123,18 +126,23 @@ bool ObservationServer::isOpenToClients() {
 }
 
 void ObservationServer::serve() {
-  auto lastHeartbeat = Clock::now();
-  uint64_t lastNumber = 0;
   while (!stop_) {
     std::vector<pollfd> ready{{wakeUp_, POLLIN, 0}};
+    Clock::duration left{};  // until a heartbeat is due
     {
       const std::lock_guard<std::mutex> lock(mutex_);
+      left = lastMessage_ + kHeartbeat - Clock::now();
       for (const Client& client : clients_)
         ready.push_back({client.socket.descriptor(),
                          static_cast<short>(POLLIN | (client.queue.empty() ? 0 : POLLOUT)), 0});
     }
+    if (left <= Clock::duration::zero()) {
+      enqueue(MessageKind::heartbeat);
+      continue;
+    }
     if (isOpenToClients()) ready.push_back({listener_.descriptor(), POLLIN, 0});
-    ::poll(ready.data(), ready.size(), kHeartbeat);
+    ::poll(ready.data(), ready.size(),
+           static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(left).count()));
 
     uint64_t count = 0;
     [[maybe_unused]] const ssize_t ignored = ::read(wakeUp_, &count, sizeof count);
@@ -153,12 +161,6 @@ void ObservationServer::serve() {
     if (i < ready.size() && ready[i].revents) accept();
     clientCount_ = static_cast<size_t>(
         std::count_if(clients_.begin(), clients_.end(), [](const Client& client) { return client.isKnown; }));
-
-    if (Clock::now() - lastHeartbeat >= std::chrono::milliseconds(kHeartbeat)) {
-      if (number_ == lastNumber) enqueue(MessageKind::heartbeat);
-      lastNumber = number_;
-      lastHeartbeat = Clock::now();
-    }
   }
 }
 
@@ -207,7 +209,7 @@ void ObservationServer::write(Client& client) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (client.queue.empty()) client.lastTaken = Clock::now();
   while (!client.queue.empty()) {
-    const std::string& bytes = *client.queue.front();
+    const std::string& bytes = client.queue.front()->bytes;
     client.sent += client.socket.sendSome(bytes.data() + client.sent, bytes.size() - client.sent);
     if (client.sent < bytes.size()) break;
     client.queue.pop_front();

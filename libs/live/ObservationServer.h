@@ -50,14 +50,18 @@ class ObservationServer {
   void finish(double timeout);
 
  private:
-  using Bytes = std::shared_ptr<const std::string>;
+  /// An encoded message.
+  struct Encoded {
+    MessageKind kind;
+    std::string bytes;
+  };
   struct Client {
     TcpSocket socket;
     std::string name;
     bool isKnown = false;                               ///< no token needed, or it was received
     size_t received = 0;                                ///< bytes
     std::string shown;                                  ///< part of the token received so far
-    std::deque<Bytes> queue;                            ///< the first may be partly sent
+    std::deque<std::shared_ptr<const Encoded>> queue;   ///< the first may be partly sent
     size_t sent = 0;                                    ///< bytes of the first
     size_t dropped = 0;                                 ///< cycles since the queue was last empty
     std::chrono::steady_clock::time_point lastTaken{};  ///< a message, or the queue was empty
@@ -80,8 +84,9 @@ class ObservationServer {
   std::atomic<uint64_t> number_{0};
   std::atomic<size_t> clientCount_{0}, dropped_{0};
   std::atomic<bool> stop_{false};
-  /// Guards the clients' queues and number_; only the thread adds and removes clients.
+  /// Guards the clients' queues, number_ and lastMessage_; only the thread adds and removes clients.
   std::mutex mutex_;
+  std::chrono::steady_clock::time_point lastMessage_ = std::chrono::steady_clock::now();
   std::list<Client> clients_;
   double allowed_;  ///< new clients now
   std::chrono::steady_clock::time_point lastAllowed_ = std::chrono::steady_clock::now();

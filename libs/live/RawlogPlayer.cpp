@@ -56,9 +56,10 @@ class Pace {
 
 }  // namespace
 
-RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate)
+RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double replayRate,
+                           const StopCheck& stop)
     : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
-  const readings::RawlogSummary log = readings::summarise(file, {});
+  const readings::RawlogSummary log = readings::summarise(file, {}, stop);
   warnings_ = readings::warningsOf(log, file);
   if (!log.defect.empty())
     warnings_.push_back("log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point");

@@ -13,8 +13,11 @@ class RawlogPlayer : public CycleSource {
  public:
   /// @param cycleRate   cycles per second of log time; 0: one cycle per scan
   /// @param replayRate  cycles/s delivered; 0: real time
-  /// @throws InputError if the log is missing or has no scan
-  RawlogPlayer(const std::string& file, double cycleRate, double replayRate);
+  /// @param stop        ends the first pass over the log
+  /// @throws InputError if the log is missing or has no scan; std::runtime_error if stopped
+  RawlogPlayer(
+      const std::string& file, double cycleRate, double replayRate,
+      const StopCheck& stop = [] { return false; });
 
   /// Returns the defects of the log, one per line.
   const std::vector<std::string>& warnings() const { return warnings_; }

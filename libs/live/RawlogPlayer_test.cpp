@@ -81,7 +81,14 @@ TEST(RawlogPlayer, TheActionsOfPairsBecomeOdometry) {
   EXPECT_NEAR(p.readings[2].motion.y, 0, 1e-9);
 }
 
-TEST(RawlogPlayer, StopsOnRequest) { EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u); }
+TEST(RawlogPlayer, StopsOnRequest) {
+  EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u);
+  const files::TemporaryFolder folder;
+  const std::string log = test::writePlain(folder.path("log"), test::laps(10));
+  int asked = 0;
+  EXPECT_THROW(RawlogPlayer(log, 5, kFast, [&] { return ++asked == 3; }), std::runtime_error);
+  EXPECT_EQ(asked, 3);
+}
 
 TEST(RawlogPlayer, ALogWithoutScansIsAnError) {
   EXPECT_THROW(played({test::odometry(1, {})}, 5), InputError);

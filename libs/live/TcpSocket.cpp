@@ -166,9 +166,10 @@ void TcpSocket::send(const std::string& bytes, double timeout) {
 
 TcpListener::TcpListener(const std::string& address, uint16_t port) {
   const std::string where = addressText(address, port);
-  const std::string expected = "expected a local address and a free port";
+  const std::string expected = "expected a numeric local address or localhost, and a free port";
   try {
-    const Addresses found = lookUp(address, port, AI_PASSIVE | AI_NUMERICHOST);
+    const Addresses found =
+        lookUp(address == "localhost" ? "127.0.0.1" : address, port, AI_PASSIVE | AI_NUMERICHOST);
     socket_ = TcpSocket(::socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int on = 1;
     ::setsockopt(socket_.descriptor(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

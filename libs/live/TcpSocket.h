@@ -54,7 +54,8 @@ class TcpSocket {
 /// A listening socket.
 class TcpListener {
  public:
-  /// @param address  local address: "127.0.0.1", "::1"; "0.0.0.0": all IPv4 interfaces, "::": all
+  /// @param address  local address: "127.0.0.1" or "localhost", "::1"; "0.0.0.0": all IPv4 interfaces, "::":
+  /// all
   /// @param port     0: any free port
   /// @throws InputError if it cannot listen
   TcpListener(const std::string& address, uint16_t port);

@@ -127,6 +127,12 @@ TEST(TcpSocket, ServesIPv6) {
   EXPECT_EQ(events.count("client [::1]:"), 1u) << events.text();
 }
 
+TEST(TcpSocket, ListensAtLocalhost) {
+  const TcpListener listener("localhost", 0);
+  EXPECT_TRUE(TcpSocket::connectTo("127.0.0.1", listener.port(), 10).isOpen());
+  EXPECT_TRUE(TcpSocket::connectTo("localhost", listener.port(), 10).isOpen());
+}
+
 TEST(HostAndPort, AnIPv6AddressHasBrackets) {
   const std::pair<std::string, uint16_t> loopback{"::1", 4550};
   EXPECT_EQ(hostAndPort("[::1]:4550", ""), loopback);

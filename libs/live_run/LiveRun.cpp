@@ -111,7 +111,7 @@ void LiveRun::filter() {
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
       if (isUpdate && !run_.view().place()) mapSoFar_.add(run_.view(), next->reading.scans);
-      for (const std::string& note : run_.takeNotes()) log_.report("filter", note);
+      tellNotes();
       if (watcher_) watcher_(run_.view(), next->reading, isUpdate);
       latencies_.push_back(1000 * secondsSince(next->arrival));
       if (secondsSince(lastState_) >= stateInterval_) tellState();
@@ -120,6 +120,10 @@ void LiveRun::filter() {
     failure_ = std::current_exception();
     hasFailed_ = true;
   }
+}
+
+void LiveRun::tellNotes() {
+  for (const std::string& note : run_.takeNotes()) log_.report("filter", note);
 }
 
 void LiveRun::tellState() {
@@ -135,8 +139,8 @@ void LiveRun::tellState() {
                             (place ? ", " + describe(*place) : ", map " + verdict_.name()));
 }
 
-// The verdict is found in another thread, so that no scan waits for it.
-void LiveRun::tellVerdict() {
+// The verdict is found in another thread, so that no scan waits for it. The run does not need it.
+void LiveRun::tellVerdict() try {
   if (run_.view().place() || run_.view().updates() == 0) return;
   if (nextVerdict_.valid()) {
     if (nextVerdict_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
@@ -145,6 +149,8 @@ void LiveRun::tellVerdict() {
     verdict_ = std::move(next);
   }
   nextVerdict_ = std::async(std::launch::async, mapSoFar_.judge(run_.view()));
+} catch (const std::exception& e) {
+  log_.report("map", "not judged: " + messageOf(e));
 }
 
 void LiveRun::stopFilter() {
@@ -161,7 +167,12 @@ std::string LiveRun::finish(size_t lost) {
   if (run_.scans() == 0 && failure_) std::rethrow_exception(failure_);
   if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");
 
-  const readings::RawlogSummary recorded = summarise(recording_.path(), configuration_.input);
+  readings::RawlogSummary recorded;
+  try {
+    recorded = summarise(recording_.path(), configuration_.input);
+  } catch (const InputError& e) {  // the disk was full from the start
+    log_.report("results", "without those that need the recording (" + messageOf(e) + ")");
+  }
   nlohmann::ordered_json more{{"skipped_readings", recorded.skippedReadings() + wrongOdometry_},
                               {"skipped", skipped_.load()},
                               {"lost_cycles", lost},
@@ -171,6 +182,7 @@ std::string LiveRun::finish(size_t lost) {
                                 {"max", nearestRankQuantile(latencies_, 1)}}}};
   if (failure_) more["complete"] = false;
   const std::string summary = run_.finish(recording_.path(), recorded, more);
+  tellNotes();
   if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);
   if (failure_) {
     log_.report("results", "written up to the failure: " + run_.folder());

@@ -53,7 +53,8 @@ class LiveRun {
   /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
 
-  /// Filters the waiting readings, then writes all results.
+  /// Filters the waiting readings, then writes all results; if the recording cannot be read (full disk),
+  /// those that do not need it.
   /// @param lost  number of lost cycles, for metrics.json
   /// @return the summary and the verdict, a line each
   /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results
@@ -74,6 +75,7 @@ class LiveRun {
   void reportUse(const mrpt::obs::CObservation2DRangeScan& scan);
   void filter();
   void stopFilter();
+  void tellNotes();
   void tellState();
   void tellVerdict();
   /// Names the last observation in the recording.

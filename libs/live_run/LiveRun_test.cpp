@@ -3,77 +3,22 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/maps/CSimpleMap.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "base/Errors.h"
-#include "files/RawlogReader.h"
-#include "files/TemporaryFolder.h"
-#include "live/CycleGrouper.h"
 #include "readings/SweepTimes.h"
-#include "run/Replay.h"
-#include "testing/TestEvents.h"
-#include "testing/TestLogs.h"
+#include "testing/LiveRunTest.h"
 
 namespace hybrid_slam::live {
 namespace {
 
-using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
-using test::contentOf;
+using test::LiveRunTest;
 using testing::HasSubstr;
-
-class LiveRunTest : public testing::Test {
- protected:
-  run::Configuration configuration(const std::string& output, const std::string& more = "") {
-    const std::string ini =
-        folder.write("run.ini",
-                     "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = 0.2\n[grid]\n"
-                     "resolution = 0.1\n" +
-                         more);
-    return run::Configuration(ini, {"run.output=" + folder.path(output)});
-  }
-  /// Passes the log's observations through a grouper to a live run. @return the summary
-  std::string runLive(const test::Log& log, const std::string& more = "") {
-    run::Configuration c = configuration("live", more);
-    LiveRun run(c, options, events.log(), true);
-    run.setStateInterval(stateInterval);
-    CycleGrouper grouper(0, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
-    for (const auto& object : log) grouper.add(std::dynamic_pointer_cast<CObservation>(object));
-    grouper.finish();
-    return run.finish(3);
-  }
-  void replayRecording(const std::string& more = "") {
-    run::Configuration c = configuration("offline", more);
-    c.run.rawlog = recording();
-    c.run.overwrite = true;
-    const std::atomic<bool> stop{false};
-    run::replay(c, true, stop);
-  }
-  /// Returns the newest recording; empty if there is none.
-  std::string recording() const {
-    const auto all = test::filesIn(folder.path("live"), "recording-");
-    return all.empty() ? "" : all.back();
-  }
-  std::string result(const std::string& name) const { return test::contentOf(folder.path(name)); }
-  void expectSameResults() {
-    for (const char* name : {"trajectory.tum", "map.pgm", "map.yaml", "lines.csv"}) {
-      EXPECT_EQ(result(std::string("live/") + name), result(std::string("offline/") + name)) << name;
-      EXPECT_FALSE(result(std::string("live/") + name).empty()) << name;
-    }
-    EXPECT_EQ(result("live/map.simplemap.gz"), result("offline/map.simplemap.gz"));
-  }
-
-  files::TemporaryFolder folder;
-  test::Events events;
-  LiveOptions options;
-  double stateInterval = 10;  // s
-};
 
 TEST_F(LiveRunTest, TheReplayOfItsRecordingGivesTheSameBytes) {
   options.maxWaiting = 1000;
@@ -187,36 +132,6 @@ TEST_F(LiveRunTest, SaysNothingOfAGoodMap) {
   EXPECT_EQ(events.count("map: verdict"), 0u) << events.text();
 }
 
-TEST_F(LiveRunTest, WithoutAScanThereAreNoResults) {
-  EXPECT_THROW(runLive({test::odometry(1, {}), test::odometry(2, {})}), std::runtime_error);
-  EXPECT_FALSE(std::filesystem::exists(folder.path("live/trajectory.tum")));
-  EXPECT_NE(recording(), "");
-  EXPECT_THROW(runLive({test::scan(1), test::scan(2)}), std::runtime_error) << "and no odometry";
-}
-
-TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecordingAndTheResultsSoFar) {
-  run::Configuration c = configuration("live");
-  options.maxWaiting = 1000;
-  LiveRun run(c, options, events.log(), true);
-  run.setWatcher([](const FilterView& view, const readings::Reading&, bool) {
-    if (view.updates() == 5) throw InputError("failure", "fifth update", "expected none");
-  });
-  const test::Log log = test::laps(40);
-  for (const auto& object : log) {
-    const auto cycle = CSensoryFrame::Create();
-    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
-    run.take(cycle);
-  }
-  EXPECT_TRUE(test::happens([&] { return run.hasFailed(); }));
-  EXPECT_THROW(run.finish(0), InputError);
-  files::RawlogReader reader(recording());
-  size_t objects = 0;
-  while (reader.next()) ++objects;
-  EXPECT_EQ(objects, log.size());
-  EXPECT_EQ(reader.defect(), "");
-  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
-}
-
 TEST_F(LiveRunTest, EachLaserThatIsUsedIsReportedOnce) {
   options.maxWaiting = 1000;
   test::Log log = test::laps(10);
@@ -271,65 +186,6 @@ TEST_F(LiveRunTest, AnotherRunInTheSameFolderTouchesNothing) {
   EXPECT_GE(events.count("has results of an earlier run"), 1u) << events.text();
   EXPECT_EQ(test::contentOf(first), recorded);
   EXPECT_EQ(result("live/metrics.json"), metrics);
-}
-
-TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
-  Recording killed(folder.path(""), "killed.rawlog", events.log());
-  for (int i = 0; i < 100; ++i) killed.write(*test::scan(1000 + i));
-  killed.flush();
-  std::filesystem::copy_file(test::filesIn(folder.path(""), ".partial.killed-20").at(0),
-                             folder.path("copy.rawlog"));
-  files::RawlogReader reader(folder.path("copy.rawlog"));
-  size_t scans = 0;
-  while (reader.next()) ++scans;
-  EXPECT_EQ(scans, 100u);
-  EXPECT_THAT(reader.defect(), HasSubstr("cut off"));
-}
-
-TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  run::Configuration c = configuration("live");
-  options.maxWaiting = 1000;
-  LiveRun run(c, options, events.log(), true);
-  const rlimit small{40000, before.rlim_max};  // bytes of a file
-  ::setrlimit(RLIMIT_FSIZE, &small);
-  for (const auto& object : test::laps(300)) {
-    const auto cycle = CSensoryFrame::Create();
-    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
-    run.take(cycle);
-  }
-  EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
-  files::RawlogReader reader(recording());
-  size_t objects = 0;
-  while (reader.next()) ++objects;
-  EXPECT_GT(objects, 10u);
-  EXPECT_LT(objects, 600u);
-  mrpt::maps::CSimpleMap map;
-  EXPECT_TRUE(map.loadFromFile(folder.path("live/map.simplemap.gz"))) << "as far as the recording goes";
-  EXPECT_GT(map.size(), 1u);
-}
-
-TEST_F(LiveRunTest, ACheckpointThatCannotBeWrittenDoesNotEndTheRun) {
-  run::Configuration c = configuration("live");
-  c.run.checkpointEvery = 0.001;
-  options.maxWaiting = 1000;
-  LiveRun run(c, options, events.log(), true);
-  const std::string inTheWay = folder.path("live/session.hslam");
-  std::filesystem::create_directory(inTheWay);
-  const auto take = [&](const auto& object) {
-    const auto cycle = CSensoryFrame::Create();
-    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
-    run.take(cycle);
-  };
-  for (const auto& object : test::laps(30)) take(object);
-  ASSERT_TRUE(test::happens([&] { return events.count("no checkpoint: ") > 0; })) << events.text();
-  std::filesystem::remove(inTheWay);
-  EXPECT_THAT(run.finish(0), HasSubstr("30 scans"));
-  EXPECT_FALSE(result("live/session.hslam").empty());
 }
 
 TEST_F(LiveRunTest, WrongRecordingNames) {

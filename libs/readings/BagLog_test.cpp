@@ -85,6 +85,13 @@ TEST_F(BagLogTest, TheTimeFromTheFirstBeamToTheLastIsStatedBeforeTheScans) {
   EXPECT_NEAR(seconds(comments[1]->timestamp), 3, 1e-6);
 }
 
+TEST_F(BagLogTest, TheSearchForTopicsCanBeStopped) {
+  const std::string file = write({scanOn("/scan", 1, "laser"), scanOn("/scan", 2, "laser")});
+  int asked = 0;
+  EXPECT_EQ(test::errorOf<std::runtime_error>([&] { contentsOf(file, [&] { return ++asked == 2; }); }),
+            "interrupted: message 2 of " + file);
+}
+
 TEST_F(BagLogTest, AnImpossibleTimeFromBeamToBeamIsReportedAndNotUsed) {
   const std::string file = write(
       {odometryAt(0.9, {}), scanOn("/scan", 1, "laser", std::vector<float>(2000, 1), -1, 0.001F, 0.001F),

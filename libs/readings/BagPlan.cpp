@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "bags/ByteCursor.h"
 #include "base/Errors.h"
@@ -143,14 +144,16 @@ std::string BagContents::table() const {
   return out.str();
 }
 
-BagContents contentsOf(const std::string& file) {
+BagContents contentsOf(const std::string& file, const std::function<bool()>& isStopped) {
   const auto bag = bags::openBag(file);
   BagContents contents;
   const auto noteTopics = [&] {
     for (size_t i = contents.topics.size(); i < bag->topics().size(); ++i)
       contents.topics.push_back({bag->topics()[i], 0, 0, {}});
   };
-  while (const auto message = bag->next()) {
+  for (size_t number = 1; const auto message = bag->next(); ++number) {
+    if (isStopped())
+      throw std::runtime_error("interrupted: message " + std::to_string(number) + " of " + file);
     noteTopics();
     Entry& entry = contents.topics[message->topic];
     ++entry.messages;

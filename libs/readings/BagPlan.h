@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose3D.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,7 +38,9 @@ struct BagContents {
 };
 
 /// Reads the whole bag. @throws InputError if the file is not a bag, or damaged before its first message
-BagContents contentsOf(const std::string& file);
+/// @throws std::runtime_error if `isStopped`, which is called at each message, returns true
+BagContents contentsOf(
+    const std::string& file, const std::function<bool()>& isStopped = [] { return false; });
 
 /// Each scan topic is a laser. Its pose follows from the first transforms between the robot's base and the
 /// scan's frame: a laser does not move on the robot.

@@ -74,12 +74,15 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   RawlogSummary summary;
   const std::vector<std::string> wanted = labelsOf(options.sensorLabel);
   if (bags::isBag(file))
-    summary.bag =
-        std::make_shared<const BagPlan>(planOf(contentsOf(file), {wanted, options.odometryTopic}, file));
+    summary.bag = std::make_shared<const BagPlan>(
+        planOf(contentsOf(file, isStopped), {wanted, options.odometryTopic}, file));
   LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
   SweepTimes sweeps(options.scanTime);
   ScanGrouper grouper(wanted, options.maxOdometryGap);
+  ReadingAssembler beginning(wanted, true, options.maxOdometryGap, SweepTimes(0));  // up to its first reading
+  bool hasBegun = false;
+  size_t firstScan = 0;
   Uses uses;
   std::map<std::string, double> last;  // timestamp of each laser's previous scan
   double earliest = 0, latest = 0;
@@ -106,6 +109,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (use == ScanGrouper::Use::misplaced) return note(summary.misplaced, reader.entry());
     if (use == ScanGrouper::Use::tilted) return note(summary.tilted, reader.entry());
     if (use != ScanGrouper::Use::taken) return;
+    if (firstScan == 0) firstScan = reader.entry();
     grouper.add(scan);
     if (const double sweep = sweeps.of(scan); sweep > 0) summary.sweeps[scan.sensorLabel] = sweep;
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
@@ -140,7 +144,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
         noteReading(odometry->odometry.asTPose());
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) noteScan(*scan);
     });
+    if (!hasBegun) beginning.take(object);
+    hasBegun = hasBegun || beginning.next();
   }
+  beginning.finish();
   summary.duration = latest - earliest;
   summary.entries = reader.entry();
   summary.defect = reader.defect();
@@ -171,6 +178,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                      "expected a horizontal plane within 5 deg, upright or upside down");
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
+  if (summary.hasOdometryReadings && beginning.dropped() > 0) {
+    summary.early = {beginning.dropped(), firstScan};
+    summary.scans -= beginning.dropped();
+  }
   return summary;
 }
 

@@ -38,7 +38,8 @@ struct Oddity {
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
   std::vector<std::string> ignored;  ///< one line for each other laser: label and reason
-  size_t scans = 0;                  ///< readings: scans that several lasers take at one time count as one
+  size_t scans = 0;  ///< readings, without `early`: scans that several lasers take at one time count as one
+  Oddity early;      ///< readings that ReadingAssembler drops before the first odometry
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
   Oddity wrongOdometry;                                                   ///< NaN or infinite
   Oddity noOdometry;                                                      ///< actions
@@ -56,9 +57,9 @@ struct RawlogSummary {
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"
   std::shared_ptr<const BagPlan> bag;  ///< topics used of a bag; null for other logs
   std::string defect;                  ///< how the log is truncated; empty if complete
-  /// Number of scans and odometry readings that are skipped because they are impossible.
+  /// Number of scans and odometry readings that are skipped: impossible, or long before the first odometry.
   size_t skippedReadings() const {
-    return empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
+    return early.count + empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
   }
   /// Says where the defect is.
   std::string defectPlace(const std::string& file) const {

@@ -187,6 +187,7 @@ void ReadingAssembler::complete(const Waiting& scan) {
   // Wrong odometry may move a robot far between two lasers.
   const bool isApart =
       !collected_.empty() && !((*scan.odometry - collected_.back().second).norm() <= kFarthestApart);
+  if (current_ == 0) dropped_ = scan.reading - 1;
   if (scan.reading != current_ || isApart) endReading();
   current_ = scan.reading;
   markInvalidBeams(*scan.scan);

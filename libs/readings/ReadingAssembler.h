@@ -61,6 +61,8 @@ class ReadingAssembler {
     return grouper_.useOf(scan);
   }
   size_t jumps() const { return jumps_; }  ///< of the odometry so far
+  /// Readings before the first odometry that were dropped, known once there is a reading.
+  size_t dropped() const { return dropped_; }
   /// End of input: scans that still wait for odometry take the last odometry reading.
   void finish();
   /// Returns the next complete reading; empty until more objects arrive.
@@ -100,7 +102,7 @@ class ReadingAssembler {
       collected_;                                    ///< with odometry
   std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
   std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
-  size_t jumps_ = 0;
+  size_t jumps_ = 0, dropped_ = 0;
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <locale>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
@@ -63,9 +64,9 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
               ownFile(configuration.run)),
       folder_(staged_.files()),
-      steps_(folder_.path("steps.csv")),
-      cell_(configuration.filter.grid.resolution) {
+      refinementBytes_(memoryLimit() / 4) {
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
+  cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
   if (configuration.run.method == Method::stock) {
     auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
                                                    static_cast<uint32_t>(configuration.filter.filter.seed),
@@ -91,19 +92,23 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     if (search_ || planSearch_) hybrid_->expectMap();
   }
   if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
-  writeStepsHeader(steps_.stream());
-  if (configuration.run.particlesEvery > 0)
-    writeParticlesHeader(particles_.emplace(folder_.path("particles.csv")).stream());
+  steps_.imbue(std::locale::classic());
+  writeStepsHeader(steps_);
+  if (configuration.run.particlesEvery == 0) return;
+  particles_.emplace().imbue(std::locale::classic());
+  writeParticlesHeader(*particles_);
 }
 
 FilterRun::~FilterRun() = default;
 
 bool FilterRun::process(const readings::Reading& reading) {
+  isConsistent_ = false;
   readings::Reading moved = reading;
   if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
   const bool isUpdate = filter(moved);
   if (search_) searchPlace(moved);
   if (planSearch_) searchPlan(moved);
+  isConsistent_ = true;
   saveIfDue();
   return isUpdate;
 }
@@ -140,7 +145,7 @@ void FilterRun::searchPlan(const readings::Reading& reading) {
   if (!planSearch_->isOver()) return;
   const std::unique_ptr<PlanSearch> search = std::move(planSearch_);
   const auto& found = search->found();
-  if (!found) return;
+  if (!found) return hybrid_->expectNoMap();
   notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
                    ", " + fixedText(found->pose.y, 2) + ") m, " +
                    fixedText(mrpt::RAD2DEG(found->pose.phi), 1) + " deg in " + configuration_.run.priorPlan +
@@ -171,9 +176,9 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
     wasLocated_ = localizer_->isLocalized();
     located_ += wasLocated_;
   }
-  writeStep(steps_.stream(), timestamp, step, 1000 * secondsSince(stepStart));
+  writeStep(steps_, timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
-    writeParticles(particles_->stream(), timestamp, step);
+    writeParticles(*particles_, timestamp, step);
 }
 
 std::string FilterRun::slipNote() const {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +27,8 @@
 
 namespace hybrid_slam::run {
 
-/// Writes steps.csv (and particles.csv) during the run, and the other files of doc/results.md at the end.
-/// They appear together (files/StagedFolder.h); without `finish` no results remain but the last checkpoint.
+/// Writes the files of doc/results.md at the end. They appear together (files/StagedFolder.h); without
+/// `finish` no results remain but the last checkpoint.
 class FilterRun {
  public:
   using Clock = std::chrono::steady_clock;
@@ -89,10 +90,13 @@ class FilterRun {
   /// Says in one line if that is not the requested folder; else empty.
   std::string folderNote() const { return staged_.note(); }
 
-  /// Writes the results.
+  /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
+  /// Where it would need more, it is left out, with a note.
+  void limitRefinement(double bytes) { refinementBytes_ = bytes; }
+  /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if it is shorter than the processed readings (a recording on a full disk),
-  ///                 the results end with it
+  ///                 map.simplemap.gz ends with it and nothing is refined; without scans, `file` is not read
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written
@@ -127,7 +131,8 @@ class FilterRun {
   /// Writes the row of steps.csv and updates the counters.
   void record(double timestamp, Clock::time_point stepStart);
   void note(const LoopClosure& loop);
-  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it.
+  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it; unless they need
+  /// too much memory.
   void refineResult(Result& result, readings::RawlogSource& source);
 
   Configuration& configuration_;
@@ -135,14 +140,14 @@ class FilterRun {
   files::StagedFolder staged_;
   const files::OutputFolder& folder_;  ///< of staged_
   std::unique_ptr<Filter> filter_;
-  HybridFilter* hybrid_ = nullptr;            ///< filter_, if it is ours
-  Localizer* localizer_ = nullptr;            ///< filter_, if it localises
-  std::optional<ScanMap> earlierMap_;         ///< to continue, until the place in it is found
-  std::unique_ptr<Localizer> search_;         ///< for this place
-  std::unique_ptr<PlanSearch> planSearch_;    ///< for the place in a floor plan
-  std::optional<ScanOdometry> scanOdometry_;  ///< replaces odometry
-  files::GrowingFile steps_;
-  std::optional<files::GrowingFile> particles_;
+  HybridFilter* hybrid_ = nullptr;               ///< filter_, if it is ours
+  Localizer* localizer_ = nullptr;               ///< filter_, if it localises
+  std::optional<ScanMap> earlierMap_;            ///< to continue, until the place in it is found
+  std::unique_ptr<Localizer> search_;            ///< for this place
+  std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
+  std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
+  std::ostringstream steps_;                     ///< in memory: a disk that is full for a while costs no row
+  std::optional<std::ostringstream> particles_;  ///< likewise
   TrajectoryRecorder recorder_;
   enum class Use { skipped, carried, update };
   std::vector<Use> uses_;                            ///< per reading of the log
@@ -153,14 +158,16 @@ class FilterRun {
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
+  bool isConsistent_ = true;  ///< no reading has failed halfway
   double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
   size_t particlesMin_ = 0, particlesMax_ = 0;
   size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
   bool wasLocated_ = false;             ///< at the last update
   double firstSlip_ = 0;                ///< s
-  double cell_;                         ///< m, of the filter
+  double cell_ = 0;                     ///< m, of the filter
   double savedCell_ = 0;                ///< m, of the map files
+  double refinementBytes_;
   Verdict verdict_;
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/Clock.h"
+#include "base/DeskewedScan.h"
 #include "base/Numbers.h"
 #include "run/FilterRun.h"
 #include "run/MapFiles.h"
@@ -49,15 +50,32 @@ std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances) 
   return covariances;
 }
 
+/// Returns about how much memory (bytes) the scans take. MRPT keeps range, intensity and validity of a beam.
+double memoryOf(const Scans& scans) {
+  double bytes = 0;
+  for (const auto& scan : scans) {
+    const bool isDeskewed = dynamic_cast<const DeskewedScan*>(scan.get()) != nullptr;
+    bytes += 600 + (isDeskewed ? 21 : 9) * static_cast<double>(scan->getScanSize());
+  }
+  return bytes;
+}
+
 }  // namespace
 
 void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
   std::vector<PosedScans> scans;
+  double bytes = 0;
   for (const Use use : uses_) {
     const auto reading = source.next();
     if (!reading) break;
-    if (use != Use::skipped)
-      scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
+    if (use == Use::skipped) continue;
+    scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
+    bytes += memoryOf(reading->scans);
+    const double expected = bytes * static_cast<double>(scans_) / static_cast<double>(scans.size());
+    if (expected <= refinementBytes_) continue;
+    notes_.push_back("map not refined: the scans need " + fixedText(expected / 1e9, 1) + " GB, over " +
+                     fixedText(refinementBytes_ / 1e9, 1) + " GB");
+    return;
   }
   const std::optional<ScanMap>& base = hybrid_->base();
   if (configuration_.filter.closesLoops() && !base) {
@@ -88,13 +106,17 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
-  uses_.resize(std::min(uses_.size(), log.scans));
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
+  result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
   result.trajectory = recorder_.trajectory(result.path);
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
-    readings::RawlogSource scans(file, configuration_.input, log);
-    refineResult(result, scans);
+    if (log.scans < uses_.size()) {
+      notes_.emplace_back("map not refined: the recording ends before the run");
+    } else {
+      readings::RawlogSource scans(file, configuration_.input, log);
+      refineResult(result, scans);
+    }
   }
   const auto& [trajectory, path, grid, lines, map] = result;
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
@@ -106,8 +128,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   }
   savePicture(folder_, grid, trajectory, lines, verdict_.places);
   if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
-  steps_.finish();
-  if (particles_) particles_->finish();
+  folder_.write("steps.csv", [&](std::ostream& out) { out << steps_.str(); });
+  if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
@@ -126,13 +148,16 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   saveGridMap(folder_, result.grid);
   saveLines(folder_, result.lines);
   if (configuration_.filter.useLines) savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
-  std::vector<bool> isUpdate;
-  for (const Use use : uses_) isUpdate.push_back(use == Use::update);
-  readings::RawlogSource again(file, configuration_.input, log);
   VerdictCheck check;
-  saveSimpleMap(folder_, again, isUpdate, result.path,
-                [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+  std::vector<bool> isUpdate;
+  for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
+  if (log.scans > 0) {
+    readings::RawlogSource again(file, configuration_.input, log);
+    saveSimpleMap(folder_, again, isUpdate, result.path,
+                  [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+  }
   Evidence evidence = check.evidence();
+  evidence.isCut = isUpdate.size() < uses_.size();
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   verdict_ = verdictOf(evidence);

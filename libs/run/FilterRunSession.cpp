@@ -18,11 +18,12 @@ namespace {
 
 /// Writes the rows of a table to a session, or continues the table from it.
 template <class State>
-void visitTable(State& state, files::GrowingFile& file) {
-  std::string text;
-  if constexpr (!State::kIsReading) text = file.content();
+void visitTable(State& state, std::ostringstream& table) {
+  std::string text = table.str();
   state(text);
-  if constexpr (State::kIsReading) file.restart(text);
+  if (!State::kIsReading) return;
+  table.str("");
+  table << text;
 }
 
 InputError otherLog(const std::string& log) {
@@ -61,6 +62,10 @@ void FilterRun::visit(State& state) {
 
 void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
                               const std::vector<mrpt::math::TPose2D>& poses) {
+  if (!isConsistent_) {
+    notes_.emplace_back("no session: the filter failed inside an update");
+    return;
+  }
   beforeSession_();
   std::string bytes;
   StateWriter out(bytes);

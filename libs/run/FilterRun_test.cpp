@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
 #include "files/Gzip.h"
@@ -13,31 +16,167 @@
 namespace hybrid_slam::run {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 
-// A search without end would keep its maps, and the run would have no checkpoints.
-TEST(FilterRun, SavesItselfOnceTheSearchInAPlanIsOver) {
+/// Runs over a log of 100 scans.
+class FilterRunTest : public testing::Test {
+ protected:
+  Configuration configuration(const std::string& output, std::vector<std::string> settings = {}) {
+    settings.insert(settings.end(), {"run.output=" + folder.path(output), "particle_filter.particles=5",
+                                     "particle_filter.proposal=standard"});
+    return {"", settings};
+  }
+  void process(FilterRun& run, const Configuration& c) const {
+    readings::RawlogSource source(log, c.input, readings::summarise(log, c.input));
+    while (const auto reading = source.next()) run.process(*reading);
+  }
+  static void finish(FilterRun& run, const Configuration& c, const std::string& file) {
+    run.finish(file, readings::summarise(file, c.input), nlohmann::ordered_json::object());
+  }
+  /// Writes the results of a run that is not refined to `plain`.
+  void makePlain() {
+    Configuration c = configuration("plain", {"grid.resolution=0.1", "run.refine=0"});
+    FilterRun run(c);
+    process(run, c);
+    finish(run, c, log);
+  }
+  void expectPlain(const std::string& output) const {
+    for (const std::string name : {"/trajectory.tum", "/map.pgm", "/lines.csv", "/plan.geojson"}) {
+      EXPECT_EQ(result(output + name), result("plain" + name)) << name;
+      EXPECT_NE(result(output + name), "") << name;
+    }
+  }
+  std::string result(const std::string& name) const { return test::contentOf(folder.path(name)); }
+
+  files::TemporaryFolder folder;
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(100));
+};
+
+// The map of the recorded part would not be that of the run.
+TEST_F(FilterRunTest, ARecordingThatEndsBeforeTheRunDoesNotCutItsMap) {
+  makePlain();
+  Configuration c = configuration("cut", {"grid.resolution=0.1"});
+  FilterRun run(c);
+  process(run, c);
+  finish(run, c, test::writeGzipped(folder.path("recording.rawlog"), test::laps(10)));
+  EXPECT_THAT(run.takeNotes(), Contains("map not refined: the recording ends before the run"));
+  expectPlain("cut");
+  const auto metrics = nlohmann::json::parse(result("cut/metrics.json"));
+  EXPECT_NEAR(metrics["duration_s"].get<double>(), 99 * 0.2, 1e-6);
+  EXPECT_EQ(metrics["complete"], false);
+  EXPECT_EQ(metrics["verdict"], "doubtful");
+}
+
+TEST_F(FilterRunTest, IsNotRefinedIfTheScansNeedTooMuchMemory) {
+  makePlain();
+  for (const double limit : {2e5, 3e5}) {  // they need 223 kB
+    SCOPED_TRACE(limit);
+    const std::string output = "limit" + std::to_string(limit);
+    Configuration c = configuration(output, {"grid.resolution=0.1"});
+    FilterRun run(c);
+    run.limitRefinement(limit);
+    process(run, c);
+    finish(run, c, log);
+    const auto notes = run.takeNotes();
+    const bool isRefined = limit > 2.5e5;
+    EXPECT_EQ(std::count(notes.begin(), notes.end(), "map not refined: the scans need 0.0 GB, over 0.0 GB"),
+              isRefined ? 0 : 1);
+    if (isRefined) {
+      EXPECT_NE(result(output + "/trajectory.tum"), result("plain/trajectory.tum"));
+    } else {
+      expectPlain(output);
+    }
+  }
+}
+
+TEST_F(FilterRunTest, AnUpdateThatFailsLeavesResultsWithoutASession) {
+  Configuration c = configuration(
+      "out", {"grid.resolution=0.1", "motion_model.turn_var_d=0", "motion_model.turn_mean_std=0"});
+  FilterRun run(c);
+  process(run, c);
+  readings::Reading far;
+  far.scans = {test::scan(1100)};
+  far.timestamp = 1100;
+  far.motion = {5e5, 5e5, 0};
+  EXPECT_THROW(run.process(far), InputError) << "the map is too large";
+  finish(run, c, log);
+  EXPECT_THAT(run.takeNotes(), Contains("no session: the filter failed inside an update"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out/session.hslam")));
+  const std::string steps = result("out/steps.csv");
+  EXPECT_EQ(nlohmann::json::parse(result("out/metrics.json"))["updates"],
+            std::count(steps.begin(), steps.end(), '\n') - 1);
+}
+
+TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {
+  Configuration first = configuration("first", {"grid.resolution=0.1"});
+  {
+    FilterRun run(first);
+    process(run, first);
+    finish(run, first, log);
+  }
+  Configuration second = configuration("second");
+  second.run.continueFrom = folder.path("first/session.hslam");
+  second.run.start.emplace(0, 0, 0);
+  FilterRun run(second);
+  process(run, second);
+  finish(run, second, log);
+  EXPECT_EQ(run.mapNote(), "");
+}
+
+/// A robot in surroundings that look the same after a turn of 24 deg.
+struct SearchInAPlan : testing::Test {
+  Configuration configuration(const std::string& output) const {
+    return {
+        "",
+        {"run.output=" + folder.path(output), "particle_filter.particles=2", "loop_closing.enabled=false"}};
+  }
+  /// Processes scans, each after a turn by an angle (rad).
+  void process(FilterRun& run, int scans, double angle) {
+    for (int k = 0; k < scans; ++k) {
+      const auto scan = test::scan(1000 + reading.timestamp, {}, 61);
+      for (size_t i = 0; i < 61; ++i) scan->setScanRange(i, i % 2 == 0 ? 4.F : 5.F);
+      reading.scans = {scan};
+      reading.timestamp += 1;
+      reading.motion = {0, 0, angle};
+      run.process(reading);
+    }
+  }
+  const double turn = mrpt::DEG2RAD(24.0);
   const files::TemporaryFolder folder;
-  Configuration configuration("", {"run.output=" + folder.path("out"), "particle_filter.particles=2"});
-  configuration.run.priorPlan = folder.write(
+  const std::string plan = folder.write(
       "plan.geojson",
       R"({"features":[{"geometry":{"type":"LineString","coordinates":[[0,0],[3,0],[3,2],[0,0]]}}]})");
-  FilterRun run(configuration);
   readings::Reading reading;
-  const auto process = [&] {
-    const auto scan = test::scan(1000 + reading.timestamp, {}, 61);
-    for (size_t i = 0; i < 61; ++i) scan->setScanRange(i, i % 2 == 0 ? 4.F : 5.F);
-    reading.scans = {scan};
-    reading.timestamp += 1;
-    run.process(reading);
-  };
-  process();
-  EXPECT_EQ(run.state(), "");
+};
+
+// A search without end would keep its maps, and the run would have no checkpoints.
+TEST_F(SearchInAPlan, IsOverOnceTheRobotHasMovedFarAndTheRunSavesItself) {
+  Configuration c = configuration("out");
+  c.run.priorPlan = plan;
+  FilterRun run(c);
+  process(run, 500, 0);
+  EXPECT_EQ(run.state(), "") << "a robot that stands is searched when it drives";
   EXPECT_THROW(run.saveMapTo(folder.path("early")), std::runtime_error);
-  for (int i = 0; i < 400; ++i) process();
+  EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));
+  process(run, 240, turn);
   EXPECT_NE(run.state(), "");
   run.saveMapTo(folder.path("late"));
   EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));
+}
+
+TEST_F(SearchInAPlan, LeavesNoScansInMemory) {
+  std::vector<size_t> bytes;
+  for (const std::string& file : {plan, std::string()}) {
+    reading = {};
+    Configuration c = configuration(file.empty() ? "without" : "with");
+    c.run.priorPlan = file;
+    FilterRun run(c);
+    process(run, 250, turn);
+    bytes.push_back(run.state().size());
+  }
+  EXPECT_NEAR(static_cast<double>(bytes[0]), static_cast<double>(bytes[1]), 5000)
+      << "the scans are 60 kB, the digits of the times in steps.csv may differ";
 }
 
 // Otherwise the fuzz target stops at the header, because older layouts are refused.

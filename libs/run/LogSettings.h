@@ -15,7 +15,7 @@ struct LogSetting {
   std::string reason;  ///< the evidence in the log
 };
 
-/// Properties of the first 2,000 readings of a log.
+/// Properties of the first 2,000 readings of a log, with ranges as measured.
 struct LogSettings {
   bool hasOdometry = false;
   std::vector<std::string> lasers;  ///< one line each: beams, spacing, place on the robot

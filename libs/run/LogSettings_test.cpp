@@ -26,7 +26,7 @@ class LogSettingsTest : public testing::Test {
     for (const auto& object : log)
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(object)) change(*scan);
     const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
-    return readLogSettings(file, {}, readings::summarise(file, {}));
+    return readLogSettings(file, input, readings::summarise(file, input));
   }
   std::string valueOf(const std::string& key, const Change& change, size_t stepsPerLap = 80) {
     for (const LogSetting& setting : read(change, 181, stepsPerLap).settings)
@@ -34,6 +34,7 @@ class LogSettingsTest : public testing::Test {
     return "none";
   }
   files::TemporaryFolder folder;
+  readings::InputOptions input;
 };
 
 /// Simulates a laser with this limit (m) in a room `scale` times as large; farther walls give no return, or
@@ -83,6 +84,8 @@ TEST_F(LogSettingsTest, NoiseOfDirections) {
   EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.05)), "0.5");
   EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.001)), "0.4");
   EXPECT_EQ(valueOf("line_weight.sigma_deg", asItIs), "0.4");
+  input.scanTime = 0.1;  // the correction for the motion changes the ranges
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.01)), "0.5");
 }
 
 TEST_F(LogSettingsTest, SparseScansAreAllUsed) {

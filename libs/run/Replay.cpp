@@ -122,7 +122,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   std::optional<SessionReader> session;
   if (!configuration.run.resume.empty()) adopt(configuration, session.emplace(configuration.run.resume));
   const std::string& file = configuration.run.rawlog;
-  const readings::RawlogSummary log = summarise(file, configuration.input);
+  const readings::RawlogSummary log = summarise(file, configuration.input, [&stop] { return stop.load(); });
   const std::vector<std::string> ofLog =
       applyLogSettings(readLogSettings(file, configuration.input, log), configuration);
   auto run = std::make_unique<FilterRun>(configuration, start);

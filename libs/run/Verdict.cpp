@@ -96,7 +96,10 @@ Verdict verdictOf(const Evidence& evidence) {
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
   if (verdict.level != Level::consistent && evidence.slips > 0)
     find(Level::doubtful, "odometry rejected in " + std::to_string(evidence.slips) + " updates");
-  if (evidence.returning.empty()) find(Level::consistent, "no place was seen twice");
+  if (evidence.isCut)
+    find(Level::doubtful, "the recording ends before the run; the scans after that were not compared");
+  else if (evidence.returning.empty())
+    find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
   return verdict;
 }

@@ -34,6 +34,7 @@ struct Evidence {
   std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
   double spread = 0;               ///< m, standard deviation of the particles at the end
   size_t slips = 0;                ///< updates whose odometry was rejected
+  bool isCut = false;              ///< the scans after the end of a recording could not be compared
 };
 
 /// The rules and thresholds of doc/verdict.md.

@@ -99,6 +99,13 @@ TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {
                                            "odometry rejected in 2 updates"));
 }
 
+TEST(Verdict, AMapThatWasNotComparedToItsEndIsDoubtful) {
+  Evidence evidence;
+  evidence.isCut = true;
+  EXPECT_EQ(verdictOf(evidence).line(),
+            "verdict: doubtful: the recording ends before the run; the scans after that were not compared");
+}
+
 TEST(Verdict, SlipsAloneAreNoReason) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.slips = 2;

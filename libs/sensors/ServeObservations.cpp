@@ -17,7 +17,8 @@ std::string serveObservations(const live::ServerOptions& options,
   const bool isReplay = !options.rawlog.empty();
   std::unique_ptr<live::CycleSource> source;
   if (isReplay) {
-    auto player = std::make_unique<live::RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate);
+    auto player =
+        std::make_unique<live::RawlogPlayer>(options.rawlog, options.cycleRate, options.replayRate, stop);
     for (const std::string& warning : player->warnings()) log->report("rawlog", warning);
     source = std::move(player);
   } else {

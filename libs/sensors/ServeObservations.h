@@ -18,7 +18,8 @@ namespace hybrid_slam::sensors {
 /// @param config   with one section per sensor, unless options name a rawlog
 /// @param isReady  called with the port when clients can connect
 /// @return a one-line summary
-/// @throws InputError for wrong sensors, a wrong rawlog, or an address it cannot listen on
+/// @throws InputError for wrong sensors, a wrong rawlog, or an address it cannot listen on;
+///         std::runtime_error if stopped while it reads the rawlog for the first time
 std::string serveObservations(const live::ServerOptions& options,
                               const mrpt::config::CConfigFileMemory& config,
                               const std::shared_ptr<live::EventLog>& log, const live::StopCheck& stop,

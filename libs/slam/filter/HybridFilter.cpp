@@ -83,6 +83,10 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   for (PosedScans& known : known_) known.pose = origin + known.pose;
   loopCloser_.turn(origin.phi);
   continueFrom(path);
+  expectNoMap();
+}
+
+void HybridFilter::expectNoMap() {
   remembersScans_ = configuration_.keepsScans();
   if (!remembersScans_) updateScans_.clear();
 }

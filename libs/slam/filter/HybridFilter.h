@@ -33,8 +33,10 @@ class HybridFilter : public Filter {
   /// Map of the best particle. Without grids, its cells are made from the scans along its path.
   ScanMap bestMap() const { return {bestOccupancy(), *particles_.best().lines, *particles_.best().features}; }
 
-  /// Keeps the scans until `joinMap` or longer.
+  /// Keeps the scans until `joinMap`, `expectNoMap` or longer.
   void expectMap() { remembersScans_ = true; }
+  /// Keeps the scans only if the configuration keepsScans().
+  void expectNoMap();
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that
   /// map.
   /// @param pose  current pose of the robot (m, rad), in that map; path and scans so far are transformed

@@ -140,6 +140,22 @@ TEST(HybridFilterState, AnotherCellSizeIsAnError) {
   EXPECT_THROW(read(other, bytesOf(filter)), StateError);
 }
 
+TEST(HybridFilter, KeepsTheScansOnlyForAMapToJoin) {
+  const Drive drive = ringDrive(0);
+  FilterConfiguration c = configuration(ParticleFilterOptions::Proposal::improved);
+  for (const bool closesLoops : {false, true}) {
+    c.loopClosing.enabled = closesLoops;
+    HybridFilter filter(c), second(c);
+    filter.expectMap();
+    process(filter, drive, 0, 5);
+    EXPECT_EQ(filter.updateScans().size(), filter.updates());
+    filter.expectNoMap();
+    process(filter, drive, 5, 10);
+    EXPECT_EQ(filter.updateScans().size(), closesLoops ? filter.updates() : 0);
+    read(second, bytesOf(filter));
+  }
+}
+
 TEST(HybridFilter, MapsOnInTheMapOfAnEarlierRun) {
   const Drive drive = ringDrive(0);
   const size_t half = drive.size() / 2;

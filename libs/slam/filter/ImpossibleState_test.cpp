@@ -2,6 +2,7 @@
 // update.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "base/State.h"

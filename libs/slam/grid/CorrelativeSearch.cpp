@@ -46,7 +46,6 @@ class WidenedMap {
     return &cells_[static_cast<size_t>(y - minY_) * static_cast<size_t>(width_) +
                    static_cast<size_t>(x - minX_)];
   }
-  int width() const { return width_; }
 
  private:
   uint8_t& at(int x, int y) {

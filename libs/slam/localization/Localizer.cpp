@@ -125,8 +125,6 @@ void Localizer::summarise(const TPose2D& best) {
   step_.resampled = false;
   setSpread(step_, particlePoses(), best.phi);
   step_.particles = step_.poses.size();
-  step_.odometry = odometry_;
-  step_.motions.assign(step_.poses.size(), odometry_);
 }
 
 mrpt::maps::COccupancyGridMap2D Localizer::bestGrid() const { return toMrpt(grid_); }

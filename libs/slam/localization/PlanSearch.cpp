@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/Errors.h"
+#include "slam/filter/Threads.h"
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/localization/GlobalLocalization.h"
 
@@ -17,19 +18,19 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kScales[] = {1, 0.98, 1.02};  // between them the fit finds the scale
-constexpr double kCell = 0.1;                  // m, coarser than the plan's error
-constexpr double kMostCells = 1 << 25;
-constexpr double kLeastLength = 1;  // m, of a line of the database
-constexpr int kCount = 3;           // observations that a line of the plan counts as
+constexpr double kScales[] = {1, 0.98, 1.02};   // between them the fit finds the scale
+constexpr double kCell = 0.1;                   // m, coarser than the plan's error
+constexpr double kMostCells = 1 << 25;          // memory
+constexpr double kMostSearchedCells = 1 << 23;  // about 2 s for a search
+constexpr double kLeastLength = 1;              // m, of a line of the database
+constexpr int kCount = 3;                       // observations that a line of the plan counts as
 constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};
-constexpr size_t kNearStart = 8;        // places there
-constexpr size_t kLongestSearch = 400;  // scans
-constexpr size_t kWindow = 80;          // scans that are searched for together, each half a metre further
-constexpr size_t kEvery = 4;            // of these to the next search
-constexpr size_t kPlaces = 200;         // of a scale
-constexpr size_t kFitted = 40;          // best of all scales
-constexpr double kLeastScore = 0.2;     // of a place
+constexpr size_t kNearStart = 8;                    // places there
+constexpr size_t kLongestSearch = 240;              // scans, each half a metre further
+constexpr size_t kWindow = 80;                      // of these that are searched for together
+constexpr size_t kEvery = 4;                        // of these to the next search
+constexpr size_t kFitted = 40;                      // places, best of all scales
+constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place, in turn until there are so many
 // The robot is found at a place if, in two searches in succession,
 constexpr double kLeastShare = 0.65;  // of the points lie on walls,
 constexpr double kMargin = 4;         // and more than at any other place, by these standard deviations;
@@ -38,7 +39,7 @@ constexpr double kElsewhere = 1,
 constexpr int8_t kFree = -32, kOccupied = 48;
 
 /// Draws the walls as occupied cells in a free rectangle.
-OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale) {
+OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale, bool isSearched) {
   OccupancyGrid grid(kCell);
   TPoint2D low = walls.front().start * scale, high = low;
   for (const PlanLine& wall : walls)
@@ -47,8 +48,11 @@ OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale) {
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
   const double tile = kCell * Tile::kSize;  // memory is taken by tiles
-  if (((high.x - low.x) / tile + 1) * ((high.y - low.y) / tile + 1) * Tile::kSize * Tile::kSize > kMostCells)
-    throw InputError("floor plan too large", "option --prior-plan", "expected at most 0.3 km^2, in metres");
+  if (((high.x - low.x) / tile + 1) * ((high.y - low.y) / tile + 1) * Tile::kSize * Tile::kSize >
+      (isSearched ? kMostSearchedCells : kMostCells))
+    throw InputError("floor plan too large", "option --prior-plan",
+                     isSearched ? "expected at most 0.08 km^2, in metres; up to 0.3 km^2 with --start X,Y,DEG"
+                                : "expected at most 0.3 km^2, in metres");
   const CellIndex first = grid.cellOf(low.x, low.y), last = grid.cellOf(high.x, high.y);
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x) grid.tiles().set({x, y}, kFree);
@@ -112,7 +116,8 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
       start_(start),
       prepare_(configuration),
       recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit,
-              kWindow) {
+              kWindow),
+      arena_(arenaThreads(configuration.filter.threads)) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
     throw InputError("floor plan without walls of 1 m", "option --prior-plan",
@@ -120,22 +125,24 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   if (configuration.filter.isAuxiliary())
     throw InputError("MRPT's auxiliary filters do not take a floor plan",
                      "section [particle_filter], key `proposal`", "expected improved or standard");
+  if (start_) {
+    grid_ = gridOf(walls_, 1, false);
+    return;
+  }
   lines_ = linesOf(walls_, 1, directionWindow_);
-  grid_ = gridOf(walls_, 1);
-  if (start_) return;
   for (const double scale : kScales) {
-    const OccupancyGrid grid = gridOf(walls_, scale);
+    const OccupancyGrid grid = gridOf(walls_, scale, true);
     plans_.push_back({scale, GlobalSearch(grid, centreOf(grid))});
   }
 }
 
-bool PlanSearch::isOver() const { return found_ || scans_ >= kLongestSearch; }
+// A robot that stands does not use up its search, whatever the rate of its laser.
+bool PlanSearch::isOver() const { return found_ || added_ >= kLongestSearch; }
 
 void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   if (isOver()) return;
   odometry_ = odometry_ + odometry;
   if (scans.empty()) return;
-  ++scans_;
   if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
   if (start_) return accept(fitAtStart());
   if (++added_ % kEvery != 0) return;
@@ -161,25 +168,32 @@ PlanFit PlanSearch::fitAtStart() const {
   return best;
 }
 
-std::optional<PlanFit> PlanSearch::fitAnywhere() const {
+std::optional<PlanFit> PlanSearch::fitAnywhere() {
   const std::vector<TPoint2D> points = thinned(recent_.endPoints());
+  const ScanBeams beams = beamsTo(points);
   const std::vector<double> headings = alignedHeadings(recent_.lines(), lines_);
   struct Candidate {
     double score;
     PlanFit fit;
   };
   std::vector<Candidate> places;
-  for (const ScaledPlan& plan : plans_)
-    for (const auto& place : plan.search(beamsTo(points), headings, kPlaces, kLeastScore))
-      places.push_back({place.score, {place.pose, plan.scale}});
+  for (const double least : kLeastScores) {  // a lower one adds only worse places, and takes longer
+    std::vector<std::vector<GlobalSearch::Place>> found(plans_.size());
+    parallelFor(arena_, 0, plans_.size(),
+                [&](size_t i) { found[i] = plans_[i].search(beams, headings, kFitted, least); });
+    places.clear();
+    for (size_t i = 0; i < plans_.size(); ++i)
+      for (const auto& place : found[i]) places.push_back({place.score, {place.pose, plans_[i].scale}});
+    if (places.size() >= kFitted) break;
+  }
   std::stable_sort(places.begin(), places.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   places.resize(std::min(places.size(), kFitted));
+  parallelFor(arena_, 0, places.size(),
+              [&](size_t i) { places[i].fit = fitPlan(points, walls_, places[i].fit); });
   const PlanFit* best = nullptr;
-  for (Candidate& place : places) {
-    place.fit = fitPlan(points, walls_, place.fit);
+  for (const Candidate& place : places)
     if (!best || place.fit.share() > best->share()) best = &place.fit;
-  }
   if (!best || best->share() < kLeastShare) return std::nullopt;
   for (const Candidate& place : places)
     if (isElsewhere(place.fit, *best) && advantage(*best, place.fit) < kMargin) return std::nullopt;

@@ -2,6 +2,8 @@
 /// @brief Finds the robot in a floor plan of unknown scale.
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <optional>
 #include <vector>
 
@@ -22,12 +24,12 @@ class PlanSearch {
  public:
   /// @param start  pose of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the first
   ///               scan is then fitted there; empty: anywhere
-  /// @throws InputError for a plan without walls of 1 m or of more than 2^25 cells, and for MRPT's auxiliary
-  ///         filters
+  /// @throws InputError for a plan without walls of 1 m or of more than 2^23 cells (2^25 with a start), and
+  ///         for MRPT's auxiliary filters
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
              std::optional<mrpt::math::TPose2D> start);
 
-  /// Searches with the first 400 scans.
+  /// Searches with the first 240 scans that are 0.5 m or 20 deg apart.
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans);
 
   struct Found {
@@ -46,22 +48,23 @@ class PlanSearch {
     double scale;
     GlobalSearch search;
   };
-  std::optional<PlanFit> fitAnywhere() const;
+  std::optional<PlanFit> fitAnywhere();
   PlanFit fitAtStart() const;
   void accept(const PlanFit& fit);
 
   double cell_, directionWindow_;  ///< m, rad
   std::vector<PlanLine> walls_;
   std::optional<mrpt::math::TPose2D> start_;
-  LineDatabase lines_;
-  OccupancyGrid grid_;  ///< of the plan as drawn
-  std::vector<ScaledPlan> plans_;
+  OccupancyGrid grid_;             ///< of the plan as drawn; with a start
+  LineDatabase lines_;             ///< of the plan as drawn; without
+  std::vector<ScaledPlan> plans_;  ///< without
   ScanPreparation prepare_;
   RecentScans recent_;
+  tbb::task_arena arena_;
   mrpt::math::TPose2D odometry_;  ///< since the last scan
-  size_t scans_ = 0, added_ = 0;
-  std::optional<PlanFit> last_;  ///< of the last search, if its best place was clear
-  mrpt::math::TPose2D at_;       ///< of the robot then, frame of the recent scans
+  size_t added_ = 0;              ///< scans
+  std::optional<PlanFit> last_;   ///< of the last search, if its best place was clear
+  mrpt::math::TPose2D at_;        ///< of the robot then, frame of the recent scans
   std::optional<Found> found_;
 };
 

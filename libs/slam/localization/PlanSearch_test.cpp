@@ -1,6 +1,7 @@
 #include "slam/localization/PlanSearch.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 
@@ -30,6 +31,13 @@ TEST(PlanSearch, APlanInMillimetresIsRejected) {
   EXPECT_THROW(PlanSearch(configuration(), {{{0, 0}, {40'000, 0}}, {{0, 0}, {0, 47'000}}}, {}), InputError);
 }
 
+// A search in it would block the filter for long; a given start needs none.
+TEST(PlanSearch, ALargePlanNeedsAStart) {
+  const std::vector<PlanLine> plan{{{0, 0}, {300, 0}}, {{0, 0}, {0, 300}}};
+  EXPECT_THROW(PlanSearch(configuration(), plan, {}), InputError);
+  EXPECT_NO_THROW(PlanSearch(configuration(), plan, TPose2D(1, 1, 0)));
+}
+
 TEST(PlanSearch, WithoutScansNothingIsFound) {
   PlanSearch search(configuration(), {{{0, 0}, {8, 0}}, {{8, 0}, {8, 6}}}, {});
   search.process({0.5, 0, 0}, {});
@@ -51,20 +59,68 @@ void expectNear(const PlanSearch::Found& found, const TPose2D& expected) {
   EXPECT_NEAR(std::remainder(found.pose.phi - expected.phi, 2 * M_PI), 0, 0.03);
 }
 
-TEST(PlanSearch, FindsTheRobotAndTheScale) {
-  PlanSearch search(configuration(), drawn(test::room(), 1.02), {});
+Scans roomScan(const TPose2D& at, RandomStream& random) {
+  return {std::make_shared<mrpt::obs::CObservation2DRangeScan>(test::roomScan(at, random))};
+}
+
+/// Drives circles in the room until the robot is found. @return its true pose then
+TPose2D circle(PlanSearch& search) {
   RandomStream random(1, 0, 0);
   TPose2D at(3, 0.5, 0.4);
   for (int i = 0; i < 60 && !search.found(); ++i) {
     const TPose2D motion(0.2, 0, 0.3);
     at = at + motion;
-    search.process(motion, {std::make_shared<mrpt::obs::CObservation2DRangeScan>(
-                               test::observationOf(test::room(), at, random))});
+    search.process(motion, roomScan(at, random));
   }
+  return at;
+}
+
+TEST(PlanSearch, FindsTheRobotAndTheScale) {
+  PlanSearch search(configuration(), drawn(test::room(), 1.02), {});
+  const TPose2D at = circle(search);
   ASSERT_TRUE(search.found());
   EXPECT_NEAR(search.found()->scale, 1.02, 0.005);
   expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
   EXPECT_FALSE(search.found()->map.lines.lines().empty());
+}
+
+TEST(PlanSearch, IsTheSameForAnyNumberOfThreads) {
+  const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
+  std::vector<TPose2D> found;
+  for (const int threads : {1, 4}) {
+    FilterConfiguration c = configuration();
+    c.filter.threads = threads;
+    PlanSearch search(c, drawn(test::room(), 1.02), {});
+    circle(search);
+    ASSERT_TRUE(search.found());
+    found.push_back(search.found()->pose);
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+// For 10 s at 50 Hz, for instance.
+TEST(PlanSearch, FindsARobotThatStandsAtFirst) {
+  PlanSearch search(configuration(), drawn(test::room(), 1), {});
+  RandomStream random(2, 0, 0);
+  const Scans standing = roomScan({3, 0.5, 0.4}, random);
+  for (int i = 0; i < 500; ++i) search.process({}, standing);
+  EXPECT_FALSE(search.isOver());
+  const TPose2D at = circle(search);
+  ASSERT_TRUE(search.found());
+  expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
+}
+
+TEST(PlanSearch, EndsAfter240ScansThatAreApart) {
+  PlanSearch search(configuration(), {{{0, 0}, {1.5, 0}}, {{1.5, 0}, {1.5, 1}}}, {});
+  RandomStream random(1, 0, 0);
+  const TPose2D turn(0, 0, 24 * test::kDegree);
+  TPose2D at(1, 1, 0);
+  for (int i = 0; i < 240; ++i, at = at + turn) {
+    EXPECT_FALSE(search.isOver()) << i;
+    search.process(turn, roomScan(at, random));
+  }
+  EXPECT_TRUE(search.isOver());
+  EXPECT_FALSE(search.found());
 }
 
 TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
@@ -72,9 +128,7 @@ TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
   const TPose2D at(3, 0.5, 0.4), truth = TPose2D(3, -2, 0.7) + at;
   PlanSearch search(configuration(), drawn(test::room(), 1.01),
                     TPose2D(truth.x + 0.3, truth.y - 0.3, truth.phi + 0.2));
-  search.process(
-      {},
-      {std::make_shared<mrpt::obs::CObservation2DRangeScan>(test::observationOf(test::room(), at, random))});
+  search.process({}, roomScan(at, random));
   ASSERT_TRUE(search.found());
   EXPECT_NEAR(search.found()->scale, 1.01, 0.01);
   expectNear(*search.found(), truth);

@@ -17,7 +17,6 @@ using Network = mrpt::graphs::CNetworkOfPoses2DInf;
 namespace {
 
 constexpr double kFalseResidual = 25;  // chi^2 above which a loop is false
-constexpr int kMostDropped = 3;
 
 Network::constraint_t constraint(const TPose2D& relative, const Eigen::Matrix3d& information) {
   return {mrpt::poses::CPose2D(relative), mrpt::math::CMatrixDouble33(information)};
@@ -59,7 +58,7 @@ std::vector<TPose2D> solve(const PoseGraph& graph, const std::vector<double>& lo
 OptimizedGraph optimized(const PoseGraph& graph) {
   OptimizedGraph result{graph.poses, std::vector<double>(graph.loops.size(), 1)};
   if (graph.poses.size() < 2) return result;
-  for (int dropped = 0;; ++dropped) {
+  for (int solution = 0; solution < 2; ++solution) {
     result.poses = solve(graph, result.loopWeights);
     size_t worst = graph.loops.size();
     double highest = kFalseResidual;
@@ -67,10 +66,10 @@ OptimizedGraph optimized(const PoseGraph& graph) {
       const double chi2 = result.loopWeights[i] * residual(graph.loops[i], result.poses);
       if (chi2 > highest) highest = chi2, worst = i;
     }
-    if (worst == graph.loops.size()) return result;
+    if (worst == graph.loops.size()) break;
     result.loopWeights[worst] = 0;
-    if (dropped == kMostDropped) return result;
   }
+  return result;
 }
 
 }  // namespace hybrid_slam

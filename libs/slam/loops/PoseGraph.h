@@ -32,11 +32,12 @@ struct PoseGraph {
 
 struct OptimizedGraph {
   std::vector<mrpt::math::TPose2D> poses;
-  std::vector<double> loopWeights;  ///< of each loop edge: 0 if it was dropped as false, else 1
+  std::vector<double> loopWeights;  ///< of each loop edge: 0 if it is false, else 1; two of 0: no solution
 };
 
-/// Solves for least squares by mrpt::graphslam's sparse Levenberg-Marquardt. The loop with the largest
-/// residual is dropped until the others agree with each other and with the motions; at most four are dropped.
+/// Solves for least squares by mrpt::graphslam's sparse Levenberg-Marquardt. If the loops do not agree with
+/// each other and with the motions, the one with the largest residual is dropped. If the others do not agree
+/// either, there is no solution.
 OptimizedGraph optimized(const PoseGraph& graph);
 
 }  // namespace hybrid_slam

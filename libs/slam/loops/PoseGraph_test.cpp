@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybrid_slam {
@@ -54,6 +55,14 @@ TEST(PoseGraph, RejectsOneFalseLoopAmongTrueOnes) {
   EXPECT_LT(ring.error(result.poses), 0.4);
   EXPECT_EQ(result.loopWeights[3], 0);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(result.loopWeights[i], 1);
+}
+
+TEST(PoseGraph, TwoFalseLoopsEndTheSearch) {
+  Ring ring;
+  for (const size_t i : {0, 1, 2}) ring.graph.loops.push_back(ring.loop(i, 98 + i));
+  for (const double x : {0.5, 5.0, -5.0}) ring.graph.loops.push_back({20, 70, {x, 0, 0}, kMatch});
+  const std::vector<double> weights = optimized(ring.graph).loopWeights;
+  EXPECT_EQ(std::count(weights.begin(), weights.end(), 0), 2);
 }
 
 TEST(PoseGraph, WithoutLoopsNothingMoves) {

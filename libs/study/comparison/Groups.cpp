@@ -132,6 +132,8 @@ std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std
   return groups;
 }
 
+std::string runName(const Group& group, int seed) { return group.name() + "-" + std::to_string(seed); }
+
 std::vector<Run> makeRuns(size_t groups, int firstSeed, int seeds) {
   std::vector<Run> runs;
   for (size_t group = 0; group < groups; ++group)

@@ -54,6 +54,9 @@ struct Run {
   int seed = 0;
 };
 
+/// The name of a run's folder: "hybrid-eq9-20-3".
+std::string runName(const Group& group, int seed);
+
 /// Every group with every seed, group by group (table order).
 std::vector<Run> makeRuns(size_t groups, int firstSeed, int seeds);
 

@@ -98,8 +98,6 @@ std::string criterionNote(const GroundTruth& truth) {
 
 }  // namespace
 
-std::string runName(const Group& group, int seed) { return group.name() + "-" + std::to_string(seed); }
-
 std::string writeReport(const ReportInput& input, std::ostream& out) {
   Gnuplot gnuplot;
   const auto drawn = [&gnuplot](const std::vector<Plot>& all) { return plots(gnuplot.draw(all)); };

@@ -25,9 +25,6 @@ struct ReportInput {
   std::filesystem::path runs;  ///< parent of the run folders
 };
 
-/// The name of a run's folder: "hybrid-eq9-20-3".
-std::string runName(const Group& group, int seed);
-
 /// Writes XHTML. Trajectories, spreads and maps are read from the folders of the finished runs.
 /// @returns one line that says why plots are missing, such as for lack of gnuplot; empty if none are
 std::string writeReport(const ReportInput& input, std::ostream& out);
