@@ -22,7 +22,7 @@ struct Replayed {
   std::vector<double> times, x, phi;
   std::vector<size_t> entries;                      ///< log entries read when each scan was returned
   std::vector<CObservation2DRangeScan::Ptr> scans;  ///< the latest of each reading
-  std::vector<readings::Scans> allScans;
+  std::vector<Scans> allScans;
   std::vector<std::vector<size_t>> sizes;  ///< beams of the scans of each reading
   std::vector<mrpt::math::TPose2D> poses;  ///< by odometry, from that of the first reading
   std::string error;
