@@ -26,11 +26,11 @@ constexpr double kLeastLength = 1;              // m, of a line of the database
 constexpr int kCount = 3;                       // observations that a line of the plan counts as
 constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};
 constexpr size_t kNearStart = 8;                    // places there
-constexpr size_t kLongestSearch = 240;              // scans, each half a metre further
+constexpr size_t kLongestSearch = 240;              // scans, 0.5 m or 20 deg apart
 constexpr size_t kWindow = 80;                      // of these that are searched for together
 constexpr size_t kEvery = 4;                        // of these to the next search
 constexpr size_t kFitted = 40;                      // places, best of all scales
-constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place, in turn until there are so many
+constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place; lowered until there are kFitted
 // The robot is found at a place if, in two searches in succession,
 constexpr double kLeastShare = 0.65;  // of the points lie on walls,
 constexpr double kMargin = 4;         // and more than at any other place, by these standard deviations;
@@ -136,7 +136,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   }
 }
 
-// A robot that stands does not use up its search, whatever the rate of its laser.
+// Only scans of a moving robot count, so that the limit does not depend on the rate of the laser.
 bool PlanSearch::isOver() const { return found_ || added_ >= kLongestSearch; }
 
 void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
