@@ -10,6 +10,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "base/Errors.h"
@@ -68,22 +69,39 @@ TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
   EXPECT_THAT(reader.defect(), HasSubstr("cut off"));
 }
 
-TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  run::Configuration c = configuration("live");
-  options.maxWaiting = 1000;
-  LiveRun run(c, options, events.log(), true);
-  const rlimit small{40000, before.rlim_max};  // bytes of a file
-  ::setrlimit(RLIMIT_FSIZE, &small);
+/// Simulates a full disk while it exists: no file can grow beyond a size.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+void takeLaps(LiveRun& run) {
   for (const auto& object : test::laps(300)) {
     const auto cycle = CSensoryFrame::Create();
     cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
     run.take(cycle);
   }
+}
+
+TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
+  run::Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  std::optional<FullDisk> disk(40000);
+  takeLaps(run);
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
-  ::setrlimit(RLIMIT_FSIZE, &before);
+  disk.reset();
   EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
   files::RawlogReader reader(recording());
   size_t objects = 0;
@@ -99,23 +117,15 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
 }
 
 TEST_F(LiveRunTest, ADiskThatIsFullUntilTheEndCostsOnlyWhatNeedsTheRecording) {
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
   run::Configuration c = configuration("live");
   options.maxWaiting = 1000;
   LiveRun run(c, options, events.log(), true);
   std::atomic<size_t> filtered{0};
   run.setWatcher([&](const FilterView&, const readings::Reading&, bool) { ++filtered; });
-  const rlimit none{0, before.rlim_max};
-  ::setrlimit(RLIMIT_FSIZE, &none);
-  for (const auto& object : test::laps(300)) {
-    const auto cycle = CSensoryFrame::Create();
-    cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
-    run.take(cycle);
-  }
+  std::optional<FullDisk> disk(0);
+  takeLaps(run);
   EXPECT_TRUE(test::happens([&] { return filtered == 300; }));
-  ::setrlimit(RLIMIT_FSIZE, &before);
+  disk.reset();
   EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
   EXPECT_EQ(std::filesystem::file_size(recording()), 0u);
   EXPECT_EQ(events.count("results: without those that need the recording (empty file"), 1u) << events.text();
