@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 using Method = RunOptions::Method;
 
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Configuration& configuration) {
-  if (!configuration.source.sectionExists(kStockSection)) return stockOptions(configuration.filter);
+  if (!configuration.source.sectionExists(kStockSection))
+    return stockOptions(configuration.filter.filter, configuration.filter.grid);
   try {
     return stockOptions(configuration.source);
   } catch (const std::exception& e) {
@@ -91,7 +92,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     if (!configuration.run.priorPlan.empty()) planSearch_ = planSearchOf(configuration);
     if (search_ || planSearch_) hybrid_->expectMap();
   }
-  if (!configuration.input.requireOdometry) scanOdometry_.emplace(configuration.filter);
+  if (!configuration.input.requireOdometry)
+    scanOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
   steps_.imbue(std::locale::classic());
   writeStepsHeader(steps_);
   if (configuration.run.particlesEvery == 0) return;

@@ -93,7 +93,8 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
       for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
     }
   }
-  refine(scans, configuration_.filter, configuration_.run.refine, base);
+  refine(scans, configuration_.run.refine, configuration_.filter.grid, configuration_.filter.matcher,
+         configuration_.filter.improved.minFit, configuration_.filter.filter.threads, base);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;

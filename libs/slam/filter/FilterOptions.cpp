@@ -56,9 +56,9 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
 }
 
 // The update of a scan needs a byte for each cell in its range. MRPT's weights need nine, for each particle.
-void checkMemory(const FilterConfiguration& c) {
-  const double most = c.gridWeight.method == GridWeightOptions::Method::penetration ? 10000 : 2000;  // cells
-  if (c.grid.maxRange > (most + 0.5) * c.grid.resolution)
+void checkMemory(const GridOptions& grid, const GridWeightOptions& gridWeight) {
+  const double most = gridWeight.method == GridWeightOptions::Method::penetration ? 10000 : 2000;  // cells
+  if (grid.maxRange > (most + 0.5) * grid.resolution)
     throw InputError("range too long for this cell size", "section [grid], keys `max_range`, `resolution`",
                      "expected at most " + numberText(most) + " cells");
 }

@@ -125,6 +125,6 @@ struct FilterConfiguration {
 };
 
 /// @throws InputError for a range of more cells than fit into memory
-void checkMemory(const FilterConfiguration& configuration);
+void checkMemory(const GridOptions& grid, const GridWeightOptions& gridWeight);
 
 }  // namespace hybrid_slam

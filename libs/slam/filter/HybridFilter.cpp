@@ -17,7 +17,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       remembersScans_(configuration.keepsScans()),
       loopCloser_(configuration.loopClosing, configuration.grid),
       pathGrid_(configuration.grid) {
-  checkMemory(configuration);
+  checkMemory(configuration.grid, configuration.gridWeight);
   reset();
 }
 

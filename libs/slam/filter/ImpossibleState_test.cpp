@@ -136,16 +136,16 @@ TEST(ImpossibleState, LaserFarFromTheRobot) {
 }
 
 TEST(ImpossibleState, BeamBeyondTheRange) {
-  const FilterConfiguration configuration;
+  const GridOptions grid;
   const auto canReadOdometry = [&](double range) {
-    return canRead(ScanOdometry(configuration), size_t{1}, beamOf(range), TPose2D(), TPose2D(), TPose2D(),
-                   0.0, 0.0);
+    return canRead(ScanOdometry(grid, ScanMatcherOptions()), size_t{1}, beamOf(range), TPose2D(), TPose2D(),
+                   TPose2D(), 0.0, 0.0);
   };
   const auto canReadLoops = [&](double range, const StepVariance& variance) {
-    return canRead(LoopCloser(configuration.loopClosing, configuration.grid),
-                   std::vector<Keyframe>{{0, beamOf(range)}}, std::vector<StepVariance>{variance},
-                   std::vector<std::optional<double>>(1), std::vector<PoseEdge>(), std::vector<KnownPair>(),
-                   size_t{0}, size_t{1}, TPose2D(), StepVariance(), 0.0);
+    return canRead(LoopCloser(LoopClosingOptions(), grid), std::vector<Keyframe>{{0, beamOf(range)}},
+                   std::vector<StepVariance>{variance}, std::vector<std::optional<double>>(1),
+                   std::vector<PoseEdge>(), std::vector<KnownPair>(), size_t{0}, size_t{1}, TPose2D(),
+                   StepVariance(), 0.0);
   };
   EXPECT_TRUE(canReadOdometry(19));
   EXPECT_FALSE(canReadOdometry(5000));

@@ -22,8 +22,9 @@ Eigen::Vector3d standardNormal(RandomStream& random) {
 
 }  // namespace
 
-ImprovedProposal::ImprovedProposal(const FilterConfiguration& c)
-    : options_(c.improved), motion_(c.motion), terms_(c), matcher_(c.matcher) {}
+ImprovedProposal::ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
+                                   const ScanMatcherOptions& matcher, const WeightTerms& terms)
+    : options_(options), motion_(motion), terms_(terms), matcher_(matcher) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
                                    const PreparedScan& scan, RandomStream& random) const {

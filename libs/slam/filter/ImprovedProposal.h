@@ -28,7 +28,8 @@ struct Proposed {
 /// are comparable. (ParticleSet then tempers both.)
 class ImprovedProposal {
  public:
-  explicit ImprovedProposal(const FilterConfiguration& configuration);
+  ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
+                   const ScanMatcherOptions& matcher, const WeightTerms& terms);
 
   Proposed propose(const Particle& particle, const StepMotion& motion, const PreparedScan& scan,
                    RandomStream& random) const;

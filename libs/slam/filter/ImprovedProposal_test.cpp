@@ -24,6 +24,10 @@ FilterConfiguration configuration(bool useLines) {
   return c;
 }
 
+ImprovedProposal proposalOf(const FilterConfiguration& c) {
+  return {c.improved, c.motion, c.matcher, WeightTerms(c)};
+}
+
 /// A scan whose true pose differs slightly from the odometry.
 PreparedScan scanAfterwards(const test::Walls& walls, const TPose2D& start) {
   RandomStream random(2, 0, 0);
@@ -44,7 +48,8 @@ Moments integrated(const FilterConfiguration& c, const Particle& particle, const
       motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion));
   const Eigen::Matrix3d root = motion.covariance.llt().matrixL();
   ScanLikelihood likelihood = ScanMatcher(c.matcher).likelihood(scan.matchedBeams, particle.grid);
-  const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, LineLikelihoodOptions(c));
+  const LineLikelihoodOptions options(c.lineWeight, c.association, c.database.minCount, c.improved);
+  const LineLikelihood lines(scan.lines, motion.mean, *particle.lines, options);
   constexpr int kHalf = 18;
   constexpr double kStep = 0.25;
   Moments all;
@@ -69,7 +74,7 @@ Moments proposed(const FilterConfiguration& c, const Particle& particle, const P
                  int streams) {
   const TPose2D centre =
       motionDistribution(particle.path.back(), kOdometry, MotionBelief().model(c.motion)).mean;
-  const ImprovedProposal proposal(c);
+  const ImprovedProposal proposal = proposalOf(c);
   Moments all;
   double squares = 0;
   for (int i = 0; i < streams; ++i) {
@@ -153,9 +158,9 @@ TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
   Particle blank;
   blank.path.push(kStart);
   RandomStream random(5, 0, 0);
-  EXPECT_FALSE(ImprovedProposal(c).propose(blank, kMotion, scan, random).isMatched);
+  EXPECT_FALSE(proposalOf(c).propose(blank, kMotion, scan, random).isMatched);
   scan.matchedBeams.rays.clear(), scan.lines.clear();
-  const Proposed p = ImprovedProposal(c).propose(particle, kMotion, scan, random);
+  const Proposed p = proposalOf(c).propose(particle, kMotion, scan, random);
   EXPECT_FALSE(p.isMatched);
   EXPECT_EQ(p.fit, 0);
   EXPECT_EQ(p.logWeight, 0);
@@ -168,8 +173,7 @@ TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   c.motion.minStdXY = c.motion.minStdPhi = 0;
   const Particle particle = test::particleAt(test::room(), kStart);
   RandomStream random(6, 0, 0);
-  const Proposed p =
-      ImprovedProposal(c).propose(particle, kMotion, scanAfterwards(test::room(), kStart), random);
+  const Proposed p = proposalOf(c).propose(particle, kMotion, scanAfterwards(test::room(), kStart), random);
   EXPECT_TRUE(std::isfinite(p.logWeight));
   EXPECT_LT(test::offset(p.pose, kStart + kOdometry).norm(), 1e-3);
 }
@@ -193,7 +197,7 @@ TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
   RandomStream random(8, 0, 0);
   double square = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const Proposed p = ImprovedProposal(c).propose(particle, slipped, scan, random);
+    const Proposed p = proposalOf(c).propose(particle, slipped, scan, random);
     square += test::offset(p.pose, truth).head<2>().squaredNorm() / kDraws;
   }
   // Each wall has half of the weight: 2 sigma for both directions together, and a margin for the tails.

@@ -7,12 +7,14 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-LineLikelihoodOptions::LineLikelihoodOptions(const FilterConfiguration& c)
-    : weight(c.lineWeight),
-      sigmaRho(c.improved.lineSigmaRho),
-      association(c.association),
-      minCount(c.database.minCount) {
-  weight.sigma = c.improved.lineSigma;
+LineLikelihoodOptions::LineLikelihoodOptions(const LineWeightOptions& lineWeight,
+                                             const AssociationOptions& lineAssociation, int leastCount,
+                                             const ImprovedProposalOptions& improved)
+    : weight(lineWeight),
+      sigmaRho(improved.lineSigmaRho),
+      association(lineAssociation),
+      minCount(leastCount) {
+  weight.sigma = improved.lineSigma;
 }
 
 LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose2D& predicted,

@@ -11,7 +11,9 @@ namespace hybrid_slam {
 
 /// Settings of LineLikelihood.
 struct LineLikelihoodOptions {
-  explicit LineLikelihoodOptions(const FilterConfiguration& configuration);
+  /// @param leastCount  min_count of [line_database]
+  LineLikelihoodOptions(const LineWeightOptions& lineWeight, const AssociationOptions& lineAssociation,
+                        int leastCount, const ImprovedProposalOptions& improved);
   LineWeightOptions weight;  ///< with the improved proposal's line_sigma
   double sigmaRho;           ///< m
   AssociationOptions association;

@@ -11,6 +11,10 @@ using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5);
 
+LineLikelihoodOptions optionsOf(const FilterConfiguration& c) {
+  return {c.lineWeight, c.association, c.database.minCount, c.improved};
+}
+
 PreparedScan scanAt(const TPose2D& robot) {
   RandomStream random(2, 0, 0);
   return test::prepared(test::room(), robot, random);
@@ -35,7 +39,7 @@ TEST(LineLikelihood, AKnownWallGivesTheSquaredAngleAndDistance) {
   const LineDatabase database = cornerOf(c.database.minCount);
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
-  const LineLikelihood lines(seen, truth, database, LineLikelihoodOptions(c));
+  const LineLikelihood lines(seen, truth, database, optionsOf(c));
   const double perAngle = std::pow(c.improved.lineSigma, -2),
                perDistance = std::pow(c.improved.lineSigmaRho, -2);
   EXPECT_NEAR(lines(truth).value, 0, 1e-12);
@@ -53,7 +57,7 @@ TEST(LineLikelihood, ARarelySeenWallIsComparedWithTheDirections) {
   const LineDatabase database = cornerOf(c.database.minCount - 1);
   const TPose2D truth(0.3, 0.2, 0.4);
   const auto seen = wallFrom(truth);
-  const LineLikelihood lines(seen, truth, database, LineLikelihoodOptions(c));
+  const LineLikelihood lines(seen, truth, database, optionsOf(c));
   const double d = 0.5 * c.improved.lineSigma;
   EXPECT_NEAR(lines({truth.x + 0.1, truth.y, truth.phi + d}).value,
               -0.5 * std::pow(d / c.improved.lineSigma, 2), 1e-9);
@@ -62,8 +66,7 @@ TEST(LineLikelihood, ARarelySeenWallIsComparedWithTheDirections) {
 TEST(LineLikelihood, NoLinesAreNeutral) {
   const LineDatabase database = cornerOf(9);
   const std::vector<LineSegment> none;
-  const LogDensity density =
-      LineLikelihood(none, {}, database, LineLikelihoodOptions(FilterConfiguration()))({1, 2, 3});
+  const LogDensity density = LineLikelihood(none, {}, database, optionsOf(FilterConfiguration()))({1, 2, 3});
   EXPECT_EQ(density.value, 0);
   EXPECT_EQ(density.gradient, Eigen::Vector3d::Zero());
   EXPECT_EQ(density.information, Eigen::Matrix3d::Zero());
@@ -77,7 +80,7 @@ TEST(LineLikelihood, TheGradientMatchesTheValue) {
   RandomStream random(7, 0, 0);
   for (const int minCount : {1, 1000}) {  // all walls are known, or none
     c.database.minCount = minCount;
-    const LineLikelihood lines(scan.lines, kStart, *particle.lines, LineLikelihoodOptions(c));
+    const LineLikelihood lines(scan.lines, kStart, *particle.lines, optionsOf(c));
     int sloped = 0;
     for (int i = 0; i < 200; ++i) {
       const TPose2D pose(kStart.x + 0.03 * random.gaussian(), kStart.y + 0.03 * random.gaussian(),

@@ -45,9 +45,9 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       gridWeight_(c.gridWeight, c.grid.resolution),
       lineMapWeight_(c.lineMap, c.grid.maxRange),
       terms_(c),
-      improvedProposal_(c),
+      improvedProposal_(c.improved, c.motion, c.matcher, terms_),
       matcher_(c.matcher),
-      newSlipRecovery_(c),
+      newSlipRecovery_(c.improved, c.motion, c.matcher, c.gridWeight, c.grid.resolution),
       slipRecovery_(newSlipRecovery_),
       arena_(arenaThreads(c.filter.threads)) {}
 

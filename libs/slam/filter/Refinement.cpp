@@ -62,23 +62,24 @@ std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vecto
   return closures;
 }
 
-void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes,
+void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
+            const ScanMatcherOptions& matcher, double minFit, int threads,
             const std::optional<ScanMap>& base) {
   const Eigen::Vector3d deviations(0.05, 0.05, mrpt::DEG2RAD(1.0));
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
-  const ScanMatcher matcher(configuration.matcher);
-  tbb::task_arena arena(arenaThreads(configuration.filter.threads));
+  const ScanMatcher scanMatcher(matcher);
+  tbb::task_arena arena(arenaThreads(threads));
   for (int pass = 0; pass < passes; ++pass) {
-    const OccupancyGrid grid = gridOf(scans, configuration.grid, base);
+    const OccupancyGrid map = gridOf(scans, grid, base);
     parallelFor(arena, base ? 0 : 1, scans.size(), [&](size_t i) {
       TPose2D& pose = scans[i].pose;
-      const LaserScans seen = toLaserScans(scans[i].scans, configuration.grid.maxRange);
-      const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));
+      const LaserScans seen = toLaserScans(scans[i].scans, grid.maxRange);
+      const ScanBeams beams(seen, BeamSelection(seen).take(matcher.beams));
       const Prior prior = [&, before = pose](const TPose2D& at) {
         return gaussianLogDensity(at, before, information);
       };
-      const ScanMatch match = matcher.match(beams, pose, grid, prior);
-      if (match.fit >= configuration.improved.minFit) pose = match.pose;
+      const ScanMatch match = scanMatcher.match(beams, pose, map, prior);
+      if (match.fit >= minFit) pose = match.pose;
     });
   }
 }

@@ -53,9 +53,12 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 
 /// Matches every scan, also those between two updates, against the map that all of them and `base` make,
 /// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
-/// fits less than min_fit leaves it unchanged. Without `base` the first pose is fixed, since it defines the
+/// fits less than `minFit` leaves it unchanged. Without `base` the first pose is fixed, since it defines the
 /// map frame.
-void refine(std::vector<PosedScans>& scans, const FilterConfiguration& configuration, int passes,
+/// @param minFit   in [0, 1]
+/// @param threads  0: all cores; does not affect the result
+void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
+            const ScanMatcherOptions& matcher, double minFit, int threads,
             const std::optional<ScanMap>& base = {});
 
 }  // namespace hybrid_slam

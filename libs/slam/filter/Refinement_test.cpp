@@ -25,6 +25,12 @@ std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
   return scans;
 }
 
+/// Refines the poses with the settings of the room.
+void refineRoom(std::vector<PosedScans>& scans, int passes, int threads = 1) {
+  const FilterConfiguration c = test::roomConfiguration();
+  refine(scans, passes, c.grid, c.matcher, c.improved.minFit, threads);
+}
+
 double rms(const std::vector<PosedScans>& scans, const std::vector<TPose2D>& truth) {
   std::vector<TPose2D> path;
   for (const PosedScans& s : scans) path.push_back(s.pose);
@@ -36,7 +42,7 @@ TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
   std::vector<PosedScans> scans = driven(truth);
   const double before = rms(scans, truth);
   const TPose2D first = scans[0].pose;
-  refine(scans, test::roomConfiguration(), 2);
+  refineRoom(scans, 2);
   EXPECT_EQ(scans[0].pose, first);
   EXPECT_LT(rms(scans, truth), 0.5 * before);
 }
@@ -44,10 +50,8 @@ TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
 TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> one = driven(truth), three = one;
-  FilterConfiguration c = test::roomConfiguration();
-  refine(one, c, 1);
-  c.filter.threads = 3;
-  refine(three, c, 1);
+  refineRoom(one, 1);
+  refineRoom(three, 1, 3);
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].pose, three[i].pose);
 }
 
@@ -55,7 +59,7 @@ TEST(Refinement, ZeroPassesChangeNothing) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> scans = driven(truth);
   const std::vector<PosedScans> before = scans;
-  refine(scans, test::roomConfiguration(), 0);
+  refineRoom(scans, 0);
   for (size_t i = 0; i < scans.size(); ++i) EXPECT_EQ(scans[i].pose, before[i].pose);
 }
 

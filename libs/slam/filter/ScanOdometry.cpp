@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/grid/BeamSelection.h"
 #include "slam/grid/CorrelativeSearch.h"
 
 namespace hybrid_slam {
@@ -20,11 +21,6 @@ constexpr double kMinFit = 0.1;  // good matches fit 0.2 to 0.7
 constexpr size_t kKeyframes = 20;
 constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
 
-FilterConfiguration withBeamsAlone(FilterConfiguration configuration) {
-  configuration.useLines = configuration.features.enabled = false;
-  return configuration;
-}
-
 /// Increases the update steps: a few scans must show walls and free space as clearly as the many scans of the
 /// filter's map.
 GridOptions decisive(GridOptions options) {
@@ -35,15 +31,15 @@ GridOptions decisive(GridOptions options) {
 
 }  // namespace
 
-ScanOdometry::ScanOdometry(const FilterConfiguration& c)
-    : grid_(decisive(c.grid)), prepare_(withBeamsAlone(c)), matcher_(c.matcher), map_(c.grid.resolution) {}
+ScanOdometry::ScanOdometry(const GridOptions& grid, const ScanMatcherOptions& matcher)
+    : grid_(decisive(grid)), matchedBeams_(matcher.beams), matcher_(matcher), map_(grid.resolution) {}
 
 TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
-  const PreparedScan scan = prepare_(observed);
+  const LaserScans scans = toLaserScans(observed, grid_.maxRange);
   const TPose2D before = pose_;
   const double duration = timestamp - lastTime_;
   pose_ = before + predicted(duration);
-  const ScanMatch found = match(scan.matchedBeams, pose_);
+  const ScanMatch found = match(ScanBeams(scans, BeamSelection(scans).take(matchedBeams_)), pose_);
   const bool fits = found.fit >= kMinFit;
   if (fits)
     pose_ = found.pose;
@@ -51,7 +47,7 @@ TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
     keyframes_.clear();
   const TPose2D moved = keyframes_.empty() ? TPose2D() : pose_ - keyframes_.back().pose;
   if (keyframes_.empty() || moved.norm() > kKeyDistance || std::abs(moved.phi) > kKeyAngle)
-    addKeyframe(scan.beams);
+    addKeyframe(ScanBeams(scans));
   const TPose2D motion = pose_ - before;
   lastMotion_ = fits ? motion : TPose2D();
   lastDuration_ = duration;

@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "slam/filter/PreparedScan.h"
+#include "base/LaserScan.h"
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/grid/ScanMatcher.h"
 
@@ -17,7 +17,7 @@ namespace hybrid_slam {
 /// not fit starts a new map; the filter's slip recovery then has to find this step.
 class ScanOdometry {
  public:
-  explicit ScanOdometry(const FilterConfiguration& configuration);
+  ScanOdometry(const GridOptions& grid, const ScanMatcherOptions& matcher);
 
   /// Returns the motion since the previous scans, in the robot frame at those (m, rad); zero for the first
   /// scans.
@@ -48,7 +48,7 @@ class ScanOdometry {
   void makeMap();
 
   GridOptions grid_;
-  ScanPreparation prepare_;
+  int matchedBeams_;
   ScanMatcher matcher_;
   std::deque<Keyframe> keyframes_;
   OccupancyGrid map_;         ///< of the keyframes

@@ -11,7 +11,7 @@ using mrpt::math::TPose2D;
 
 /// Returns the estimate after each of these true poses, relative to the first.
 std::vector<TPose2D> tracked(const std::vector<TPose2D>& truth) {
-  ScanOdometry odometry{FilterConfiguration()};
+  ScanOdometry odometry{GridOptions(), ScanMatcherOptions()};
   std::vector<TPose2D> poses;
   for (const TPose2D& pose : truth)
     poses.push_back((poses.empty() ? TPose2D() : poses.back()) +
@@ -49,7 +49,7 @@ TEST(ScanOdometry, AStandingRobotDoesNotDrift) {
 /// Without beams the prediction remains.
 TEST(ScanOdometry, AShorterStepIsPredictedInProportionALongerOneIsNot) {
   const auto predicted = [](double duration) {
-    ScanOdometry odometry{FilterConfiguration()};
+    ScanOdometry odometry{GridOptions(), ScanMatcherOptions()};
     TPose2D last;
     for (int i = 0; i < 10; ++i)
       last = odometry.motionTo({test::scan(1, test::poseOnLap(static_cast<size_t>(i), 80))}, i);
@@ -63,7 +63,7 @@ TEST(ScanOdometry, AShorterStepIsPredictedInProportionALongerOneIsNot) {
 }
 
 TEST(ScanOdometry, GoesOnAfterScansWithoutReturns) {
-  ScanOdometry odometry{FilterConfiguration()};
+  ScanOdometry odometry{GridOptions(), ScanMatcherOptions()};
   const auto blind = test::scan(1);
   for (size_t i = 0; i < blind->getScanSize(); ++i) blind->setScanRangeValidity(i, false);
   for (size_t i = 0; i < 10; ++i)

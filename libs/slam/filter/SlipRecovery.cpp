@@ -28,12 +28,14 @@ const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 
 }  // namespace
 
-SlipRecovery::SlipRecovery(const FilterConfiguration& c)
-    : options_(c.improved),
-      motion_(c.motion),
-      exponent_(c.gridWeight.exponent),
-      matcher_(c.matcher),
-      gridWeight_(c.gridWeight, c.grid.resolution) {}
+SlipRecovery::SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
+                           const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight,
+                           double resolution)
+    : options_(options),
+      motion_(motion),
+      exponent_(gridWeight.exponent),
+      matcher_(matcher),
+      gridWeight_(gridWeight, resolution) {}
 
 // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any wall,
 // and would pull the robot back along a partly seen corridor.

@@ -31,7 +31,9 @@ struct StepMotion {
 /// of similar posterior are hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
  public:
-  explicit SlipRecovery(const FilterConfiguration& configuration);
+  /// @param resolution  of the particles' grids, m
+  SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
+               const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight, double resolution);
   /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
   /// Returns at least one hypothesis, the most likely first.

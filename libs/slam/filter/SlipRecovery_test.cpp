@@ -13,11 +13,14 @@ using namespace test;
 
 const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
 
+SlipRecovery slipRecovery(const ImprovedProposalOptions& options = {}) {
+  return {options, MotionModelOptions(), ScanMatcherOptions(), GridWeightOptions(), GridOptions().resolution};
+}
+
 /// A SlipRecovery that has processed a few scans without a slip, so that it knows the usual fit.
 /// @param off  m: how far from the odometry, which is right, a match may end
-SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::Walls& walls,
-                  double off = 0.02) {
-  SlipRecovery recovery(c);
+SlipRecovery used(Particle& particle, const test::Walls& walls, double off = 0.02) {
+  SlipRecovery recovery = slipRecovery();
   const TPose2D end = particle.path.back();
   RandomStream random(3, 0, 0);
   for (int i = 0; i < 5; ++i) {
@@ -31,12 +34,11 @@ SlipRecovery used(const FilterConfiguration& c, Particle& particle, const test::
 }
 
 TEST(SlipRecovery, FindsTheMotionAfterASlip) {
-  const FilterConfiguration c;
   for (const TPose2D& slip : {TPose2D(0, 0, 30 * test::kDegree), TPose2D(0, 0, -30 * test::kDegree),
                               TPose2D(0, 0, 80 * test::kDegree), TPose2D(0, 0, 170 * test::kDegree),
                               TPose2D(0.5, 0, 0), TPose2D(-0.4, 0.3, 20 * test::kDegree)}) {
     Particle particle = test::particleAt(test::room(), kStart);
-    SlipRecovery recovery = used(c, particle, test::room());
+    SlipRecovery recovery = used(particle, test::room());
     RandomStream random(4, 0, 0);
     const TPose2D truth = kStart + (kOdometry + slip);
     const StepMotion motion =
@@ -56,10 +58,9 @@ struct Found {
 
 /// Returns the hypotheses for a robot that was carried and turns on the spot. The particle follows the first.
 Found carried(const test::Walls& walls, TPose2D robot, bool useLines) {
-  const FilterConfiguration c;
   const TPose2D turn(0, 0, 0.3);
   Particle particle = test::particleAt(walls, kStart);
-  SlipRecovery recovery = used(c, particle, walls);
+  SlipRecovery recovery = used(particle, walls);
   RandomStream random(8, 0, 0);
   Found found;
   for (int i = 0; i < 12; ++i) {
@@ -92,10 +93,10 @@ TEST(SlipRecovery, KeepsHypothesesThatAScanCannotDecide) {
 }
 
 TEST(SlipRecovery, CanBeSwitchedOff) {
-  FilterConfiguration c;
-  c.improved.slipDistance = 0;
+  ImprovedProposalOptions options;
+  options.slipDistance = 0;
   Particle particle = test::particleAt(test::room(), kStart);
-  SlipRecovery recovery(c);
+  SlipRecovery recovery = slipRecovery(options);
   RandomStream random(5, 0, 0);
   const auto motion =
       recovery
@@ -106,9 +107,8 @@ TEST(SlipRecovery, CanBeSwitchedOff) {
 }
 
 TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
-  const FilterConfiguration c;
   Particle particle = test::particleAt(test::room(), kStart);
-  SlipRecovery recovery = used(c, particle, test::room());
+  SlipRecovery recovery = used(particle, test::room());
   RandomStream random(6, 0, 0);
   // The robot is carried through a door: nothing here has been mapped.
   const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
@@ -119,7 +119,6 @@ TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
 
 /// The map of the corridor ends: the new part must not pull the robot back to the walls it has seen.
 TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
-  const FilterConfiguration c;
   const TPose2D start(0, 0.1, 0);
   Particle particle;
   particle.path.push(start);
@@ -130,7 +129,7 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
   }
   // Along the corridor, the rough walls compete with the odometry: allow three of its standard deviations,
   // 1.1 cm each.
-  SlipRecovery recovery = used(c, particle, kCorridor, 0.033);
+  SlipRecovery recovery = used(particle, kCorridor, 0.033);
   const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
   EXPECT_FALSE(recovery.motionsOf(particle, kOdometry, test::prepared(open, start + kOdometry, random))
                    .front()

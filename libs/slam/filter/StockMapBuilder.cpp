@@ -129,24 +129,25 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
   return options;
 }
 
-mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const FilterConfiguration& ours) {
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const ParticleFilterOptions& filter,
+                                                                     const GridOptions& grid) {
   mrpt::config::CConfigFileMemory ini;
-  const std::string s = "MappingApplication", grid = s + "_occupancyGrid_00";
+  const std::string s = "MappingApplication", map = s + "_occupancyGrid_00";
   ini.write(s, "PF_algorithm", 0);
-  ini.write(s, "resamplingMethod", static_cast<int>(ours.filter.resampling));
+  ini.write(s, "resamplingMethod", static_cast<int>(filter.resampling));
   ini.write(s, "adaptiveSampleSize", false);
-  ini.write(s, "sampleSize", ours.filter.fixedParticles());
+  ini.write(s, "sampleSize", filter.fixedParticles());
   ini.write(s, "pfOptimalProposal_mapSelection", 0);  // unused by the standard proposal, but required
-  ini.write(s, "BETA", ours.filter.essThreshold);
-  ini.write(s, "insertionLinDistance", ours.filter.updateDistance);
-  ini.write(s, "insertionAngDistance_deg", mrpt::RAD2DEG(ours.filter.updateAngle));
-  ini.write(s, "localizeLinDistance", ours.filter.updateDistance);
-  ini.write(s, "localizeAngDistance_deg", mrpt::RAD2DEG(ours.filter.updateAngle));
+  ini.write(s, "BETA", filter.essThreshold);
+  ini.write(s, "insertionLinDistance", filter.updateDistance);
+  ini.write(s, "insertionAngDistance_deg", mrpt::RAD2DEG(filter.updateAngle));
+  ini.write(s, "localizeLinDistance", filter.updateDistance);
+  ini.write(s, "localizeAngDistance_deg", mrpt::RAD2DEG(filter.updateAngle));
   ini.write(s, "occupancyGrid_count", 1);
-  ini.write(grid + "_creationOpts", "resolution", ours.grid.resolution);
-  ini.write(grid + "_insertOpts", "maxDistanceInsertion", ours.grid.maxRange);
-  ini.write(grid + "_likelihoodOpts", "likelihoodMethod", 4);  // likelihood field, as in its own INI files
-  ini.write(grid + "_likelihoodOpts", "LF_maxRange", ours.grid.maxRange);
+  ini.write(map + "_creationOpts", "resolution", grid.resolution);
+  ini.write(map + "_insertOpts", "maxDistanceInsertion", grid.maxRange);
+  ini.write(map + "_likelihoodOpts", "likelihoodMethod", 4);  // likelihood field, as in its own INI files
+  ini.write(map + "_likelihoodOpts", "LF_maxRange", grid.maxRange);
   return stockOptions(ini);
 }
 

@@ -55,6 +55,7 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
     const mrpt::config::CConfigFileBase& source);
 /// Makes MRPT's settings from ours: its standard proposal, with our number of particles, resampling, update
 /// distances, cell size and maximum range.
-mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const FilterConfiguration& ours);
+mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(const ParticleFilterOptions& filter,
+                                                                     const GridOptions& grid);
 
 }  // namespace hybrid_slam

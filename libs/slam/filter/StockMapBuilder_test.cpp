@@ -25,6 +25,8 @@ FilterConfiguration configuration() {
   return c;
 }
 
+auto construction() { return stockOptions(configuration().filter, configuration().grid); }
+
 TEST(MrptRandomGenerator, EachThreadHasItsOwn) {
   using mrpt::random::getRandomGenerator;
   getRandomGenerator().randomize(1);
@@ -42,7 +44,7 @@ TEST(StockMapBuilder, TakesOurSettings) {
   FilterConfiguration c = configuration();
   c.filter.essThreshold = 0.75;
   c.filter.resampling = mrpt::bayes::CParticleFilter::prStratified;
-  const auto options = stockOptions(c);
+  const auto options = stockOptions(c.filter, c.grid);
   EXPECT_EQ(options.PF_options.PF_algorithm, mrpt::bayes::CParticleFilter::pfStandardProposal);
   EXPECT_EQ(options.PF_options.resamplingMethod, mrpt::bayes::CParticleFilter::prStratified);
   EXPECT_EQ(options.PF_options.sampleSize, 5u);
@@ -54,7 +56,7 @@ TEST(StockMapBuilder, TakesOurSettings) {
 }
 
 TEST(StockMapBuilder, CanBeQueriedBeforeTheFirstScan) {
-  const StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
+  const StockMapBuilder builder(construction(), MotionModelOptions(), 1);
   EXPECT_EQ(builder.updates(), 0u);
   EXPECT_TRUE(builder.bestPath().empty());
   EXPECT_EQ(builder.particlePoses().size(), 5u);
@@ -62,7 +64,7 @@ TEST(StockMapBuilder, CanBeQueriedBeforeTheFirstScan) {
 }
 
 TEST(StockMapBuilder, MapsTheRoomThroughTheSameInterface) {
-  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
+  StockMapBuilder builder(construction(), MotionModelOptions(), 1);
   const test::Replayed replayed = feed(builder, builder, test::drive(2));
   const auto path = builder.bestPath();
   ASSERT_GT(builder.updates(), 10u);
@@ -88,7 +90,7 @@ TEST(StockMapBuilder, MapsTheRoomThroughTheSameInterface) {
 
 TEST(StockMapBuilder, EndsBeforeItsMapsFillTheMemory) {
   const auto steps = test::drive(2);
-  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1, 1.9e6);
+  StockMapBuilder builder(construction(), MotionModelOptions(), 1, 1.9e6);
   EXPECT_THROW(feed(builder, builder, steps), std::runtime_error);
   EXPECT_GT(builder.updates(), 0u);
   EXPECT_LT(builder.updates(), steps.size());
@@ -97,10 +99,10 @@ TEST(StockMapBuilder, EndsBeforeItsMapsFillTheMemory) {
 
 TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
   const auto steps = test::drive(1);
-  StockMapBuilder alone(stockOptions(configuration()), MotionModelOptions(), 1);
+  StockMapBuilder alone(construction(), MotionModelOptions(), 1);
   feed(alone, alone, steps);
-  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1),
-      beside(stockOptions(configuration()), MotionModelOptions(), 2);
+  StockMapBuilder builder(construction(), MotionModelOptions(), 1),
+      beside(construction(), MotionModelOptions(), 2);
   for (const test::DriveStep& step : steps) {
     std::thread([&] { feed(builder, step); }).join();
     feed(beside, step);
@@ -110,7 +112,7 @@ TEST(StockMapBuilder, DrawsFromItsOwnGenerator) {
 }
 
 TEST(StockMapBuilder, GivesTheThreadsGeneratorBackIfMrptFails) {
-  auto options = stockOptions(configuration());
+  auto options = construction();
   const int unknown = 77;  // no value that a cast may give
   std::memcpy(&options.PF_options.PF_algorithm, &unknown, sizeof unknown);
   StockMapBuilder builder(options, MotionModelOptions(), 2);
@@ -128,7 +130,7 @@ TEST(StockMapBuilder, StartsNoThreads) {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   };
   const auto before = threads();
-  StockMapBuilder builder(stockOptions(configuration()), MotionModelOptions(), 1);
+  StockMapBuilder builder(construction(), MotionModelOptions(), 1);
   feed(builder, builder, test::drive(1));
   EXPECT_LE(threads(), before);
 }

@@ -17,7 +17,10 @@ namespace hybrid_slam {
 class WeightTerms {
  public:
   explicit WeightTerms(const FilterConfiguration& c)
-      : useLines_(c.useLines), lineWeight_(c.lineWeight), lineLikelihood_(c), features_(c.features) {}
+      : useLines_(c.useLines),
+        lineWeight_(c.lineWeight),
+        lineLikelihood_(c.lineWeight, c.association, c.database.minCount, c.improved),
+        features_(c.features) {}
 
   struct Value {
     LineWeight line;

@@ -43,7 +43,8 @@ TEST(WeightTerms, AreThoseOfTheLines) {
   const LineWeight line = lineWeight(scene.scan.lines, kTurned.phi, *scene.particle.lines, c.lineWeight);
   ASSERT_LT(line.value, 0.999);
   EXPECT_EQ(WeightTerms(c).at(scene.particle, kTurned, scene.scan).log(), std::log(line.value));
-  const LineLikelihood lines(scene.scan.lines, TPose2D(), *scene.particle.lines, LineLikelihoodOptions(c));
+  const LineLikelihoodOptions options(c.lineWeight, c.association, c.database.minCount, c.improved);
+  const LineLikelihood lines(scene.scan.lines, TPose2D(), *scene.particle.lines, options);
   ASSERT_LT(lines(kTurned).value, -0.1);
   EXPECT_EQ(scene.density(c, kTurned).value, lines(kTurned).value);
   EXPECT_EQ(scene.density(c, kTurned).gradient, lines(kTurned).gradient);

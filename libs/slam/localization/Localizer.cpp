@@ -29,7 +29,7 @@ const FilterConfiguration& checked(FilterConfiguration& configuration, const Occ
   if (configuration.filter.isAuxiliary())
     throw InputError("MRPT's auxiliary filters do not localise", "section [particle_filter], key `proposal`",
                      "expected improved or standard");
-  checkMemory(configuration);
+  checkMemory(configuration.grid, configuration.gridWeight);
   return configuration;
 }
 

@@ -81,7 +81,8 @@ MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement&
   }
   result.newer = filteredIn(older.map, result.newer, newer.scans, configuration);
   append(scans, newer.scans, result.newer);
-  refine(scans, configuration, kPasses, base);
+  refine(scans, kPasses, configuration.grid, configuration.matcher, configuration.improved.minFit,
+         configuration.filter.threads, base);
   result.map = mapOf(scans, configuration, base);
   const size_t first = scans.size() - newer.scans.size();
   for (size_t i = 0; i < scans.size(); ++i)

@@ -18,7 +18,7 @@ OrthoFilter::OrthoFilter(const FilterConfiguration& c, const OrthoOptions& optio
       prepare_(c),
       map_(options, c.database),
       pathGrid_(c.grid) {
-  checkMemory(c);
+  checkMemory(c.grid, c.gridWeight);
 }
 
 void OrthoFilter::process(const TPose2D& odometry, const Scans& scans) {

@@ -85,7 +85,7 @@ TEST(Caption, HasTheMatchesDrawnAndTheVerdict) {
   EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates, ESS 50 %",
                                              "1 lines; of the scan: 1 of 2 match", "so far doubtful"));
   filter.place = Place{false, false, 12};
-  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates", "searching the start: 12 hypotheses"));
+  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates", "searching for the start: 12 hypotheses"));
 }
 
 TEST(FilterScene, WhileThePlaceIsUnknownThereIsNoEllipse) {
