@@ -40,7 +40,6 @@ struct Scene {
   PreparedScan scan = test::prepared(test::room(), {0.1, 0.1, 0.1}, random);
   TPose2D pose{0.1, 0.1, 0.1};
   FilterConfiguration options;
-  options.filter.proposal = ParticleFilterOptions::Proposal::standard;
 };
 
 /// Follows each beam in steps of one cell, to `beyond` (m) behind its reading, and calls visit(cellX, cellY)
@@ -50,7 +49,7 @@ void forEachStep(const Scene& s, const ScanBeams& beams, double beyond, const Vi
   const double cell = s.particle.grid.resolution();
   const GridPose frame(s.pose, beams, cell);
   for (const auto& ray : beams.rays) {
-    RaySamples place(frame.originX, frame.originY, frame.dirX(ray), frame.dirY(ray));
+    RaySamples place(frame.origin(ray).x, frame.origin(ray).y, frame.dirX(ray), frame.dirY(ray));
     const int last = static_cast<int>((ray.range + beyond) / cell);
     for (int i = 0; i <= last; ++i, place.advance()) visit(place.cellX(), place.cellY());
   }
@@ -144,7 +143,7 @@ std::vector<Kernel> kernelsOf(Scene& s) {
   const double angles = 2 * std::round(hough.thetaWindow / hough.thetaResolution) + 1;
   all.push_back(
       {"line extraction", "beam", beams, 60 + 9 * angles, 16 + 24 * angles, false,
-       [&s] { DoNotOptimize(extractLines(s.scan.scan, s.options.lineExtraction)); },
+       [&s] { DoNotOptimize(extractLines(s.scan.scans.front(), s.options.lineExtraction)); },
        "votes are written to memory one by one; std::round is a call without SSE4.1; fits are repeated for "
        "every split"});
   return all;

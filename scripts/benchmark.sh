@@ -7,7 +7,7 @@
 # unless stated otherwise, which other programs disturb least.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/benchmark}
-install_packages "${packages[@]}" libbenchmark-dev mrpt-apps time
+install_packages "${packages[@]}" time
 build release hybrid-slam log2rawlog simul-floorplan hybrid-slam-kernels
 bin=$PWD/build/release/bin
 shipped=/usr/share/mrpt/config_files/rbpf-slam

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 class Malaga : public testing::Test {
  protected:
   Malaga() : folder_(fs::path(testing::TempDir()) / ("malaga-" + std::to_string(getpid()))) {}
-  ~Malaga() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
 
   files::Trajectory run(const std::string& arguments) {
     const std::string command = std::string(HYBRID_SLAM) + " " + SOURCE_DIR +
