@@ -66,6 +66,10 @@ TEST_F(Bags, TellTheTimeFromBeamToBeam) {
   };
   EXPECT_EQ(trajectory("drive.rawlog"), trajectory("drive.bag"));
   EXPECT_NE(trajectory("instant.bag"), trajectory("drive.bag"));
+  const std::string without = folder.path("without.rawlog");
+  ASSERT_EQ(run(LOG2RAWLOG, "--scan-time 0 '" + bag + "' '" + without + "'").status, 0);
+  mapped(without);
+  EXPECT_EQ(trajectory("without.rawlog"), trajectory("instant.bag"));
   const test::Outcome outcome = run(HYBRID_SLAM, "'" + bag + "' -o '" + folder.path("out") + "'");
   EXPECT_THAT(outcome.out, HasSubstr("corrected for motion during its scans of 64.0 ms"));
 }

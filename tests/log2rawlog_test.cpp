@@ -10,6 +10,7 @@
 
 #include "InstalledProgram.h"
 #include "Shell.h"
+#include "readings/RawlogSource.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam {
@@ -17,13 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::contentOf;
+using testing::DoubleNear;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::Pair;
 
-std::string scanRow(const std::string& time, const std::string& range = "2.5") {
-  std::string row = "FLASER 181";
-  for (int i = 0; i < 181; ++i) row += " " + range;
+std::string scanRow(const std::string& time, const std::string& range = "2.5",
+                    const std::string& name = "FLASER", int beams = 181) {
+  std::string row = name + " " + std::to_string(beams);
+  for (int i = 0; i < beams; ++i) row += " " + range;
   return row + " 0 0 0 " + time + " 0 0 " + time + " host 0\n";
 }
 
@@ -135,6 +140,19 @@ TEST_F(Log2Rawlog, OptionsReachTheConversion) {
   EXPECT_THAT(out, HasSubstr(" 10.0 s,"));
 }
 
+TEST_F(Log2Rawlog, TheScanTimeThatIsSetIsStatedForEachLaser) {
+  const std::string log = folder.write("in.clf", scanRow("10") + scanRow("10", "2.5", "RLASER", 101));
+  const auto stated = [&](const std::string& options) {
+    EXPECT_EQ(convert(log, options), 0) << err;
+    return readings::summarise(rawlog, {}).sweeps;
+  };
+  EXPECT_THAT(stated(""), IsEmpty());
+  EXPECT_THAT(stated("--scan-time 0.02"), ElementsAre(Pair("FLASER", 0.02), Pair("RLASER", 0.02)));
+  EXPECT_THAT(stated("--scan-rate 25"), ElementsAre(Pair("FLASER", DoubleNear(180. / 360 / 25, 1e-8)),
+                                                    Pair("RLASER", DoubleNear(100. / 360 / 25, 1e-8))));
+  EXPECT_THAT(stated("--scan-time 0"), IsEmpty());
+}
+
 TEST_F(Log2Rawlog, AMaximumRangeThatDoesNotFitTheLogGivesAWarning) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("11", "81.91"));
   EXPECT_EQ(convert(log, "--max-range 1000"), 0);
@@ -169,7 +187,7 @@ TEST_F(Log2Rawlog, ConvertsAnInstalledLog) {
 TEST_F(Log2Rawlog, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
   for (const char* option : {"--format", "--time", "--period", "--max-range", "--angular-step", "--laser-x",
-                             "--action-observation", "--strict", "--version"})
+                             "--scan-time", "--scan-rate", "--action-observation", "--strict", "--version"})
     EXPECT_THAT(out, HasSubstr(option));
   EXPECT_EQ(run("--version"), 0);
   EXPECT_THAT(out, MatchesRegex("log2rawlog [0-9]+[.][0-9]+[.][0-9]+\n"));
@@ -186,6 +204,9 @@ TEST_F(Log2Rawlog, WrongCommandLine) {
   expectError(convert(log, "--angular-step x"), "angular-step");
   expectError(convert(log, "--period 0"), "period");
   expectError(convert(log, "--laser-x nan"), "laser-x");
+  expectError(convert(log, "--scan-time 1.5"), "scan-time");
+  expectError(convert(log, "--scan-rate 0"), "scan-rate");
+  expectError(convert(log, "--scan-time 0.02 --scan-rate 25"), "excludes");
 }
 
 TEST_F(Log2Rawlog, WrongInput) {
