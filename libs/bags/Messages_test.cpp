@@ -74,6 +74,20 @@ TEST(Messages, FirstEchoesOfRos1) {
   EXPECT_THAT(scan.ranges, ElementsAre(4, testing::IsNan(), 6));
 }
 
+TEST(Messages, FirstEchoesInEveryEncoding) {
+  for (const MessageBytes& encoder : kEncoders) {
+    const auto scan =
+        decode<ScanMessage>(MessageType::multiEchoLaserScan, encodingOf(encoder),
+                            test::echoesBytes(encoder, 12.25, "laser", {{4, 5}, {}, {6}}, -0.5f, 0.25f));
+    EXPECT_EQ(scan.header.time, 12.25);
+    EXPECT_EQ(scan.header.frame, "laser");
+    EXPECT_EQ(scan.angleMin, -0.5);
+    EXPECT_EQ(scan.angleStep, 0.25);
+    EXPECT_EQ(scan.rangeMax, 20);
+    EXPECT_THAT(scan.ranges, ElementsAre(4, testing::IsNan(), 6));
+  }
+}
+
 TEST(Messages, TransformsOfRos1) {
   tf2_msgs::TFMessage ros;
   ros.transforms.resize(2);
@@ -131,6 +145,7 @@ TEST(Messages, EveryCutIsAnErrorAndSoIsWhatFollows) {
   for (const MessageBytes& encoder : kEncoders) {
     const std::pair<MessageType, std::string> all[] = {
         {MessageType::laserScan, test::scanBytes(encoder, 1, "laser", {1, 2, 3})},
+        {MessageType::multiEchoLaserScan, test::echoesBytes(encoder, 1, "laser", {{1, 2}, {}, {3}})},
         {MessageType::odometry, test::odometryBytes(encoder, 1, {})},
         {MessageType::transforms, test::transformBytes(encoder, 1, {{"a", "b", test::turned(1, 2, 3)}})}};
     for (const auto& [type, bytes] : all) {
