@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/serialization.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -86,6 +87,35 @@ TEST(Messages, FirstEchoesInEveryEncoding) {
     EXPECT_EQ(scan.rangeMax, 20);
     EXPECT_THAT(scan.ranges, ElementsAre(4, testing::IsNan(), 6));
   }
+}
+
+TEST(Messages, OdometryOfRos1) {
+  nav_msgs::Odometry ros;
+  ros.header.seq = 3;
+  ros.header.stamp = ros::Time(12, 250000000);
+  ros.header.frame_id = "/odom";
+  ros.child_frame_id = "/base_link";
+  ros.pose.pose.position.x = 1;
+  ros.pose.pose.position.y = -2;
+  ros.pose.pose.position.z = 0.25;
+  ros.pose.pose.orientation.x = 0.5;
+  ros.pose.pose.orientation.y = -0.5;
+  ros.pose.pose.orientation.z = 0.5;
+  ros.pose.pose.orientation.w = -0.5;
+  ros.pose.covariance[35] = 7;
+  ros.twist.twist.linear.x = 8;
+  ros.twist.covariance[35] = 9;
+  const auto odometry = decode<OdometryMessage>(MessageType::odometry, Encoding::ros1, bytesOfRos(ros));
+  EXPECT_EQ(odometry.header.time, 12.25);
+  EXPECT_EQ(odometry.header.frame, "odom");
+  EXPECT_EQ(odometry.childFrame, "base_link");
+  EXPECT_EQ(odometry.pose.x, 1);
+  EXPECT_EQ(odometry.pose.y, -2);
+  EXPECT_EQ(odometry.pose.z, 0.25);
+  EXPECT_EQ(odometry.pose.qx, 0.5);
+  EXPECT_EQ(odometry.pose.qy, -0.5);
+  EXPECT_EQ(odometry.pose.qz, 0.5);
+  EXPECT_EQ(odometry.pose.qw, -0.5);
 }
 
 TEST(Messages, TransformsOfRos1) {
