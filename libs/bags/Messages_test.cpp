@@ -133,15 +133,15 @@ TEST(Messages, TransformsOfRos1) {
   EXPECT_EQ(all[0].pose.x, 0.5);
 }
 
-/// A sensor_msgs/msg/LaserScan as Fast DDS writes it: the padding before each number is that of CDR.
-TEST(Messages, RecordedBytesOfCdr) {
+/// Not a recording: composed by hand, from the definition of sensor_msgs/msg/LaserScan and the rules of CDR.
+TEST(Messages, ScanOfCdrByHand) {
   const unsigned char kBytes[] = {
-      0, 1, 0,    0,                                                                     // little-endian CDR
-      2, 0, 0,    0,    0,   0xca, 0x9a, 0x3b >> 1,                                      // 2 s
-      4, 0, 0,    0,    'o', 'd',  'o',  0,                                              // frame
-      0, 0, 0x80, 0xbf, 0,   0,    0x80, 0x3f,      0, 0, 0x80, 0x3f,                    // -1, 1, 1
-      0, 0, 0,    0,    0,   0,    0,    0,         0, 0, 0,    0,    0, 0, 0x20, 0x41,  // 0, 0, 0, 10
-      3, 0, 0,    0,    0,   0,    0x80, 0x3f,      0, 0, 0,    0x40, 0, 0, 0xc0, 0x7f,  // 1, 2, NaN
+      0, 1, 0,    0,                                                                // little-endian CDR
+      2, 0, 0,    0,    0,   0xca, 0x9a, 0x1d,                                      // 2 s
+      4, 0, 0,    0,    'o', 'd',  'o',  0,                                         // frame
+      0, 0, 0x80, 0xbf, 0,   0,    0x80, 0x3f, 0, 0, 0x80, 0x3f,                    // -1, 1, 1
+      0, 0, 0,    0,    0,   0,    0,    0,    0, 0, 0,    0,    0, 0, 0x20, 0x41,  // 0, 0, 0, 10
+      3, 0, 0,    0,    0,   0,    0x80, 0x3f, 0, 0, 0,    0x40, 0, 0, 0xc0, 0x7f,  // 1, 2, NaN
       0, 0, 0,    0};
   const auto scan = decode<ScanMessage>(MessageType::laserScan, Encoding::cdr,
                                         {reinterpret_cast<const char*>(kBytes), sizeof kBytes});
@@ -150,6 +150,28 @@ TEST(Messages, RecordedBytesOfCdr) {
   EXPECT_EQ(scan.angleMin, -1);
   EXPECT_EQ(scan.rangeMax, 10);
   EXPECT_THAT(scan.ranges, ElementsAre(1, 2, testing::IsNan()));
+}
+
+/// Not a recording either. Doubles are aligned to 8 bytes, counted after the four that name the byte order.
+TEST(Messages, TransformsOfCdrByHand) {
+  const unsigned char kBytes[] = {
+      0, 1, 0, 0,                                    // little-endian CDR
+      1, 0, 0, 0, 2,   0,   0,    0,    0, 0, 0, 0,  // one transform, at 2 s
+      5, 0, 0, 0, 'o', 'd', 'o',  'm',  0, 0, 0, 0,  // parent, 3 bytes unused
+      2, 0, 0, 0, 'b', 0,   0,    0,                 // child, 2 bytes unused
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0xc0, 0, 0, 0, 0, 0, 0, 0, 0,  // 1, -2, 0
+      0, 0, 0, 0, 0,   0,   0,    0,    0, 0, 0, 0, 0, 0, 0, 0,   // x and y of the quaternion
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0};  // its z and w: 1, 0
+  const auto all = decode<std::vector<TransformMessage>>(
+      MessageType::transforms, Encoding::cdr, {reinterpret_cast<const char*>(kBytes), sizeof kBytes});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].header.time, 2);
+  EXPECT_EQ(all[0].header.frame, "odom");
+  EXPECT_EQ(all[0].childFrame, "b");
+  EXPECT_EQ(all[0].pose.x, 1);
+  EXPECT_EQ(all[0].pose.y, -2);
+  EXPECT_EQ(all[0].pose.qz, 1);
+  EXPECT_EQ(all[0].pose.qw, 0);
 }
 
 TEST(Messages, OdometryAndTransformsInEveryEncoding) {
