@@ -14,6 +14,7 @@
 #include "HybridSlamProgram.h"
 #include "InstalledProgram.h"
 #include "files/Trajectory.h"
+#include "testing/CompressedBytes.h"
 
 namespace hybrid_slam {
 namespace {
@@ -147,6 +148,17 @@ TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
   EXPECT_EQ(result("trajectory.tum"), part);
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 21u);
+}
+
+TEST_F(HybridSlam, ARawlogMayBeCompressedInAnyWay) {
+  const std::string plain = test::writePlain(folder.path("plain.rawlog"), test::laps(20));
+  expectDone(replay(plain));
+  const std::string expected = result("trajectory.tum");
+  for (const files::Compression compression : test::kCompressions) {
+    SCOPED_TRACE(files::nameOf(compression));
+    expectDone(replay(folder.write("packed", test::compressed(compression, contentOf(plain)))));
+    EXPECT_EQ(result("trajectory.tum"), expected);
+  }
 }
 
 TEST_F(HybridSlam, ACutGzippedLogGivesResultsUpToTheCut) {

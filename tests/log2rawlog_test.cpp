@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "InstalledProgram.h"
 #include "Shell.h"
 #include "readings/RawlogSource.h"
+#include "testing/CompressedBytes.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam {
@@ -77,15 +77,15 @@ TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   EXPECT_EQ(entries(), 4u);
 }
 
-TEST_F(Log2Rawlog, GzippedGivesTheSameBytes) {
+TEST_F(Log2Rawlog, CompressedLogsGiveTheSameBytes) {
   const std::string log = scanRow("10") + scanRow("12.5");
   EXPECT_EQ(convert(folder.write("in.clf", log)), 0);
-  const std::string plain = test::contentOf(rawlog);
-  gzFile file = gzopen(folder.path("in.clf.gz").c_str(), "wb");
-  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
-  gzclose(file);
-  EXPECT_EQ(convert(folder.path("in.clf.gz")), 0);
-  EXPECT_EQ(test::contentOf(rawlog), plain);
+  const std::string plain = contentOf(rawlog);
+  for (const files::Compression compression : test::kCompressions) {
+    fs::remove(rawlog);
+    EXPECT_EQ(convert(folder.write("packed", test::compressed(compression, log))), 0) << err;
+    EXPECT_EQ(contentOf(rawlog), plain) << files::nameOf(compression);
+  }
 }
 
 TEST_F(Log2Rawlog, BrokenLinesAreReportedAndSkipped) {
@@ -223,19 +223,20 @@ TEST_F(Log2Rawlog, WrongInput) {
   expectError(convert(folder.write("rawlog", bytes)), "already a rawlog");
 }
 
-TEST_F(Log2Rawlog, CutGzip) {
+TEST_F(Log2Rawlog, CutCompressedLogs) {
   std::string log;
   for (int i = 0; i < 2000; ++i) log += scanRow(std::to_string(i), std::to_string(1 + i % 37));
-  gzFile file = gzopen(folder.path("whole.gz").c_str(), "wb");
-  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
-  gzclose(file);
-  const std::string bytes = test::contentOf(folder.path("whole.gz"));
-  // The last readable line may be broken and is then reported first.
-  EXPECT_EQ(convert(folder.write("cut.gz", bytes.substr(0, bytes.size() / 2))), 2);
-  EXPECT_THAT(err,
-              HasSubstr("log2rawlog: error: gzip file cut off: " + folder.path("cut.gz") + ", after line "));
-  EXPECT_FALSE(fs::exists(rawlog));
-  EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
+  for (const files::Compression compression : test::kCompressions) {
+    SCOPED_TRACE(files::nameOf(compression));
+    const std::string bytes = test::compressed(compression, log);
+    const std::string cut = folder.write("cut", bytes.substr(0, bytes.size() / 2));
+    // The last readable line may be broken and is then reported first.
+    EXPECT_EQ(convert(cut), 2);
+    EXPECT_THAT(err, HasSubstr("log2rawlog: error: " + std::string(files::nameOf(compression)) +
+                               " file cut off: " + cut + ", after line "));
+    EXPECT_FALSE(fs::exists(rawlog));
+    EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
+  }
 }
 
 TEST_F(Log2Rawlog, UnreadableInput) {
