@@ -1,6 +1,8 @@
 /// Exit code, messages and files of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
 
@@ -12,6 +14,7 @@
 #include "readings/RawlogSource.h"
 #include "testing/CompressedBytes.h"
 #include "testing/TestLogs.h"
+#include "testing/TinyslamRows.h"
 
 namespace hybrid_slam {
 namespace {
@@ -75,6 +78,25 @@ TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
                      "skipped: 1 SYNC\n");
   EXPECT_THAT(err, IsEmpty());
   EXPECT_EQ(entries(), 4u);
+}
+
+TEST_F(Log2Rawlog, ConvertsALogOfTinyslam) {
+  EXPECT_EQ(convert(folder.write("exp.dat", test::tinyslamDrive(30))), 0);
+  EXPECT_EQ(out,
+            rawlog + ": tinySLAM log, 30 scans, 30 odometry readings, 5.8 s, path 2.4 m, 0 broken lines\n");
+  EXPECT_THAT(err, IsEmpty());
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile(rawlog));
+  ASSERT_EQ(log.size(), 60u);
+  const auto odometry = log.asObservation<mrpt::obs::CObservationOdometry>(58);
+  EXPECT_NEAR(odometry->odometry.x(), 2.4, 1e-3);
+  EXPECT_NEAR(odometry->odometry.y(), 0, 1e-9);
+  const auto scan = log.asObservation<mrpt::obs::CObservation2DRangeScan>(59);
+  EXPECT_EQ(scan->sensorLabel, "LASER");
+  EXPECT_EQ(scan->maxRange, 5.6f);
+  EXPECT_NEAR(scan->sensorPose.x(), 0.145, 1e-9);
+  ASSERT_EQ(scan->getScanSize(), test::kTinyslamBeams);
+  EXPECT_NEAR(scan->getScanRange(341), 5 - 1.2 - 2.4 - 0.145, 1e-3) << "straight ahead";
 }
 
 TEST_F(Log2Rawlog, CompressedLogsGiveTheSameBytes) {
@@ -189,6 +211,7 @@ TEST_F(Log2Rawlog, HelpAndVersion) {
   for (const char* option : {"--format", "--time", "--period", "--max-range", "--angular-step", "--laser-x",
                              "--scan-time", "--scan-rate", "--action-observation", "--strict", "--version"})
     EXPECT_THAT(out, HasSubstr(option));
+  for (const char* range : {"80", "8.18", "5.6"}) EXPECT_THAT(out, HasSubstr(range)) << "of --max-range";
   EXPECT_EQ(run("--version"), 0);
   EXPECT_THAT(out, MatchesRegex("log2rawlog [0-9]+[.][0-9]+[.][0-9]+\n"));
 }
