@@ -82,6 +82,16 @@ inline std::string scanBytes(MessageBytes out, double time, const std::string& f
       .bytes();
 }
 
+/// A sensor_msgs/MultiEchoLaserScan. @param echoes  m, of each beam
+inline std::string echoesBytes(const MessageBytes& empty, double time, const std::string& frame,
+                               const std::vector<std::vector<float>>& echoes, float angleMin = -1,
+                               float step = 0.5f) {
+  MessageBytes out = scanHead(empty, time, frame, angleMin, step);
+  out.add(static_cast<uint32_t>(echoes.size()));
+  for (const std::vector<float>& beam : echoes) out.floats(beam);
+  return out.add(uint32_t{1}).floats({7, 8}).bytes();  // intensities
+}
+
 inline std::string odometryBytes(MessageBytes out, double time, const TPose2D& pose,
                                  const std::string& child = "base_link") {
   out.header(time, "odom").string(child);

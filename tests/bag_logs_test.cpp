@@ -8,6 +8,7 @@
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "readings/LogReader.h"
+#include "testing/CompressedBytes.h"
 #include "testing/RosBags.h"
 
 namespace hybrid_slam {
@@ -66,6 +67,10 @@ TEST_F(Bags, TellTheTimeFromBeamToBeam) {
   };
   EXPECT_EQ(trajectory("drive.rawlog"), trajectory("drive.bag"));
   EXPECT_NE(trajectory("instant.bag"), trajectory("drive.bag"));
+  const std::string without = folder.path("without.rawlog");
+  ASSERT_EQ(run(LOG2RAWLOG, "--scan-time 0 '" + bag + "' '" + without + "'").status, 0);
+  mapped(without);
+  EXPECT_EQ(trajectory("without.rawlog"), trajectory("instant.bag"));
   const test::Outcome outcome = run(HYBRID_SLAM, "'" + bag + "' -o '" + folder.path("out") + "'");
   EXPECT_THAT(outcome.out, HasSubstr("corrected for motion during its scans of 64.0 ms"));
 }
@@ -111,6 +116,27 @@ TEST_F(Bags, GiveTheObjectsOfTheRawlog) {
     }
   }
   EXPECT_FALSE(reader.next());
+}
+
+TEST_F(Bags, CompressedOnesGiveTheSameRawlog) {
+  const auto rawlogOf = [&](const std::string& bag) {
+    const std::string rawlog = folder.path("out.rawlog");
+    std::filesystem::remove(rawlog);
+    const test::Outcome outcome = run(LOG2RAWLOG, "'" + bag + "' '" + rawlog + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return test::contentOf(rawlog);
+  };
+  const auto ros1 = test::messagesOf(drive, Encoding::ros1), ros2 = test::messagesOf(drive, Encoding::cdr);
+  for (const std::string& bag : {test::writeRosBag(folder.path("drive.bag"), ros1),
+                                 test::writeDatabase(folder.path("drive.db3"), ros2),
+                                 test::writeMcap(folder.path("drive.mcap"), ros2)}) {
+    const std::string expected = rawlogOf(bag);
+    EXPECT_THAT(expected, testing::Not(IsEmpty()));
+    for (const files::Compression compression : test::kCompressions) {
+      const std::string packed = folder.write("packed", test::compressed(compression, test::contentOf(bag)));
+      EXPECT_EQ(rawlogOf(packed), expected) << bag << " " << files::nameOf(compression);
+    }
+  }
 }
 
 TEST_F(Bags, ListsTheirTopics) {

@@ -66,6 +66,15 @@ TEST_F(Deskew, TheSettingDoesForALogWithoutAWord) {
   EXPECT_EQ(result("map.simplemap.gz"), map);
 }
 
+/// The simulated laser sees 270 of 360 deg.
+TEST_F(Deskew, ARateGivesTheTimeOfTheAperture) {
+  simulate(swept);
+  expectDone(replay(log, "--set input.scan_rate=5"));
+  EXPECT_THAT(out, HasSubstr("corrected for motion during its scans of 150.0 ms"));
+  expectDone(replay(log, "--set input.scan_rate=10"));
+  EXPECT_THAT(out, HasSubstr("corrected for motion during its scans of 75.0 ms"));
+}
+
 /// The last scan of the first run had no odometry up to its last beam.
 TEST_F(Deskew, ASessionGoesOnInALogThatHasGrown) {
   simulate(swept + "--set simulation.scans=60");
@@ -87,6 +96,10 @@ TEST_F(Deskew, WrongScanTimesAreErrors) {
   const std::string room = test::writeGzipped(folder.path("room.rawlog"), test::laps(5));
   for (const std::string value : {"-0.1", "1.5", "nan", "1e9", "fast"})
     expectError(replay(room, "--set input.scan_time=" + value), "expected auto or a number in 0..1 s");
+  for (const std::string value : {"0", "0.5", "1001", "nan", "fast"})
+    expectError(replay(room, "--set input.scan_rate=" + value), "expected auto or a number in 1..1000 Hz");
+  expectError(replay(room, "--set input.scan_rate=5 --set input.scan_time=0.15"),
+              "both scan_time and scan_rate are set");
 }
 
 }  // namespace

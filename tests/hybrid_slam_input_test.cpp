@@ -14,6 +14,8 @@
 #include "HybridSlamProgram.h"
 #include "InstalledProgram.h"
 #include "files/Trajectory.h"
+#include "testing/CompressedBytes.h"
+#include "testing/TinyslamRows.h"
 
 namespace hybrid_slam {
 namespace {
@@ -147,6 +149,35 @@ TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
   EXPECT_EQ(result("trajectory.tum"), part);
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 21u);
+}
+
+TEST_F(HybridSlam, ALogOfTinyslamIsMapped) {
+  const std::string log = folder.write("exp.dat", test::tinyslamDrive(30)),
+                    rawlog = folder.path("exp.rawlog");
+  expectDone(run("'" + log + "' -o '" + output + "'"));
+  EXPECT_THAT(out, AllOf(HasSubstr("laser LASER: 682 beams every 0.352 deg"),
+                         HasSubstr("grid.max_range = 5.60: the log's limit for the laser")));
+  const auto trajectory = files::loadTum(output + "/trajectory.tum");
+  ASSERT_EQ(trajectory.size(), 30u);
+  for (size_t i = 0; i < 30; ++i) {
+    const test::TPose2D truth(test::tinyslamWay(0.2 * static_cast<double>(i)), 0, 0);
+    EXPECT_LT((trajectory[i].pose - truth).norm(), 0.1) << i;
+  }
+  const std::string expected = result("trajectory.tum");
+  ASSERT_EQ(test::shell(folder, "'" LOG2RAWLOG "' '" + log + "' '" + rawlog + "'").status, 0);
+  expectDone(run("--overwrite '" + rawlog + "' -o '" + output + "'"));
+  EXPECT_EQ(result("trajectory.tum"), expected);
+}
+
+TEST_F(HybridSlam, ARawlogMayBeCompressedInAnyWay) {
+  const std::string plain = test::writePlain(folder.path("plain.rawlog"), test::laps(20));
+  expectDone(replay(plain));
+  const std::string expected = result("trajectory.tum");
+  for (const files::Compression compression : test::kCompressions) {
+    SCOPED_TRACE(files::nameOf(compression));
+    expectDone(replay(folder.write("packed", test::compressed(compression, contentOf(plain)))));
+    EXPECT_EQ(result("trajectory.tum"), expected);
+  }
 }
 
 TEST_F(HybridSlam, ACutGzippedLogGivesResultsUpToTheCut) {

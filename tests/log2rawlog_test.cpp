@@ -1,29 +1,37 @@
 /// Exit code, messages and files of the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "InstalledProgram.h"
 #include "Shell.h"
+#include "readings/RawlogSource.h"
+#include "testing/CompressedBytes.h"
 #include "testing/TestLogs.h"
+#include "testing/TinyslamRows.h"
 
 namespace hybrid_slam {
 namespace {
 
 namespace fs = std::filesystem;
 using test::contentOf;
+using testing::DoubleNear;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::Pair;
 
-std::string scanRow(const std::string& time, const std::string& range = "2.5") {
-  std::string row = "FLASER 181";
-  for (int i = 0; i < 181; ++i) row += " " + range;
+std::string scanRow(const std::string& time, const std::string& range = "2.5",
+                    const std::string& name = "FLASER", int beams = 181) {
+  std::string row = name + " " + std::to_string(beams);
+  for (int i = 0; i < beams; ++i) row += " " + range;
   return row + " 0 0 0 " + time + " 0 0 " + time + " host 0\n";
 }
 
@@ -72,15 +80,34 @@ TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   EXPECT_EQ(entries(), 4u);
 }
 
-TEST_F(Log2Rawlog, GzippedGivesTheSameBytes) {
+TEST_F(Log2Rawlog, ConvertsALogOfTinyslam) {
+  EXPECT_EQ(convert(folder.write("exp.dat", test::tinyslamDrive(30))), 0);
+  EXPECT_EQ(out,
+            rawlog + ": tinySLAM log, 30 scans, 30 odometry readings, 5.8 s, path 2.4 m, 0 broken lines\n");
+  EXPECT_THAT(err, IsEmpty());
+  mrpt::obs::CRawlog log;
+  ASSERT_TRUE(log.loadFromRawLogFile(rawlog));
+  ASSERT_EQ(log.size(), 60u);
+  const auto odometry = log.asObservation<mrpt::obs::CObservationOdometry>(58);
+  EXPECT_NEAR(odometry->odometry.x(), 2.4, 1e-3);
+  EXPECT_NEAR(odometry->odometry.y(), 0, 1e-9);
+  const auto scan = log.asObservation<mrpt::obs::CObservation2DRangeScan>(59);
+  EXPECT_EQ(scan->sensorLabel, "LASER");
+  EXPECT_EQ(scan->maxRange, 5.6f);
+  EXPECT_NEAR(scan->sensorPose.x(), 0.145, 1e-9);
+  ASSERT_EQ(scan->getScanSize(), test::kTinyslamBeams);
+  EXPECT_NEAR(scan->getScanRange(341), 5 - 1.2 - 2.4 - 0.145, 1e-3) << "straight ahead";
+}
+
+TEST_F(Log2Rawlog, CompressedLogsGiveTheSameBytes) {
   const std::string log = scanRow("10") + scanRow("12.5");
   EXPECT_EQ(convert(folder.write("in.clf", log)), 0);
-  const std::string plain = test::contentOf(rawlog);
-  gzFile file = gzopen(folder.path("in.clf.gz").c_str(), "wb");
-  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
-  gzclose(file);
-  EXPECT_EQ(convert(folder.path("in.clf.gz")), 0);
-  EXPECT_EQ(test::contentOf(rawlog), plain);
+  const std::string plain = contentOf(rawlog);
+  for (const files::Compression compression : test::kCompressions) {
+    fs::remove(rawlog);
+    EXPECT_EQ(convert(folder.write("packed", test::compressed(compression, log))), 0) << err;
+    EXPECT_EQ(contentOf(rawlog), plain) << files::nameOf(compression);
+  }
 }
 
 TEST_F(Log2Rawlog, BrokenLinesAreReportedAndSkipped) {
@@ -135,6 +162,19 @@ TEST_F(Log2Rawlog, OptionsReachTheConversion) {
   EXPECT_THAT(out, HasSubstr(" 10.0 s,"));
 }
 
+TEST_F(Log2Rawlog, TheScanTimeThatIsSetIsStatedForEachLaser) {
+  const std::string log = folder.write("in.clf", scanRow("10") + scanRow("10", "2.5", "RLASER", 101));
+  const auto stated = [&](const std::string& options) {
+    EXPECT_EQ(convert(log, options), 0) << err;
+    return readings::summarise(rawlog, {}).sweeps;
+  };
+  EXPECT_THAT(stated(""), IsEmpty());
+  EXPECT_THAT(stated("--scan-time 0.02"), ElementsAre(Pair("FLASER", 0.02), Pair("RLASER", 0.02)));
+  EXPECT_THAT(stated("--scan-rate 25"), ElementsAre(Pair("FLASER", DoubleNear(180. / 360 / 25, 1e-8)),
+                                                    Pair("RLASER", DoubleNear(100. / 360 / 25, 1e-8))));
+  EXPECT_THAT(stated("--scan-time 0"), IsEmpty());
+}
+
 TEST_F(Log2Rawlog, AMaximumRangeThatDoesNotFitTheLogGivesAWarning) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("11", "81.91"));
   EXPECT_EQ(convert(log, "--max-range 1000"), 0);
@@ -169,8 +209,9 @@ TEST_F(Log2Rawlog, ConvertsAnInstalledLog) {
 TEST_F(Log2Rawlog, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
   for (const char* option : {"--format", "--time", "--period", "--max-range", "--angular-step", "--laser-x",
-                             "--action-observation", "--strict", "--version"})
+                             "--scan-time", "--scan-rate", "--action-observation", "--strict", "--version"})
     EXPECT_THAT(out, HasSubstr(option));
+  for (const char* range : {"80", "8.18", "5.6"}) EXPECT_THAT(out, HasSubstr(range)) << "of --max-range";
   EXPECT_EQ(run("--version"), 0);
   EXPECT_THAT(out, MatchesRegex("log2rawlog [0-9]+[.][0-9]+[.][0-9]+\n"));
 }
@@ -186,6 +227,9 @@ TEST_F(Log2Rawlog, WrongCommandLine) {
   expectError(convert(log, "--angular-step x"), "angular-step");
   expectError(convert(log, "--period 0"), "period");
   expectError(convert(log, "--laser-x nan"), "laser-x");
+  expectError(convert(log, "--scan-time 1.5"), "scan-time");
+  expectError(convert(log, "--scan-rate 0"), "scan-rate");
+  expectError(convert(log, "--scan-time 0.02 --scan-rate 25"), "excludes");
 }
 
 TEST_F(Log2Rawlog, WrongInput) {
@@ -202,19 +246,20 @@ TEST_F(Log2Rawlog, WrongInput) {
   expectError(convert(folder.write("rawlog", bytes)), "already a rawlog");
 }
 
-TEST_F(Log2Rawlog, CutGzip) {
+TEST_F(Log2Rawlog, CutCompressedLogs) {
   std::string log;
   for (int i = 0; i < 2000; ++i) log += scanRow(std::to_string(i), std::to_string(1 + i % 37));
-  gzFile file = gzopen(folder.path("whole.gz").c_str(), "wb");
-  gzwrite(file, log.data(), static_cast<unsigned>(log.size()));
-  gzclose(file);
-  const std::string bytes = test::contentOf(folder.path("whole.gz"));
-  // The last readable line may be broken and is then reported first.
-  EXPECT_EQ(convert(folder.write("cut.gz", bytes.substr(0, bytes.size() / 2))), 2);
-  EXPECT_THAT(err,
-              HasSubstr("log2rawlog: error: gzip file cut off: " + folder.path("cut.gz") + ", after line "));
-  EXPECT_FALSE(fs::exists(rawlog));
-  EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
+  for (const files::Compression compression : test::kCompressions) {
+    SCOPED_TRACE(files::nameOf(compression));
+    const std::string bytes = test::compressed(compression, log);
+    const std::string cut = folder.write("cut", bytes.substr(0, bytes.size() / 2));
+    // The last readable line may be broken and is then reported first.
+    EXPECT_EQ(convert(cut), 2);
+    EXPECT_THAT(err, HasSubstr("log2rawlog: error: " + std::string(files::nameOf(compression)) +
+                               " file cut off: " + cut + ", after line "));
+    EXPECT_FALSE(fs::exists(rawlog));
+    EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
+  }
 }
 
 TEST_F(Log2Rawlog, UnreadableInput) {

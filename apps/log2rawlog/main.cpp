@@ -104,7 +104,7 @@ int convert(int argc, char** argv) {
       ->check(within(1e-6, 1e4));
   app.add_option("--max-range", options.maxRange,
                  "readings at or beyond this are no returns, m (default: 80, which covers the 81.83 and "
-                 "81.91 of CARMEN logs; DP-SLAM: 8.18)")
+                 "81.91 of CARMEN logs; DP-SLAM: 8.18; tinySLAM: 5.6; bags: as each scan states)")
       ->type_name("M")
       ->check(within(0.01, 1e4));
   app.add_option("--angular-step", angularStepDeg,
@@ -117,6 +117,19 @@ int convert(int argc, char** argv) {
          "front laser ahead of the robot's centre, m (default: PARAM robot_frontlaser_offset, else 0)")
       ->type_name("M")
       ->check(within(-100., 100.));
+  CLI::Option* const scanTime =
+      app.add_option("--scan-time", options.sweep.seconds,
+                     "time from the first beam of a scan to the last, s, for the correction by the robot's "
+                     "motion; 0: no correction (default: as a bag states; unknown for text logs)")
+          ->type_name("S")
+          ->check(within(0, readings::kLongestSweep));
+  app.add_option(
+         "--scan-rate", options.sweep.rate,
+         "turns of the lasers per second, instead of --scan-time: a scan over A deg takes A / 360 / HZ "
+         "seconds")
+      ->type_name("HZ")
+      ->check(within(readings::kLowestRate, readings::kHighestRate))
+      ->excludes(scanTime);
   app.add_flag("--action-observation", options.actionObservation,
                "write (action, sensory frame) pairs instead of one observation per row");
   app.add_flag("--strict", options.strict,

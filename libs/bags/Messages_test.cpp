@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/serialization.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -74,6 +75,49 @@ TEST(Messages, FirstEchoesOfRos1) {
   EXPECT_THAT(scan.ranges, ElementsAre(4, testing::IsNan(), 6));
 }
 
+TEST(Messages, FirstEchoesInEveryEncoding) {
+  for (const MessageBytes& encoder : kEncoders) {
+    const auto scan =
+        decode<ScanMessage>(MessageType::multiEchoLaserScan, encodingOf(encoder),
+                            test::echoesBytes(encoder, 12.25, "laser", {{4, 5}, {}, {6}}, -0.5f, 0.25f));
+    EXPECT_EQ(scan.header.time, 12.25);
+    EXPECT_EQ(scan.header.frame, "laser");
+    EXPECT_EQ(scan.angleMin, -0.5);
+    EXPECT_EQ(scan.angleStep, 0.25);
+    EXPECT_EQ(scan.rangeMax, 20);
+    EXPECT_THAT(scan.ranges, ElementsAre(4, testing::IsNan(), 6));
+  }
+}
+
+TEST(Messages, OdometryOfRos1) {
+  nav_msgs::Odometry ros;
+  ros.header.seq = 3;
+  ros.header.stamp = ros::Time(12, 250000000);
+  ros.header.frame_id = "/odom";
+  ros.child_frame_id = "/base_link";
+  ros.pose.pose.position.x = 1;
+  ros.pose.pose.position.y = -2;
+  ros.pose.pose.position.z = 0.25;
+  ros.pose.pose.orientation.x = 0.5;
+  ros.pose.pose.orientation.y = -0.5;
+  ros.pose.pose.orientation.z = 0.5;
+  ros.pose.pose.orientation.w = -0.5;
+  ros.pose.covariance[35] = 7;
+  ros.twist.twist.linear.x = 8;
+  ros.twist.covariance[35] = 9;
+  const auto odometry = decode<OdometryMessage>(MessageType::odometry, Encoding::ros1, bytesOfRos(ros));
+  EXPECT_EQ(odometry.header.time, 12.25);
+  EXPECT_EQ(odometry.header.frame, "odom");
+  EXPECT_EQ(odometry.childFrame, "base_link");
+  EXPECT_EQ(odometry.pose.x, 1);
+  EXPECT_EQ(odometry.pose.y, -2);
+  EXPECT_EQ(odometry.pose.z, 0.25);
+  EXPECT_EQ(odometry.pose.qx, 0.5);
+  EXPECT_EQ(odometry.pose.qy, -0.5);
+  EXPECT_EQ(odometry.pose.qz, 0.5);
+  EXPECT_EQ(odometry.pose.qw, -0.5);
+}
+
 TEST(Messages, TransformsOfRos1) {
   tf2_msgs::TFMessage ros;
   ros.transforms.resize(2);
@@ -89,15 +133,15 @@ TEST(Messages, TransformsOfRos1) {
   EXPECT_EQ(all[0].pose.x, 0.5);
 }
 
-/// A sensor_msgs/msg/LaserScan as Fast DDS writes it: the padding before each number is that of CDR.
-TEST(Messages, RecordedBytesOfCdr) {
+/// Not a recording: composed by hand, from the definition of sensor_msgs/msg/LaserScan and the rules of CDR.
+TEST(Messages, ScanOfCdrByHand) {
   const unsigned char kBytes[] = {
-      0, 1, 0,    0,                                                                     // little-endian CDR
-      2, 0, 0,    0,    0,   0xca, 0x9a, 0x3b >> 1,                                      // 2 s
-      4, 0, 0,    0,    'o', 'd',  'o',  0,                                              // frame
-      0, 0, 0x80, 0xbf, 0,   0,    0x80, 0x3f,      0, 0, 0x80, 0x3f,                    // -1, 1, 1
-      0, 0, 0,    0,    0,   0,    0,    0,         0, 0, 0,    0,    0, 0, 0x20, 0x41,  // 0, 0, 0, 10
-      3, 0, 0,    0,    0,   0,    0x80, 0x3f,      0, 0, 0,    0x40, 0, 0, 0xc0, 0x7f,  // 1, 2, NaN
+      0, 1, 0,    0,                                                                // little-endian CDR
+      2, 0, 0,    0,    0,   0xca, 0x9a, 0x1d,                                      // 2 s
+      4, 0, 0,    0,    'o', 'd',  'o',  0,                                         // frame
+      0, 0, 0x80, 0xbf, 0,   0,    0x80, 0x3f, 0, 0, 0x80, 0x3f,                    // -1, 1, 1
+      0, 0, 0,    0,    0,   0,    0,    0,    0, 0, 0,    0,    0, 0, 0x20, 0x41,  // 0, 0, 0, 10
+      3, 0, 0,    0,    0,   0,    0x80, 0x3f, 0, 0, 0,    0x40, 0, 0, 0xc0, 0x7f,  // 1, 2, NaN
       0, 0, 0,    0};
   const auto scan = decode<ScanMessage>(MessageType::laserScan, Encoding::cdr,
                                         {reinterpret_cast<const char*>(kBytes), sizeof kBytes});
@@ -106,6 +150,28 @@ TEST(Messages, RecordedBytesOfCdr) {
   EXPECT_EQ(scan.angleMin, -1);
   EXPECT_EQ(scan.rangeMax, 10);
   EXPECT_THAT(scan.ranges, ElementsAre(1, 2, testing::IsNan()));
+}
+
+/// Not a recording either. Doubles are aligned to 8 bytes, counted after the four that name the byte order.
+TEST(Messages, TransformsOfCdrByHand) {
+  const unsigned char kBytes[] = {
+      0, 1, 0, 0,                                    // little-endian CDR
+      1, 0, 0, 0, 2,   0,   0,    0,    0, 0, 0, 0,  // one transform, at 2 s
+      5, 0, 0, 0, 'o', 'd', 'o',  'm',  0, 0, 0, 0,  // parent, 3 bytes unused
+      2, 0, 0, 0, 'b', 0,   0,    0,                 // child, 2 bytes unused
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0xc0, 0, 0, 0, 0, 0, 0, 0, 0,  // 1, -2, 0
+      0, 0, 0, 0, 0,   0,   0,    0,    0, 0, 0, 0, 0, 0, 0, 0,   // x and y of the quaternion
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0};  // its z and w: 1, 0
+  const auto all = decode<std::vector<TransformMessage>>(
+      MessageType::transforms, Encoding::cdr, {reinterpret_cast<const char*>(kBytes), sizeof kBytes});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].header.time, 2);
+  EXPECT_EQ(all[0].header.frame, "odom");
+  EXPECT_EQ(all[0].childFrame, "b");
+  EXPECT_EQ(all[0].pose.x, 1);
+  EXPECT_EQ(all[0].pose.y, -2);
+  EXPECT_EQ(all[0].pose.qz, 1);
+  EXPECT_EQ(all[0].pose.qw, 0);
 }
 
 TEST(Messages, OdometryAndTransformsInEveryEncoding) {
@@ -131,6 +197,7 @@ TEST(Messages, EveryCutIsAnErrorAndSoIsWhatFollows) {
   for (const MessageBytes& encoder : kEncoders) {
     const std::pair<MessageType, std::string> all[] = {
         {MessageType::laserScan, test::scanBytes(encoder, 1, "laser", {1, 2, 3})},
+        {MessageType::multiEchoLaserScan, test::echoesBytes(encoder, 1, "laser", {{1, 2}, {}, {3}})},
         {MessageType::odometry, test::odometryBytes(encoder, 1, {})},
         {MessageType::transforms, test::transformBytes(encoder, 1, {{"a", "b", test::turned(1, 2, 3)}})}};
     for (const auto& [type, bytes] : all) {

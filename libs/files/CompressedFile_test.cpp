@@ -1,43 +1,18 @@
 #include "files/CompressedFile.h"
 
-#include <bzlib.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <lz4frame.h>
-#include <zstd.h>
 
 #include "base/Errors.h"
-#include "files/Gzip.h"
 #include "files/TemporaryFolder.h"
+#include "testing/CompressedBytes.h"
 
 namespace hybrid_slam::files {
 namespace {
 
+using test::compressed;
+using test::kCompressions;
 using testing::AnyOf;
-
-constexpr Compression kAll[] = {Compression::gzip, Compression::bzip2, Compression::zstd, Compression::lz4};
-
-std::string compressed(Compression compression, const std::string& text) {
-  if (compression == Compression::gzip) return gzipped(text);
-  std::string out(2 * text.size() + 1000, '\0');
-  size_t length = 0;
-  if (compression == Compression::bzip2) {
-    auto size = static_cast<unsigned>(out.size());
-    BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(text.data()),
-                             static_cast<unsigned>(text.size()), 1, 0, 0);
-    length = size;
-  } else if (compression == Compression::zstd) {
-    // Like the program zstd, with a checksum.
-    const std::unique_ptr<ZSTD_CCtx, size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-    length = ZSTD_compress2(context.get(), out.data(), out.size(), text.data(), text.size());
-  } else {
-    LZ4F_preferences_t preferences{};
-    preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
-    length = LZ4F_compressFrame(out.data(), out.size(), text.data(), text.size(), &preferences);
-  }
-  return out.substr(0, length);
-}
 
 /// Text that does not compress well.
 std::string noise(size_t length) {
@@ -73,7 +48,7 @@ TEST(CompressedFile, PlainBytesAreThemselves) {
 TEST(CompressedFile, ContentDecidesWhichCompression) {
   const TemporaryFolder folder;
   const std::string text = noise(300000);
-  for (const Compression compression : kAll) {
+  for (const Compression compression : kCompressions) {
     const std::string path = folder.write("any.txt", compressed(compression, text));
     EXPECT_EQ(read(path).content, text) << nameOf(compression);
     CompressedFile file(path, "");
@@ -88,7 +63,7 @@ TEST(CompressedFile, ContentDecidesWhichCompression) {
 
 TEST(CompressedFile, StreamsOneAfterAnotherAreOneContent) {
   const TemporaryFolder folder;
-  for (const Compression compression : kAll) {
+  for (const Compression compression : kCompressions) {
     const std::string one = compressed(compression, "one"), two = compressed(compression, "two");
     const Outcome outcome = read(folder.write("both", one + two + std::string(512, '\0')));
     EXPECT_EQ(outcome.content, "onetwo") << nameOf(compression);
@@ -99,7 +74,7 @@ TEST(CompressedFile, StreamsOneAfterAnotherAreOneContent) {
 TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {
   const TemporaryFolder folder;
   const std::string text = noise(300000);
-  for (const Compression compression : kAll) {
+  for (const Compression compression : kCompressions) {
     const std::string bytes = compressed(compression, text);
     for (const size_t kept : {size_t{12}, bytes.size() / 2, bytes.size() - 1}) {
       const Outcome outcome = read(folder.write("cut", bytes.substr(0, kept)));
@@ -111,7 +86,7 @@ TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {
 
 TEST(CompressedFile, DamageIsFound) {
   const TemporaryFolder folder;
-  for (const Compression compression : kAll) {
+  for (const Compression compression : kCompressions) {
     std::string bytes = compressed(compression, noise(100000));
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
     const std::string name = nameOf(compression);
@@ -122,7 +97,7 @@ TEST(CompressedFile, DamageIsFound) {
 
 TEST(CompressedFile, ContentInMemoryMustHaveTheSizeThatIsClaimed) {
   const std::string text = noise(3000000);
-  for (const Compression compression : kAll) {
+  for (const Compression compression : kCompressions) {
     const std::string bytes = compressed(compression, text);
     EXPECT_EQ(decoded(compression, bytes, text.size()), text) << nameOf(compression);
     EXPECT_THROW(decoded(compression, bytes, text.size() - 1), Damaged);

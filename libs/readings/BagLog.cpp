@@ -30,7 +30,7 @@ BagLog::BagLog(const std::string& file, BagPlan plan, const LogConversionOptions
       plan_(std::move(plan)),
       options_(options),
       report_(std::move(report)),
-      objects_(options.maxRange.value_or(kAnyRange), options.actionObservation) {
+      objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep) {
   objects_.summary.format = bag_->format();
 }
 

@@ -19,8 +19,8 @@ namespace hybrid_slam::readings {
 /// sorted by time within one second.
 class BagLog {
  public:
-  /// Uses `maxRange`, `actionObservation`, `laserX` (for a laser of unknown pose) and `strict` of the
-  /// options.
+  /// Uses `maxRange`, `sweep`, `actionObservation`, `laserX` (for a laser of unknown pose) and `strict` of
+  /// the options.
   /// @throws InputError if the file cannot be read
   BagLog(const std::string& file, BagPlan plan, const LogConversionOptions& options, BrokenLineReport report);
 

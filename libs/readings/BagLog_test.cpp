@@ -121,6 +121,25 @@ TEST_F(BagLogTest, ScanOfAnyApertureHasItsBeamsWhereTheyWere) {
   EXPECT_EQ(scan->maxRange, 20);
 }
 
+TEST_F(BagLogTest, TheFirstEchoesAreAScan) {
+  const std::vector<TestMessage> messages{
+      {"/echoes", "sensor_msgs/MultiEchoLaserScan", 7.25,
+       test::echoesBytes(kCdr, 7.25, "base_link", {{4, 5}, {}, {6, 9}, {25}, {2}})}};
+  ASSERT_EQ(plan(messages).lasers.size(), 1u);
+  EXPECT_EQ(plan(messages).lasers[0].topic, "/echoes");
+  const auto scan = onlyScan(messages);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->sensorLabel, "/echoes");
+  EXPECT_NEAR(seconds(scan->timestamp), 7.25, 1e-6);
+  EXPECT_NEAR(scan->aperture, 2, 1e-6);
+  ASSERT_EQ(scan->getScanSize(), 5u);
+  EXPECT_EQ(scan->getScanRange(0), 4);
+  EXPECT_EQ(scan->getScanRange(2), 6);
+  std::vector<bool> valid;
+  for (size_t i = 0; i < 5; ++i) valid.push_back(scan->getScanRangeValidity(i));
+  EXPECT_THAT(valid, ElementsAre(true, false, true, false, true)) << "no echo; beyond the limit of 20 m";
+}
+
 TEST_F(BagLogTest, BeamsInTheOtherDirection) {
   const auto scan = onlyScan({scanOn("/scan", 1, "laser", {1, 2, 3}, 0.5f, -0.5f)});
   ASSERT_TRUE(scan);

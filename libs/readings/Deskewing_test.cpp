@@ -137,9 +137,8 @@ TEST(Deskewing, ScansOutsideTheOdometryAreNotCorrected) {
   EXPECT_EQ(all[1].scans.back(), late);
 }
 
-/// The second laser scans 40 ms later than the first.
-TEST(Deskewing, TwoLasersOfOneReading) {
-  SweptLaser front, rear;
+/// Expects the scans of two lasers on the walls. The second laser scans 40 ms later than the first.
+void expectTwoLasersCorrected(const SweptLaser& front, SweptLaser rear, const SweepTimes& sweeps) {
   rear.label = "REAR";
   rear.sensorPose = mrpt::poses::CPose3D(-0.3, 0, 0.2, M_PI, 0, 0);
   Log log;
@@ -151,13 +150,22 @@ TEST(Deskewing, TwoLasersOfOneReading) {
   }
   log.push_back(test::odometry(101.8, turning(101.8)));
   size_t both = 0;
-  for (const Reading& reading : readingsOf(log, true, SweepTimes(0.1)))
+  for (const Reading& reading : readingsOf(log, true, sweeps))
     if (reading.scans.size() == 2) {
       ++both;
       for (const auto& scan : reading.scans)
         EXPECT_LT(test::farthestFromWalls(*scan, turning(reading.timestamp)), 5e-6);
     }
   EXPECT_GE(both, 7);
+}
+
+TEST(Deskewing, TwoLasersOfOneReading) { expectTwoLasersCorrected({}, {}, SweepTimes(0.1)); }
+
+/// Both turn 5 times per second; the second sees half as much.
+TEST(Deskewing, ARateGivesTwoLasersTheirOwnTimes) {
+  SweptLaser rear;
+  rear.aperture = M_PI / 2, rear.sweep = 0.05;
+  expectTwoLasersCorrected({}, rear, SweepTimes(SweepSetting{std::nullopt, 5.0}));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "readings/ReadingAssembler.h"
-#include "readings/SweepTimes.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -90,10 +89,11 @@ void LogObjects::operator()(const LaserRecord& record) {
   for (const auto range : record.ranges)
     if (range > 0 && std::isfinite(range)) ++summary.ranges, summary.rangesBeyond += range >= maxRange_;
   const auto observation = observationOf(record, maxRange_);
-  summary.wrongSweeps += !isSweepTime(record.sweep);
-  const double sweepBefore = std::exchange(sweeps_[record.label], record.sweep);
+  const double sweep = sweepSetting_.of(observation->aperture).value_or(record.sweep);
+  summary.wrongSweeps += !isSweepTime(sweep);
+  const double sweepBefore = std::exchange(sweeps_[record.label], sweep);
   const auto comment =
-      sweepBefore == record.sweep ? nullptr : commentOf({record.label, record.sweep}, observation->timestamp);
+      sweepBefore == sweep ? nullptr : commentOf({record.label, sweep}, observation->timestamp);
   for (size_t i = 0; i < observation->getScanSize(); ++i)
     if (observation->getScanRangeValidity(i))
       summary.longestRange = std::max(summary.longestRange, observation->getScanRange(i));

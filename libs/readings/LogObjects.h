@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "readings/LogParser.h"
+#include "readings/SweepTimes.h"
 
 namespace hybrid_slam::readings {
 
@@ -42,8 +43,9 @@ class LogObjects {
  public:
   /// @param maxRange           m; readings at or beyond this are no returns
   /// @param actionObservation  (action, sensory frame) pairs instead of one observation per record
-  LogObjects(double maxRange, bool actionObservation)
-      : maxRange_(maxRange), actionObservation_(actionObservation) {}
+  /// @param sweep              scan times in place of those of the records
+  LogObjects(double maxRange, bool actionObservation, const SweepSetting& sweep = {})
+      : maxRange_(maxRange), actionObservation_(actionObservation), sweepSetting_(sweep) {}
 
   void operator()(std::monostate) {}
   void operator()(const OtherRecord& record);
@@ -62,6 +64,7 @@ class LogObjects {
   std::deque<mrpt::serialization::CSerializable::Ptr> ready_;
   double maxRange_;
   bool actionObservation_;
+  SweepSetting sweepSetting_;
   std::map<std::string, double> sweeps_;  ///< s, last written for each laser
   std::optional<OdometryRecord> last_;
   double lastTime_ = 0;                             ///< s, of the previous record

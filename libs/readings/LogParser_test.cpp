@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "testing/LogRows.h"
+#include "testing/TinyslamRows.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -85,12 +86,11 @@ TEST(LogParserDpslam, AMissingRowDoesNotStopTheClock) {
   EXPECT_THAT(whyBroken(formatNamed("dpslam"), "Odometry 1 2"), HasSubstr("2 fields where 3"));
 }
 
+/// A row with one return, straight ahead.
 std::string tinyslamRow(int microseconds, int left, int right) {
-  std::string row =
-      std::to_string(microseconds) + " 14554 " + std::to_string(left) + " " + std::to_string(right);
-  for (int i = 4; i < 24; ++i) row += " 7";
-  for (int i = 0; i < 683; ++i) row += i == 341 ? " 1500" : " 0";
-  return row;
+  std::vector<int> ranges(test::kTinyslamBeams);
+  ranges[341] = 1500;
+  return test::tinyslamRow(microseconds, left, right, ranges);
 }
 
 /// A wheel turns once in 2000 ticks, 2 pi 0.077 m; the wheels are 0.33 m apart.

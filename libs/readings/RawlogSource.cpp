@@ -63,10 +63,19 @@ void InputOptions::describe(OptionTable& t) {
   t.add("scan_time", scanTime, "auto", 0, kLongestSweep, "s",
         "time from the first beam of a scan to the last, for the correction by the robot's motion; auto: as "
         "the log states; 0: no correction");
+  t.add("scan_rate", scanRate, "auto", kLowestRate, kHighestRate, "Hz",
+        "turns of the lasers per second, instead of scan_time: a scan over A deg takes A / 360 / scan_rate "
+        "seconds; auto: as scan_time says");
+}
+
+void InputOptions::check() const {
+  if (scanTime && scanRate)
+    throw InputError("both scan_time and scan_rate are set", "section [input], keys `scan_time`, `scan_rate`",
+                     "expected one of them, and `auto` for the other");
 }
 
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
-  return hasOdometry && options.requireOdometry ? SweepTimes(options.scanTime) : SweepTimes(0);
+  return hasOdometry && options.requireOdometry ? SweepTimes(options.sweep()) : SweepTimes(0);
 }
 
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
@@ -78,7 +87,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
         planOf(contentsOf(file, isStopped), {wanted, options.odometryTopic}, file));
   LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
-  SweepTimes sweeps(options.scanTime);
+  SweepTimes sweeps(options.sweep());
   ScanGrouper grouper(wanted, options.maxOdometryGap);
   ReadingAssembler beginning(wanted, true, options.maxOdometryGap, SweepTimes(0));  // up to its first reading
   bool hasBegun = false;

@@ -23,7 +23,11 @@ struct InputOptions : Options {
   bool requireOdometry = true;
   double maxOdometryGap = 1;
   std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
+  std::optional<double> scanRate;  ///< Hz, of all lasers, instead of scanTime
+  SweepSetting sweep() const { return {scanTime, scanRate}; }
   void describe(OptionTable& table) override;
+  /// @throws InputError if both scanTime and scanRate are set
+  void check() const;
 };
 
 /// Returns the times of the lasers' sweeps; none without odometry, which the correction of beams needs.

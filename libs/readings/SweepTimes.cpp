@@ -1,5 +1,6 @@
 #include "readings/SweepTimes.h"
 
+#include <cmath>
 #include <limits>
 
 #include "base/Numbers.h"
@@ -11,6 +12,12 @@ namespace {
 const std::string kBeginning = "scan_time = ", kMiddle = " s, laser ";
 
 }  // namespace
+
+std::optional<double> SweepSetting::of(double aperture) const {
+  if (!rate) return seconds;
+  const double sweep = aperture / (2 * M_PI) / *rate;
+  return isSweepTime(sweep) ? sweep : 0;
+}
 
 mrpt::obs::CObservationComment::Ptr commentOf(const SweepTime& sweep, mrpt::Clock::time_point timestamp) {
   auto comment = mrpt::obs::CObservationComment::Create();
@@ -31,7 +38,7 @@ std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation)
 
 double SweepTimes::of(const mrpt::obs::CObservation2DRangeScan& scan) const {
   if (!isStamped(scan) || scan.getScanSize() < 2) return 0;
-  if (fixed_) return *fixed_;
+  if (const auto set = setting_.of(scan.aperture)) return *set;
   const auto stated = stated_.find(scan.sensorLabel);
   return stated == stated_.end() ? 0 : stated->second;
 }

@@ -16,6 +16,19 @@ constexpr double kLongestSweep = 1;
 /// Returns whether a sweep can take this time (s); 0: unknown.
 inline bool isSweepTime(double seconds) { return seconds >= 0 && seconds <= kLongestSweep; }
 
+/// Lowest and highest rate (Hz) that can be set.
+constexpr double kLowestRate = 1, kHighestRate = 1000;
+
+/// Sweep times that the user sets in place of those of the log: a time or a rate. If both are set, the rate
+/// counts.
+struct SweepSetting {
+  std::optional<double> seconds;  ///< of each scan; 0: beams are not corrected
+  std::optional<double> rate;     ///< Hz, turns of the laser per second
+  /// Returns the sweep time (s) of a scan over an aperture (rad), 0 if that time is impossible; empty if
+  /// nothing is set.
+  std::optional<double> of(double aperture) const;
+};
+
 constexpr size_t kMostLabels = 100;  ///< of lasers that a log names; no robot has more
 
 /// Sweep time stated by a log. MRPT's scans (2.5.8, 2.14.7) have no field for it, so rawlogs have a comment
@@ -37,8 +50,9 @@ class SweepTimes {
  public:
   /// Uses the times that the log states.
   SweepTimes() = default;
-  /// @param fixed  s, for all scans, instead of the times in the log; 0: beams are not corrected
-  explicit SweepTimes(const std::optional<double>& fixed) : fixed_(fixed) {}
+  explicit SweepTimes(const SweepSetting& setting) : setting_(setting) {}
+  /// @param seconds  for all scans, instead of the times in the log; 0: beams are not corrected
+  explicit SweepTimes(double seconds) : setting_{seconds, std::nullopt} {}
 
   /// Takes a time that the log states. Impossible times count as unknown. Only the first 100 labels are kept,
   /// so that memory is bounded.
@@ -51,7 +65,7 @@ class SweepTimes {
   double of(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
  private:
-  std::optional<double> fixed_;
+  SweepSetting setting_;
   std::map<std::string, double> stated_;  ///< by label
 };
 

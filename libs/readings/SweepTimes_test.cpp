@@ -64,5 +64,27 @@ TEST(SweepTimes, ASettingReplacesThoseOfTheLog) {
   EXPECT_EQ(off.of(*test::scan(1)), 0);
 }
 
+TEST(SweepTimes, ARateGivesEachLaserTheTimeOfItsAperture) {
+  SweepTimes times(SweepSetting{std::nullopt, 10.0});
+  times.take({"LASER", 0.2});
+  const auto front = test::scan(1), rear = test::scan(1, {}, 271, "REAR");
+  rear->aperture = static_cast<float>(1.5 * M_PI);
+  EXPECT_NEAR(times.of(*front), 0.05, 1e-8) << "180 of 360 deg";
+  EXPECT_NEAR(times.of(*rear), 0.075, 1e-8) << "270 of 360 deg";
+  EXPECT_EQ(times.of(*test::scan(test::kNoTime)), 0) << "without timestamp";
+  EXPECT_EQ(times.of(*test::scan(1, {}, 1)), 0) << "one beam";
+  for (const float aperture : {-1.F, 100.F, 1e30F, NAN}) {
+    rear->aperture = aperture;
+    EXPECT_EQ(times.of(*rear), 0) << aperture;
+  }
+}
+
+TEST(SweepTimes, ASettingIsATimeOrARateOrNone) {
+  EXPECT_FALSE(SweepSetting().of(M_PI));
+  EXPECT_EQ((SweepSetting{0.02, std::nullopt}.of(M_PI)), 0.02);
+  EXPECT_EQ((SweepSetting{0.0, std::nullopt}.of(M_PI)), 0.0) << "off, whatever the log states";
+  EXPECT_EQ((SweepSetting{std::nullopt, 25.0}.of(M_PI)), 0.02);
+}
+
 }  // namespace
 }  // namespace hybrid_slam::readings

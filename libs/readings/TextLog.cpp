@@ -45,8 +45,8 @@ TextLog::TextLog(const std::string& file, const LogConversionOptions& options, B
   const LogFormat* const format = options.format ? options.format : recogniseFormat(lines_);
   parser_ = format->makeParser(options);
   preview(lines_, *parser_);
-  objects_ =
-      std::make_unique<LogObjects>(options.maxRange.value_or(format->maxRange), options.actionObservation);
+  objects_ = std::make_unique<LogObjects>(options.maxRange.value_or(format->maxRange),
+                                          options.actionObservation, options.sweep);
   objects_->summary.format = format->name;
 }
 

@@ -50,12 +50,14 @@ Configuration::Configuration(const std::string& file, const std::vector<std::str
                              const files::Sections& more)
     : more_(more) {
   warnings = files::loadIni(source, file, settings, sections(), kStockSection, kExpected);
+  input.check();
   files::findInputFiles({&run.rawlog});
   setMethod(run.method);
 }
 
 void Configuration::load(const std::string& text, const std::string& file) {
   files::loadIniText(source, text, file, {}, sections(), kStockSection, kExpected);
+  input.check();
   setMethod(run.method);
 }
 

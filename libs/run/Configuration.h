@@ -56,7 +56,7 @@ struct Configuration {
   /// @param file      the INI file; empty: none
   /// @param settings  `SECTION.KEY=VALUE` each; override the file
   /// @param more      further sections of the program; must outlive the configuration
-  /// @throws InputError as loadIni; a file with only MRPT's RBPF section is accepted
+  /// @throws InputError as loadIni and InputOptions::check; a file with only MRPT's RBPF section is accepted
   Configuration(const std::string& file, const std::vector<std::string>& settings,
                 const files::Sections& more = {});
   Configuration() = default;

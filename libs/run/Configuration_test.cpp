@@ -114,6 +114,23 @@ TEST_F(ConfigurationTest, WrongTypeAndRange) {
   EXPECT_THAT(errorOf("[grid]\nresolution = 0\n"), HasSubstr("expected a number in 0.01..1 m"));
 }
 
+TEST_F(ConfigurationTest, TheTimeOfAScanIsSetInOneWay) {
+  const Configuration c = load("[input]\nscan_rate = 25\n");
+  EXPECT_EQ(c.input.sweep().rate, 25);
+  EXPECT_EQ(c.input.sweep().seconds, std::nullopt);
+  const std::string both =
+      "both scan_time and scan_rate are set: section [input], keys `scan_time`, `scan_rate`; expected one of "
+      "them, and `auto` for the other";
+  EXPECT_EQ(errorOf("[input]\nscan_rate = 25\nscan_time = 0.01\n"), both);
+  EXPECT_EQ(errorOf("[input]\nscan_time = 0\n", {"input.scan_rate=25"}), both);
+  EXPECT_EQ(errorOf("[input]\nscan_rate = 25\n", {"input.scan_time=0.01", "input.scan_rate=auto"}),
+            "no error");
+  EXPECT_THAT(errorOf("[input]\nscan_rate = 0\n"), HasSubstr("expected auto or a number in 1..1000 Hz"));
+  Configuration ofASession;
+  EXPECT_EQ(test::errorOf([&] { ofASession.load("[input]\nscan_rate = 25\nscan_time = 0\n", "a.session"); }),
+            both);
+}
+
 TEST_F(ConfigurationTest, LinesThatTheParserIgnoresAreErrors) {
   EXPECT_EQ(errorOf("[particle_filter]\nparticles 7\n"),
             "wrong line `particles 7`: " + ini + "; expected [section], key = value, or # comment");

@@ -97,7 +97,7 @@ std::string describe(const std::string& label, const LaserScan& scan) {
 /// Returns the first readings, up to one that the run will report as an error.
 std::vector<readings::Reading> firstReadings(const std::string& file, readings::InputOptions input,
                                              const readings::RawlogSummary& log) {
-  input.scanTime = 0;  // the ranges as logged, not as corrected by the motion
+  input.scanTime = 0, input.scanRate.reset();  // the ranges as logged, not as corrected by the motion
   readings::RawlogSource source(file, input, log);
   std::vector<readings::Reading> all;
   size_t beams = 0;

@@ -86,6 +86,8 @@ TEST_F(LogSettingsTest, NoiseOfDirections) {
   EXPECT_EQ(valueOf("line_weight.sigma_deg", asItIs), "0.4");
   input.scanTime = 0.1;  // the correction for the motion changes the ranges
   EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.01)), "0.5");
+  input.scanTime.reset(), input.scanRate = 5;
+  EXPECT_EQ(valueOf("line_weight.sigma_deg", inStepsOf(0.01)), "0.5");
 }
 
 TEST_F(LogSettingsTest, SparseScansAreAllUsed) {
