@@ -2,6 +2,7 @@
 #include <wx/display.h>
 
 #include "KeysTest.h"
+#include "PathTypist.h"
 #include "window/view/FilterScene.h"
 
 namespace hybrid_slam {
@@ -87,6 +88,16 @@ TEST_F(KeysTest, ControlAndRAskForALogOfAnyFormat) {
   press('R', wxMOD_CONTROL | wxMOD_SHIFT);
   EXPECT_TRUE(happens([this] { return dialogs.titles.size() == 2; }));
   EXPECT_THAT(dialogs.titles, testing::ElementsAre("Open log", "Open recording folder"));
+}
+
+TEST_F(KeysTest, ALogIsOpenedByItsTypedPathWithoutAnIniFile) {
+  const PathTypist typist(dialogs, "Open log", log);
+  press('R', wxMOD_CONTROL);
+  ASSERT_TRUE(happens([this] { return frame->replay()->session() != nullptr; }));
+  EXPECT_TRUE(stands(State::paused, 0));
+  EXPECT_EQ(frame->settings()->configuration.run.rawlog, log);
+  EXPECT_THAT(dialogs.titles, testing::Each("Open log")) << "no other dialog asks for anything";
+  EXPECT_TRUE(dialogs.messages.empty());
 }
 
 TEST_F(KeysTest, WithoutALogThereIsNothingToPlay) {
