@@ -30,6 +30,26 @@ class KeysTest : public GuiTest {
     wxUIActionSimulator().MouseClick();
     wxYield();
   }
+  /// Replaces the text of a field with typed text.
+  void typeInto(wxTextCtrl* field, const std::string& text) {
+    click(field);
+    ASSERT_TRUE(happens([&] { return wxWindow::FindFocus() == field; }));
+    press('A', wxMOD_CONTROL);
+    wxUIActionSimulator().Text(text.c_str());
+    ASSERT_TRUE(happens([&] { return field->GetValue().utf8_string() == text; })) << field->GetValue();
+  }
+  /// Fills in the live page, and clicks on Connect, which gets the keyboard.
+  void connectWithKeys(const std::string& server, const std::string& output) {
+    std::vector<wxTextCtrl*> fields;
+    for (wxWindow* control : frame->live()->GetChildren())
+      if (auto* const field = dynamic_cast<wxTextCtrl*>(control)) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 2u);
+    typeInto(fields[0], server);
+    typeInto(fields[1], output);
+    wxWindow* const button = frame->live()->connectButton();
+    click(button);
+    ASSERT_TRUE(happens([&] { return wxWindow::FindFocus() == button; }));
+  }
   void openAt(size_t scan) {
     openLog();
     frame->replay()->seek(scan);
