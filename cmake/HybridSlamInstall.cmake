@@ -35,6 +35,7 @@ endforeach()
 
 if(HYBRID_SLAM_GUI)
   install(FILES packaging/hybrid-slam-gui.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT window)
+  install(FILES packaging/hybrid-slam-gui.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT window)
   install(FILES packaging/hybrid-slam.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps
     COMPONENT window)
 endif()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Called by scripts/test-packages.sh in a bare root folder: installs the packages beside this script, maps, builds the
-# C++ example, removes them. Beside it are also robot.bag (a ROS bag of three scans) and consumer (tests/consumer).
+# Called by scripts/test-packages.sh in a bare root folder: installs the packages beside this script, maps, starts the
+# window, builds the C++ example, removes them. Beside it are also robot.bag (a ROS bag of three scans), consumer
+# (tests/consumer), and with-display.sh and gui-signal.sh of tests/.
 set -euo pipefail
 cd "$(dirname "$0")"
 fail() { echo "error: $*" >&2; exit 1; }
@@ -58,6 +59,19 @@ done
 loaded=$(LD_PRELOAD=libhybrid_slam_mrpt_plugin.so.0.1 /bin/true 2>&1)
 [[ -z $loaded ]] || fail "the plugin for MRPT's programs: $loaded"
 (hybrid-slam /dev/null 2>&1 || true) | grep -q "error: " || fail "no error"
+
+echo "== the window, and its entry in the desktop's menu"
+apt_get install --no-install-recommends xvfb xauth openbox libgl1-mesa-dri desktop-file-utils shared-mime-info
+./with-display.sh ./gui-signal.sh hybrid-slam-gui || fail "the window does not open, or does not end"
+entry=/usr/share/applications/hybrid-slam-gui.desktop
+desktop-file-validate $entry || fail "$entry"
+value() { sed -n "s/^$1=//p" $entry; }
+command -v "$(value Exec | cut -d ' ' -f 1)" >/dev/null || fail "$entry starts no program"
+[[ -s /usr/share/icons/hicolor/scalable/apps/$(value Icon).svg ]] || fail "no icon $(value Icon)"
+for type in $(value MimeType | tr ';' ' '); do
+  [[ -f /usr/share/mime/$type.xml ]] || fail "$entry: no files are of type $type"
+  grep -q "^$type=.*hybrid-slam-gui.desktop" /usr/share/applications/mimeinfo.cache || fail "$type opens no window"
+done
 
 echo "== completion"
 apt_get install --no-install-recommends bash-completion

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Tests the packages: lintian, and in a bare Debian root folder install, map, build the C++ example, remove.
+# Tests the packages: lintian, and in a bare Debian root folder install, map, open the window, build the C++
+# example, remove.
 #   scripts/test-packages.sh [RELEASE [FOLDER]]
 # RELEASE is bookworm or trixie (this machine's by default), FOLDER holds its packages (build/packages, of
 # scripts/package.sh). build/RELEASE.tar keeps the bare root for the next call. Needs root, for chroot.
@@ -25,7 +26,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/root"
 tar -C "$work/root" -xf "$bare" --exclude='./dev/*'
-install -D -t "$work/root/packages" "$folder"/*.deb scripts/installed-packages.sh
+install -D -t "$work/root/packages" "$folder"/*.deb scripts/installed-packages.sh tests/{with-display,gui-signal}.sh
 cp -r tests/consumer "$work/root/packages"
 cp tests/fuzz/corpus/bag/ros1-none "$work/root/packages/robot.bag"
 
@@ -38,4 +39,4 @@ unshare --mount --propagation private bash -euc '
   cat /etc/hosts >"$root/etc/hosts"
   exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
     DEBIAN_FRONTEND=noninteractive /packages/installed-packages.sh' - "$work/root"
-echo "The packages of $release install, map, build the C++ example, and are removed."
+echo "The packages of $release install, map, open the window, build the C++ example, and are removed."

@@ -41,6 +41,7 @@ class Dialogs : public wxModalDialogHook {
   std::vector<std::string> titles;    ///< of other dialogs, which are cancelled
   std::string filter;                 ///< of the last file dialog
   std::string left;                   ///< title of a dialog that the test answers itself
+  wxDialog* open = nullptr;           ///< this dialog, while it is shown
  protected:
   int Enter(wxDialog* dialog) override {
     if (auto* const message = dynamic_cast<wxMessageDialogBase*>(dialog)) {
@@ -54,7 +55,12 @@ class Dialogs : public wxModalDialogHook {
       filter = file->GetWildcard().utf8_string();
     }
     titles.push_back(title.utf8_string());
-    return titles.back() == left ? wxID_NONE : wxID_CANCEL;
+    if (titles.back() != left) return wxID_CANCEL;
+    open = dialog;
+    return wxID_NONE;
+  }
+  void Exit(wxDialog* dialog) override {
+    if (dialog == open) open = nullptr;
   }
 };
 

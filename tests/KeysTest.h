@@ -2,9 +2,9 @@
 /// @brief For the tests of the window with real keys and the mouse, under a window manager.
 #pragma once
 
-#include <wx/dnd.h>
 #include <wx/uiaction.h>
 
+#include "DragWindow.h"
 #include "GuiTest.h"
 
 namespace hybrid_slam {
@@ -30,6 +30,26 @@ class KeysTest : public GuiTest {
     wxUIActionSimulator().MouseClick();
     wxYield();
   }
+  /// Replaces the text of a field with typed text.
+  void typeInto(wxTextCtrl* field, const std::string& text) {
+    click(field);
+    ASSERT_TRUE(happens([&] { return wxWindow::FindFocus() == field; }));
+    press('A', wxMOD_CONTROL);
+    wxUIActionSimulator().Text(text.c_str());
+    ASSERT_TRUE(happens([&] { return field->GetValue().utf8_string() == text; })) << field->GetValue();
+  }
+  /// Fills in the live page, and clicks on Connect, which gets the keyboard.
+  void connectWithKeys(const std::string& server, const std::string& output) {
+    std::vector<wxTextCtrl*> fields;
+    for (wxWindow* control : frame->live()->GetChildren())
+      if (auto* const field = dynamic_cast<wxTextCtrl*>(control)) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 2u);
+    typeInto(fields[0], server);
+    typeInto(fields[1], output);
+    wxWindow* const button = frame->live()->connectButton();
+    click(button);
+    ASSERT_TRUE(happens([&] { return wxWindow::FindFocus() == button; }));
+  }
   void openAt(size_t scan) {
     openLog();
     frame->replay()->seek(scan);
@@ -40,12 +60,18 @@ class KeysTest : public GuiTest {
     };
     ASSERT_TRUE(happens([&] { return shows(0) && shows(1); }));
   }
+  /// Drags a file from another window to the map that is shown.
   void drop(const std::string& file) {
-    wxArrayString names;
-    names.Add(file);
-    auto* const target = dynamic_cast<wxFileDropTarget*>(frame->GetDropTarget());
-    ASSERT_NE(target, nullptr);
-    EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+    ASSERT_NE(frame->GetDropTarget(), nullptr);
+    auto* const from =
+        new DragWindow(frame, file, *frame->GetDropTarget(), frame->ClientToScreen(wxPoint(200, 250)));
+    ASSERT_TRUE(happens([&] { return from->IsActive(); }));
+    pointAt(from, {40, 40});
+    wxUIActionSimulator().MouseDown();
+    ASSERT_TRUE(happens([&] { return from->isOver(); }));
+    EXPECT_EQ(from->result(), wxDragCopy);
+    delete from;
+    EXPECT_TRUE(happens([this] { return frame->IsActive(); }));
   }
   bool isReady() {
     return happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); });

@@ -4,9 +4,28 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 
+#include <cstring>
 #include <stdexcept>
 
 namespace hybrid_slam::test {
+namespace {
+
+/// Returns the bytes of a window's property; empty if it has none.
+std::string propertyOf(Display* display, Window window, const char* name) {
+  Atom type = None;
+  int format = 0;
+  unsigned long count = 0, left = 0;
+  unsigned char* value = nullptr;
+  XGetWindowProperty(display, window, XInternAtom(display, name, False), 0, 1024, False, AnyPropertyType,
+                     &type, &format, &count, &left, &value);
+  if (!value) return {};
+  const size_t bytes = format == 32 ? sizeof(long) : static_cast<size_t>(format) / 8;  // of an item in Xlib
+  const std::string content(reinterpret_cast<const char*>(value), count * bytes);
+  XFree(value);
+  return content;
+}
+
+}  // namespace
 
 Screen grabScreen() {
   Display* const display = XOpenDisplay(nullptr);
@@ -31,16 +50,20 @@ Screen grabScreen() {
 bool hasWindowManager() {
   Display* const display = XOpenDisplay(nullptr);
   if (!display) throw std::runtime_error("no X display");
-  const Atom running = XInternAtom(display, "_NET_SUPPORTING_WM_CHECK", False);
-  Atom type = None;
-  int format = 0;
-  unsigned long count = 0, left = 0;
-  unsigned char* value = nullptr;
-  XGetWindowProperty(display, DefaultRootWindow(display), running, 0, 1, False, AnyPropertyType, &type,
-                     &format, &count, &left, &value);
-  if (value) XFree(value);
+  const std::string check = propertyOf(display, DefaultRootWindow(display), "_NET_SUPPORTING_WM_CHECK");
   XCloseDisplay(display);
-  return type != None;
+  return !check.empty();
+}
+
+std::string activeTitle() {
+  Display* const display = XOpenDisplay(nullptr);
+  if (!display) throw std::runtime_error("no X display");
+  const std::string active = propertyOf(display, DefaultRootWindow(display), "_NET_ACTIVE_WINDOW");
+  Window window = None;
+  if (active.size() >= sizeof window) std::memcpy(&window, active.data(), sizeof window);
+  const std::string title = window == None ? std::string() : propertyOf(display, window, "_NET_WM_NAME");
+  XCloseDisplay(display);
+  return title;
 }
 
 }  // namespace hybrid_slam::test

@@ -2,6 +2,7 @@
 #include <wx/display.h>
 
 #include "KeysTest.h"
+#include "PathTypist.h"
 #include "window/view/FilterScene.h"
 
 namespace hybrid_slam {
@@ -89,6 +90,16 @@ TEST_F(KeysTest, ControlAndRAskForALogOfAnyFormat) {
   EXPECT_THAT(dialogs.titles, testing::ElementsAre("Open log", "Open recording folder"));
 }
 
+TEST_F(KeysTest, ALogIsOpenedByItsTypedPathWithoutAnIniFile) {
+  const PathTypist typist(dialogs, "Open log", log);
+  press('R', wxMOD_CONTROL);
+  ASSERT_TRUE(happens([this] { return frame->replay()->session() != nullptr; }));
+  EXPECT_TRUE(stands(State::paused, 0));
+  EXPECT_EQ(frame->settings()->configuration.run.rawlog, log);
+  EXPECT_THAT(dialogs.titles, testing::Each("Open log")) << "no other dialog asks for anything";
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
 TEST_F(KeysTest, WithoutALogThereIsNothingToPlay) {
   size_t controls = 0;
   for (wxWindow* control : frame->replay()->GetChildren())
@@ -148,22 +159,18 @@ TEST_F(KeysTest, TheLivePageSaysThatThereIsNoConnectionAndItsRecordingCanBeRepla
   test::Events events;
   auto server = std::make_unique<live::ObservationServer>("127.0.0.1", 0, live::ObservationServer::Limits{},
                                                           events.log());
-  frame->live()->setServer("127.0.0.1:1");
-  frame->live()->setOutput(folder.path("refused"));
-  frame->live()->connectOrStop();
+  connectWithKeys("127.0.0.1:1", folder.path("refused"));
   ASSERT_TRUE(happens([this] { return frame->live()->note().find("trying again") != std::string::npos; }));
   EXPECT_EQ(frame->live()->state(), "no connection, trying");
-  frame->live()->connectOrStop();
+  press(WXK_SPACE);
   ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
   EXPECT_THAT(dialogs.messages[0], HasSubstr("no scan with odometry received"));
 
-  frame->live()->setServer("127.0.0.1:" + std::to_string(server->port()));
-  frame->live()->setOutput(folder.path("live"));
-  frame->live()->connectOrStop();
+  connectWithKeys("127.0.0.1:" + std::to_string(server->port()), folder.path("live"));
   ASSERT_TRUE(happens([&] { return server->clients() == 1; }));
   publishLaps(*server);
   ASSERT_TRUE(happens([this] { return frame->live()->state() == "60 scans, running"; }));
-  frame->live()->connectOrStop();
+  press(WXK_SPACE);
   ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 2; }));
   press('1', wxMOD_ALT);
   ASSERT_TRUE(happens([this] { return frame->replay()->IsShownOnScreen(); }));

@@ -1,13 +1,20 @@
 /// Recent files, and the map of an earlier run, by the keys of the menus.
 #include "KeysTest.h"
+#include "PathTypist.h"
 
 namespace hybrid_slam {
 namespace {
 
+using Use = window::MapChoice::Use;
+
 /// Fills in the dialog of Ctrl+M with real keys and a click; each step waits for the previous one.
 class MapTypist : public wxTimer {
  public:
-  MapTypist(const std::string& file, const std::string& start) : file_(file), start_(start) { Start(200); }
+  MapTypist(Dialogs& dialogs, const std::string& file, Use wanted, const std::string& start)
+      : file_(file), wanted_(static_cast<int>(wanted)), start_(start) {
+    dialogs.left = "Map or floor plan";
+    Start(200);
+  }
 
   void Notify() override {
     auto* const dialog = open();
@@ -37,25 +44,25 @@ class MapTypist : public wxTimer {
         return dialog;
     return nullptr;
   }
-  static bool isChosen(const wxRadioBox* use) {
-    return use->GetSelection() == static_cast<int>(window::MapChoice::Use::localise);
-  }
+  bool isChosen(const wxRadioBox* use) const { return use->GetSelection() == wanted_; }
   void type(wxTextCtrl* into, const std::string& text) {
     if (wxWindow::FindFocus() != into) return into->SetFocus();
     ++step_;  // first: the simulator may run the window
     wxUIActionSimulator().Text(text.c_str());
   }
-  static void click(wxRadioBox* use) {
+  void click(wxRadioBox* use) const {
     for (int y = 0; y < use->GetSize().y; ++y) {
       const wxPoint edge = use->ClientToScreen(wxPoint(use->FromDIP(20), y));
-      if (use->GetItemFromPoint(edge) != static_cast<int>(window::MapChoice::Use::localise)) continue;
+      if (use->GetItemFromPoint(edge) != wanted_) continue;
       wxUIActionSimulator mouse;
       mouse.MouseMove(edge + wxPoint(0, use->FromDIP(8)));
       return (void)mouse.MouseClick();
     }
   }
 
-  std::string file_, start_;
+  std::string file_;
+  int wanted_;
+  std::string start_;
   int step_ = 0, ticks_ = 0;
 };
 
@@ -124,23 +131,51 @@ TEST_F(RecentFilesTest, AFolderIsOpened) {
   EXPECT_TRUE(entries()->IsEnabled());
 }
 
-TEST_F(RecentFilesTest, TheMapOfAnEarlierRunIsTypedAndLocalisedIn) {
-  openAt(40);
-  frame->saveReplayMapTo(folder.path("maps"));
-  ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+/// The map of an earlier run: saved with Ctrl+Shift+S, typed into the dialog of Ctrl+M.
+class EarlierMapTest : public KeysTest {
+ protected:
+  void saveMapByKeys() {
+    std::filesystem::create_directory(folder.path("maps"));
+    openAt(40);
+    const PathTypist typist(dialogs, "Folder for the maps (hybrid/ and general/ in it)", folder.path("maps"));
+    press('S', wxMOD_CONTROL | wxMOD_SHIFT);
+    ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+    dialogs.titles.clear();
+  }
+  /// Opens the saved map at its origin, and plays.
+  void playIn(Use use) {
+    const MapTypist typist(dialogs, session, use, "0, 0, 0");
+    press('M', wxMOD_CONTROL);
+    ASSERT_TRUE(happens([&] { return frame->settings()->map().use == use; }));
+    EXPECT_THAT(dialogs.titles, testing::ElementsAre("Map or floor plan"));
+    const window::MapChoice chosen = frame->settings()->map();
+    EXPECT_EQ(chosen.file, session);
+    ASSERT_TRUE(chosen.start);
+    ASSERT_TRUE(stands(State::paused, 0));
+    ASSERT_TRUE(isReady());
+    press(WXK_SPACE);
+  }
+
   const std::string session = folder.path("maps/hybrid/session.hslam");
-  dialogs.left = "Map or floor plan";
-  const MapTypist typist(session, "0, 0, 0");
-  press('M', wxMOD_CONTROL);
-  EXPECT_THAT(dialogs.titles, testing::ElementsAre(dialogs.left));
-  const window::MapChoice chosen = frame->settings()->map();
-  ASSERT_EQ(chosen.use, window::MapChoice::Use::localise);
-  EXPECT_EQ(chosen.file, session);
-  ASSERT_TRUE(chosen.start);
-  ASSERT_TRUE(stands(State::paused, 0));
-  ASSERT_TRUE(isReady());
-  press(WXK_SPACE);
+};
+
+TEST_F(EarlierMapTest, IsLocalisedIn) {
+  saveMapByKeys();
+  playIn(Use::localise);
   EXPECT_TRUE(happens([this] { return status(1) == "localised"; })) << status(1);
+  EXPECT_TRUE(dialogs.messages.empty());
+}
+
+TEST_F(EarlierMapTest, IsContinued) {
+  saveMapByKeys();
+  playIn(Use::mapOn);
+  const std::string found = "hybrid: place found after ", in = "in the map of " + session;
+  EXPECT_TRUE(happens([&] {
+    const auto events = now().events;
+    return std::any_of(events.begin(), events.end(), [&](const std::string& event) {
+      return event.rfind(found, 0) == 0 && event.find(in) != std::string::npos;
+    });
+  }));
   EXPECT_TRUE(dialogs.messages.empty());
 }
 

@@ -257,6 +257,8 @@ TEST_F(GuiTest, ALiveRunThatEndsWithTheProgramHasItsResults) {
 /// wxWidgets without its main loop: the tests run it.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
+  const hybrid_slam::files::TemporaryFolder own;
+  setenv("XDG_DATA_HOME", own.path("").c_str(), 1);  // GTK's list of recent files is not that of the tester
   wxApp::SetInstance(new wxApp);
   if (!wxEntryStart(argc, argv)) return 1;
   wxInitAllImageHandlers();

@@ -196,12 +196,19 @@ COpenGLScene::Ptr filterScene(const FilterSnapshot& filter, const CTexturedPlane
 }
 
 mrpt::img::CImage pictureOf(const FilterSnapshot& filter, PictureSize size, const Layers& layers) {
-  const auto scene =
-      filterScene(filter, mapPlane(filter.map), wholeMap(filter.map, layers, size), layers, size);
-  mrpt::opengl::CFBORender renderer(static_cast<unsigned>(size.width), static_cast<unsigned>(size.height));
+  // OpenGL pads each row to a multiple of four bytes, for which MRPT's image has no room: at other widths it
+  // would write past the end.
+  const PictureSize rendered{(size.width + 3) / 4 * 4, size.height};
+  MapView view = wholeMap(filter.map, layers, size);
+  // What is cut off afterwards is on the right.
+  view.centreX += (rendered.width - size.width) / 2.0 / view.scale;
+  const auto scene = filterScene(filter, mapPlane(filter.map), view, layers, rendered);
+  mrpt::opengl::CFBORender renderer(static_cast<unsigned>(rendered.width),
+                                    static_cast<unsigned>(rendered.height));
   renderer.setCamera(*scene, scene->getViewport()->getCamera());
-  mrpt::img::CImage picture;
-  renderer.render_RGB(*scene, picture);
+  mrpt::img::CImage all, picture;
+  renderer.render_RGB(*scene, all);
+  all.extract_patch(picture, 0, 0, static_cast<unsigned>(size.width), static_cast<unsigned>(size.height));
   return picture;
 }
 
