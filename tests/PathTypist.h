@@ -1,5 +1,5 @@
 /// @file PathTypist.h
-/// @brief For the tests of the window: types a path into a dialog of GTK for files or folders.
+/// @brief For the tests of the window: types a path into GTK's dialog for files.
 #pragma once
 
 #include <wx/timer.h>

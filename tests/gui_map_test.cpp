@@ -49,7 +49,7 @@ TEST_F(GuiTest, ShowsTheSearchForTheStartInTheMapOfAnEarlierRun) {
            happens([&] { return canvas.shown() && canvas.shown() == now().filters.at(0); });
   };
   ASSERT_TRUE(shows(1));
-  EXPECT_THAT(status(1), testing::MatchesRegex("searching for the start: [0-9]+ hypotheses"));
+  EXPECT_THAT(status(1), testing::MatchesRegex("start unknown: [0-9]+ hypotheses"));
   const wxImage searching = screenshot("searching");
   EXPECT_EQ(count(searching, canvas, 80, 180, 255), 0u) << "no robot yet";
   EXPECT_GT(count(searching, canvas, 220, 0, 0), 300u) << "hypotheses";

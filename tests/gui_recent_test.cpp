@@ -1,6 +1,5 @@
 /// Recent files, and the map of an earlier run, by the keys of the menus.
 #include "KeysTest.h"
-#include "PathTypist.h"
 
 namespace hybrid_slam {
 namespace {
@@ -28,8 +27,10 @@ class MapTypist : public wxTimer {
       if (auto* const text = dynamic_cast<wxTextCtrl*>(control)) start = text;
     }
     if (step_ == 0) type(file, file_);
-    if (step_ == 1 && file->GetValue() == file_ && !isChosen(use)) return click(use);
-    if (step_ == 1 && isChosen(use)) ++step_;
+    if (step_ == 1 && file->GetValue() == file_) {
+      if (!isChosen(use)) return click(use);
+      ++step_;
+    }
     if (step_ == 2) type(start, start_);
     if (step_ == 3 && start->GetValue() == start_) {
       ++step_;
@@ -131,16 +132,19 @@ TEST_F(RecentFilesTest, AFolderIsOpened) {
   EXPECT_TRUE(entries()->IsEnabled());
 }
 
-/// The map of an earlier run: saved with Ctrl+Shift+S, typed into the dialog of Ctrl+M.
+/// The map of an earlier run: saved after Ctrl+Shift+S, typed into the dialog of Ctrl+M.
 class EarlierMapTest : public KeysTest {
  protected:
   void saveMapByKeys() {
     std::filesystem::create_directory(folder.path("maps"));
     openAt(40);
-    const PathTypist typist(dialogs, "Folder for the maps (hybrid/ and general/ in it)", folder.path("maps"));
     press('S', wxMOD_CONTROL | wxMOD_SHIFT);
-    ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+    ASSERT_TRUE(happens([&] { return !dialogs.titles.empty(); }));
+    EXPECT_THAT(dialogs.titles, testing::ElementsAre("Folder for the maps (hybrid/ and general/ in it)"));
     dialogs.titles.clear();
+    // Not typed: GTK's own dialog for folders can take the root folder before the path is complete.
+    frame->saveReplayMapTo(folder.path("maps"));
+    ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
   }
   /// Opens the saved map at its origin, and plays.
   void playIn(Use use) {

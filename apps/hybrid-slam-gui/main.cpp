@@ -21,6 +21,8 @@
 #include "Stop.h"
 #include "window/gui/MainFrame.h"
 
+#include <X11/Xlib.h>  // last: its macros are common words
+
 namespace {
 
 using hybrid_slam::window::MainFrame;
@@ -30,21 +32,31 @@ hybrid_slam::InputFiles files;
 MapChoice map;
 std::vector<std::string> settings;
 
-/// Ends the program after a stop signal, with the results of a live run.
+/// Ends the program with the results of a live run. Without closing the window, which an open dialog still
+/// needs.
+[[noreturn]] void endWithResults(MainFrame* frame, int code) {
+  frame->replay()->end();
+  const std::string failure = frame->live()->end();
+  std::_Exit(failure.empty() ? code : hybrid_slam::fail(1, "live run failed: " + failure));
+}
+
+wxWeakRef<MainFrame> shown;
+
+/// Ends the program after a stop signal.
 class StopTimer : public wxTimer {
  public:
-  explicit StopTimer(MainFrame* frame) : frame_(frame) { Start(100); }
+  StopTimer() { Start(100); }
   void Notify() override {
-    if (!hybrid_slam::stop || !frame_) return;
-    frame_->replay()->end();
-    const std::string failure = frame_->live()->end();
-    // Do not close the window: an open dialog still needs it.
-    std::_Exit(failure.empty() ? 0 : hybrid_slam::fail(1, "live run failed: " + failure));
+    if (hybrid_slam::stop && shown) endWithResults(shown, 0);
   }
-
- private:
-  wxWeakRef<MainFrame> frame_;
 };
+
+/// Xlib calls this when the X server is gone. GTK's own handler would end the program without a word.
+int displayLost(Display*) {
+  hybrid_slam::fail(1, "the X server has closed the connection");
+  if (shown) endWithResults(shown, 1);
+  std::_Exit(1);
+}
 
 class GuiApp : public wxApp {
  public:
@@ -59,8 +71,10 @@ class GuiApp : public wxApp {
     }
     wxInitAllImageHandlers();
     auto* const frame = new MainFrame;
+    shown = frame;
     frame->Show();
-    stopTimer_ = std::make_unique<StopTimer>(frame);
+    XSetIOErrorHandler(displayLost);
+    stopTimer_ = std::make_unique<StopTimer>();
     if (!files.main().empty() || !map.file.empty() || !settings.empty())
       frame->CallAfter([frame] { frame->open(files.config, files.log, map, settings); });
     return true;

@@ -35,7 +35,7 @@ void setSpread(FilterStep& step, const std::vector<WeightedPose>& poses, double 
 
 std::string describe(const Place& place) {
   if (place.isKnown) return "localised";
-  return (place.wasKnown ? "place lost: " : "searching for the start: ") + std::to_string(place.hypotheses) +
+  return (place.wasKnown ? "place lost: " : "start unknown: ") + std::to_string(place.hypotheses) +
          " hypotheses";
 }
 

@@ -72,7 +72,7 @@ struct Place {
   size_t hypotheses = 0;  ///< places considered while it is unknown
 };
 
-/// Returns a short text for the user, such as "searching for the start: 12 hypotheses".
+/// Returns a short text for the user, such as "start unknown: 12 hypotheses".
 std::string describe(const Place& place);
 
 /// Read access common to our filter and MRPT's.

@@ -56,7 +56,7 @@ TEST(FilterView, OnePoseHasNoSpreadAndNoPoseChangesNothing) {
 
 TEST(Place, IsDescribedInAFewWords) {
   EXPECT_EQ(describe(Place{true, true, 0}), "localised");
-  EXPECT_EQ(describe(Place{false, false, 12}), "searching for the start: 12 hypotheses");
+  EXPECT_EQ(describe(Place{false, false, 12}), "start unknown: 12 hypotheses");
   EXPECT_EQ(describe(Place{false, true, 3}), "place lost: 3 hypotheses");
 }
 

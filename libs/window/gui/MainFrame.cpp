@@ -32,8 +32,11 @@ MainFrame::MainFrame()
     : wxFrame(nullptr, wxID_ANY, "hybrid-slam"), settings_(Settings::fromFile("")), timer_(this) {
   // GTK sets the user's locale, in which MRPT could read 0.5 as 0.
   std::setlocale(LC_NUMERIC, "C");
-  SetClientSize(startSize());  // else GTK lays the pages out in one pixel first, and complains
-  SetMinSize(FromDIP(wxSize(800, 560)));
+  const wxSize size = startSize();
+  SetClientSize(size);  // else GTK lays the pages out in one pixel first, and complains
+  wxSize least = FromDIP(wxSize(800, 560));
+  least.DecTo(size);  // a least size above the window's makes GTK complain, too
+  SetMinSize(least);
   pages_ = new wxNotebook(this, wxID_ANY);
   replay_ = new ReplayPage(pages_);
   live_ = new LivePage(pages_);

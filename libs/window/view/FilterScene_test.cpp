@@ -85,7 +85,7 @@ TEST(Caption, HasTheMatchesDrawnAndTheVerdict) {
   EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates, ESS 50 %",
                                              "1 lines; of the scan: 1 of 2 match", "so far doubtful"));
   filter.place = Place{false, false, 12};
-  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates", "searching for the start: 12 hypotheses"));
+  EXPECT_THAT(captionOf(filter), ElementsAre("hybrid: 7 updates", "start unknown: 12 hypotheses"));
 }
 
 TEST(FilterScene, WhileThePlaceIsUnknownThereIsNoEllipse) {
@@ -150,12 +150,12 @@ TEST(FilterScene, TheCaptionOfANarrowPaneEndsBeforeTheCompass) {
   filter.scanLines.resize(99, filter.scanLines.at(0));
   Layers layers;
   layers.lines = false;  // no compass
-  constexpr unsigned kWidth = 390, kHeight = 260, kCompass = 64, kLine = 18;
+  constexpr unsigned kWidth = 390, kHeight = 260, kCompass = 61, kLine = 18;
   std::vector<FilterSnapshot> states(4, filter);
   states[0].verdict.emplace().level = run::Verdict::Level::consistent;
-  states[1].place = Place{false, false, 99999};  // the start is searched for
-  states[2].place = Place{true, true, 1};        // localised
-  states[3].place = Place{false, true, 99999};   // lost
+  states[1].place = Place{false, false, 999};  // the start is searched for
+  states[2].place = Place{true, true, 1};      // localised
+  states[3].place = Place{false, true, 999};   // lost
   for (const FilterSnapshot& state : states) {
     mrpt::img::CImage picture;
     try {

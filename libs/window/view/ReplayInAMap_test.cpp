@@ -39,8 +39,7 @@ TEST_F(ReplayInAMap, ShowsTheSearchForTheStartAndThenTheRobot) {
   const auto searching = replay.snapshot()->filters[0];
   ASSERT_TRUE(searching->place);
   EXPECT_FALSE(searching->place->isKnown);
-  EXPECT_THAT(describe(*searching->place),
-              testing::MatchesRegex("searching for the start: [0-9]+ hypotheses"));
+  EXPECT_THAT(describe(*searching->place), testing::MatchesRegex("start unknown: [0-9]+ hypotheses"));
   EXPECT_GT(searching->particles.size(), 20u) << "places all over the map";
   EXPECT_FALSE(searching->lines.empty());
   EXPECT_TRUE(searching->path.empty());
