@@ -13,6 +13,7 @@ Also prints the tables. Needs gnuplot for the figures."""
 import gzip
 import json
 import math
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -161,9 +162,25 @@ def features(folder):
     print(text)
 
 
+TILE, TILE_BYTES = 32, 1152  # cells on a side; libs/slam/grid/Tile.h: cells, flags, reference count, padding
+
+
+def tiles_of(grid):
+    """Number of the tiles with a known cell. A map.gridmap has all cells of a particle's tiles, and one unknown cell on
+    each side (libs/slam/grid/GridConversion.cpp)."""
+    start = 2 + (grid[0] & 0x7f)  # after the class's name with its length, and its version
+    columns, rows = struct.unpack_from("<xII", grid, start)  # after the bits of a cell
+    cells = start + struct.calcsize("<xII5f")  # after the place of the map and the size of a cell
+    known = set()
+    for y in range(1, rows):
+        row = grid[cells + y * columns:cells + (y + 1) * columns]
+        known.update((x, (y - 1) // TILE) for x in range(1, columns, TILE) if any(row[x:x + TILE]))
+    return len(known)
+
+
 def line_methods(folder):
-    """Methods with and without grids, and the size of a particle's map: a byte for each known cell, 72 for each line;
-    of ortho the covariance of its state."""
+    """Methods with and without grids, and the size of a particle's map: its tiles, and 72 bytes for each line; of ortho
+    the covariance of its state."""
     rows = []
     for world in WORLDS:
         for path in (folder / world, folder / f"{world}-ortho"):
@@ -174,8 +191,8 @@ def line_methods(folder):
                     size = f"{0.008 * (lines + 3) ** 2:.0f}"
                 elif group.name != "linemap":
                     run = next((path / "runs").glob(f"{group.name}-{group.particles}-*"))
-                    cells = gzip.decompress((run / "map.gridmap.gz").read_bytes())
-                    size = f"{(len(cells) - cells.count(0)) / 1000:.0f} + {size}"
+                    tiles = tiles_of(gzip.decompress((run / "map.gridmap.gz").read_bytes()))
+                    size = f"{TILE_BYTES * tiles / 1000:.0f} + {size}"
                 rows.append([WORLDS[world], group.name, str(group.particles), group.cell(), f"{lines:.0f}", size,
                              f"{group.figures['cpu_s']:.1f}"])
     text = "<!-- made by: scripts/line-methods.sh -->\n" + markdown(

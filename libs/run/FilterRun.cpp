@@ -12,6 +12,7 @@
 #include "base/Numbers.h"
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
+#include "run/LoopNote.h"
 #include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/ResultFiles.h"
@@ -46,15 +47,6 @@ std::string ownFile(const RunOptions& run) {
   const fs::path name = fs::path(run.resume).filename();
   std::error_code ignored;
   return !name.empty() && fs::equivalent(run.resume, run.output / name, ignored) ? name.string() : "";
-}
-
-std::string describe(const LoopClosure& loop, const std::vector<double>& times) {
-  return "loop closed at (" + fixedText(loop.place.x, 1) + ", " + fixedText(loop.place.y, 1) +
-         ") m between " + fixedText(times.at(loop.earlier), 1) + " s and " +
-         fixedText(times.at(loop.later), 1) + " s: path moved by up to " + fixedText(loop.shift, 2) +
-         " m and " + fixedText(mrpt::RAD2DEG(loop.turn), 1) + " deg; " + std::to_string(loop.matches) +
-         " matches agree, at least " + fixedText(100 * loop.fit, 0) +
-         " % of their walls fit, other places score " + fixedText(100 * loop.second, 0) + " % of theirs";
 }
 
 }  // namespace
@@ -172,7 +164,10 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
   particleCovariances_.push_back(covarianceOf(step.poses));
   resamplings_ += step.resampled.value_or(false) ? 1 : 0;
   if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = timestamp;
-  if (step.loop) note(*step.loop);
+  if (step.loop) {
+    ++loops_;
+    notes_.push_back(loopNote(*step.loop, updateTimes_, false));
+  }
   if (localizer_) {
     lostAgain_ += wasLocated_ && !localizer_->isLocalized();
     wasLocated_ = localizer_->isLocalized();
@@ -193,11 +188,6 @@ std::string FilterRun::mapNote() const {
   if (savedCell_ < 1.5 * cell_) return {};
   return "the map files have cells of " + fixedText(savedCell_, 2) + " m instead of " + fixedText(cell_, 2) +
          " m: the map is too large for MRPT's grid";
-}
-
-void FilterRun::note(const LoopClosure& loop) {
-  ++loops_;
-  notes_.push_back(describe(loop, updateTimes_));
 }
 
 }  // namespace hybrid_slam::run

@@ -130,7 +130,6 @@ class FilterRun {
   void saveIfDue();
   /// Writes the row of steps.csv and updates the counters.
   void record(double timestamp, Clock::time_point stepStart);
-  void note(const LoopClosure& loop);
   /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it; unless they need
   /// too much memory.
   void refineResult(Result& result, readings::RawlogSource& source);
@@ -153,6 +152,7 @@ class FilterRun {
   std::vector<Use> uses_;                            ///< per reading of the log
   std::vector<double> updateTimes_;                  ///< s
   std::vector<PoseCovariance> particleCovariances_;  ///< of each update
+  std::vector<LoopClosure> refinementLoops_;         ///< not in a session: a resumed run refines again
   std::vector<std::string> notes_;
   std::atomic<bool> isSaveRequested_{false};
   std::function<void()> beforeSession_ = [] {};
@@ -160,7 +160,8 @@ class FilterRun {
   uint32_t fingerprint_ = 0;  ///< of the processed readings
   bool isConsistent_ = true;  ///< no reading has failed halfway
   double secondsBefore_ = 0;  ///< wall time of the resumed run
-  size_t scans_ = 0, resamplings_ = 0, slips_ = 0, loops_ = 0;
+  size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
+  size_t loops_ = 0;  ///< closed while filtering
   size_t particlesMin_ = 0, particlesMax_ = 0;
   size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
   bool wasLocated_ = false;             ///< at the last update

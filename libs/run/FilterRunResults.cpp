@@ -10,10 +10,12 @@
 #include "base/DeskewedScan.h"
 #include "base/Numbers.h"
 #include "run/FilterRun.h"
+#include "run/LoopNote.h"
 #include "run/MapFiles.h"
 #include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/SimpleMapFile.h"
+#include "run/StepsTable.h"
 #include "run/VerdictCheck.h"
 #include "slam/filter/Refinement.h"
 #include "slam/grid/GridConversion.h"
@@ -83,11 +85,12 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
     std::vector<mrpt::math::TPose2D> closed = result.path;
-    const auto loops =
+    std::vector<LoopClosure> loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
     if (!loops.empty() && contradictionOf(closed, ofUpdates) < contradictionOf(result.path, ofUpdates)) {
-      for (const LoopClosure& loop : loops) note(loop);
+      for (const LoopClosure& loop : loops) notes_.push_back(loopNote(loop, updateTimes_, true));
+      refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
       result.trajectory = recorder_.trajectory(result.path);
       for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
@@ -129,7 +132,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   }
   savePicture(folder_, grid, trajectory, lines, verdict_.places);
   if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
-  folder_.write("steps.csv", [&](std::ostream& out) { out << steps_.str(); });
+  folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
   nlohmann::ordered_json all = metrics(result, log);
@@ -206,7 +209,7 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", resamplings_},
       {"slips", slips_},
-      {"loops_closed", loops_},
+      {"loops_closed", loops_ + refinementLoops_.size()},
       {"verdict", verdict_.name()},
       {"reasons", verdict_.reasons},
       {"doubtful_places", json(verdict_.places, updateTimes_)},

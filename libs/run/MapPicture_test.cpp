@@ -88,6 +88,21 @@ TEST_F(Picture, WallsPathLinesAndRobotAreWhereTheyShouldBe) {
   EXPECT_PRED2(isLike, at(4.65, -2.2), kBlue) << "the robot is at the end of its path and looks along x";
 }
 
+TEST_F(Picture, CirclesSurroundDoubtfulPlaces) {
+  const auto draws = [this](double length) {
+    DoubtfulPlace place;
+    place.at = {3.25, -2.25}, place.length = length;
+    draw(test::pictureRoom(0.05f), {}, {}, {place});
+  };
+  draws(0);  // a radius of 1 m, and half of the length
+  for (const auto& [x, y] : {std::pair(4.25, -2.25), {2.25, -2.25}, {3.25, -1.25}})
+    EXPECT_PRED2(isLike, at(x, y), kOrange) << x << ' ' << y;
+  EXPECT_EQ(grey(3.25, -2.25), 254) << "the middle shows the map";
+  draws(1);
+  EXPECT_PRED2(isLike, at(4.75, -2.25), kOrange);
+  EXPECT_EQ(grey(4.25, -2.25), 254);
+}
+
 TEST_F(Picture, FreeSpaceThatFewBeamsCrossedIsWhite) {
   COccupancyGridMap2D grid = test::pictureRoom(0.05f);
   for (const float y : {-2.025f, -2.075f}) grid.setPos(2.525f, y, 0.516f);  // one beam

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "slam/filter/FilterView.h"
 
@@ -12,6 +14,11 @@ namespace hybrid_slam::run {
 void writeStepsHeader(std::ostream& out);
 /// @param timestamp  s; @param milliseconds  duration of the update
 void writeStep(std::ostream& out, double timestamp, const FilterStep& step, double milliseconds);
+
+/// Returns the table with loops that were closed after the last update: each is counted in the row of the
+/// update at its later visit, and loop_shift of that row is the largest.
+/// @param table  header, and a row for each update
+std::string withLoops(const std::string& table, const std::vector<LoopClosure>& loops);
 
 void writeParticlesHeader(std::ostream& out);
 void writeParticles(std::ostream& out, double timestamp, const FilterStep& step);

@@ -43,6 +43,41 @@ TEST(StepsTable, MissingValuesAreEmpty) {
             "1.000000,0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000,,,0,0.000000,,\n");
 }
 
+LoopClosure loopAt(size_t later, double shift) {
+  LoopClosure loop;
+  loop.later = later, loop.shift = shift;
+  return loop;
+}
+
+TEST(StepsTable, ALoopOfTheRefinementIsInTheRowOfItsLaterVisit) {
+  std::ostringstream out;
+  writeStepsHeader(out);
+  FilterStep step;
+  writeStep(out, 1, step, 2);
+  step.loop = loopAt(0, 4.25);
+  writeStep(out, 2, step, 2);
+  step.loop.reset();
+  step.degeneracy = 0.0625;
+  step.frames = {{mrpt::DEG2RAD(30.0), 6, 3}};
+  writeStep(out, 3, step, 2);
+  const std::string before = out.str();
+  EXPECT_EQ(withLoops(before, {}), before);
+
+  const std::string after = withLoops(before, {loopAt(2, 0.5), loopAt(1, 1.5)});
+  const std::string values = ",0,1.000000,,0.000000,0.000000,0.000000,0.000000,0.000000,,,0,0,2.000,,,";
+  std::string expected = before.substr(0, before.find('\n') + 1);
+  expected += "1.000000" + values + "0,0.000000,,\n";
+  expected += "2.000000" + values + "2,4.250000,,\n";  // the larger shift
+  expected += "3.000000" + values + "1,0.500000,0.0625,30.00\n";
+  EXPECT_EQ(after, expected);
+}
+
+TEST(StepsTable, RowsOfADamagedSessionDoNoHarm) {
+  for (const std::string row : {"", "x", ",", "1,2", ",,", "1,2,3", ",,,"})
+    EXPECT_NO_THROW(withLoops("a\n" + row + "\n", {loopAt(0, 0.5)})) << row;
+  EXPECT_EQ(withLoops("a\n1,x,y,,\n", {loopAt(0, 0.5)}), "a\n1,1,0.500000,,\n");
+}
+
 TEST(ParticlesTable, ARowForEachParticle) {
   FilterStep step;
   step.poses = {{{1, 2, 3}, -0.5}, {{-1.25, 0, 0.125}, 0}};

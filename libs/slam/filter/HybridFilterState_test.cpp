@@ -67,6 +67,28 @@ TEST(HybridFilterState, AFilterThatIsReadGoesOnToTheSameBytes) {
   expectSameEnd(withoutGrids, drive, 60);
 }
 
+// Off, the other keys of [features] do not matter: the state is that of a filter without the section.
+TEST(HybridFilterState, FeaturesThatAreOffChangeNoByte) {
+  Drive drive = ringDrive(0.03 * kDegree);
+  drive.resize(60);
+  for (const auto proposal :
+       {ParticleFilterOptions::Proposal::improved, ParticleFilterOptions::Proposal::standard}) {
+    const FilterConfiguration plain = configuration(proposal);
+    EXPECT_FALSE(plain.features.enabled);
+    FilterConfiguration off = plain, on = plain;
+    off.features.wallEnds = false;
+    off.features.minWall = 0.3, off.features.maxRadius = 5, off.features.sigma = 0.02;
+    off.features.floor = 0.1, off.features.minCount = 1, off.features.pruneInterval = 3;
+    on.features.enabled = true;
+    HybridFilter without(plain), switchedOff(off), with(on);
+    for (HybridFilter* filter : {&without, &switchedOff, &with}) process(*filter, drive, 0, drive.size());
+    EXPECT_TRUE(bytesOf(switchedOff) == bytesOf(without));
+    EXPECT_TRUE(without.bestMap().features.features().empty());
+    EXPECT_FALSE(with.bestMap().features.features().empty());
+    EXPECT_NE(with.bestPath(), without.bestPath());
+  }
+}
+
 TEST(HybridFilterState, LoopsCloseAfterReading) {
   const Drive drive = ringDrive(0.03 * kDegree);
   FilterConfiguration c = configuration(ParticleFilterOptions::Proposal::improved);

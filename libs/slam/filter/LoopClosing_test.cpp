@@ -1,30 +1,31 @@
 #include <gtest/gtest.h>
 
+#include "base/State.h"
 #include "slam/filter/HybridFilter.h"
 #include "testing/RingDrive.h"
+#include "testing/TrustedOdometry.h"
 
 namespace hybrid_slam {
 namespace {
 
 using namespace test;
 
-/// The motion model trusts an odometry whose heading drifts: no particle closes the loop.
-FilterConfiguration trustingConfiguration() {
-  FilterConfiguration c;
-  c.useLines = false;
-  c.filter.proposal = ParticleFilterOptions::Proposal::standard;
-  c.filter.particles = 4;
-  c.filter.updateDistance = 0.2, c.filter.updateAngle = 10 * kDegree;
-  for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn})
-    term->varianceD = term->varianceT = 1e-8, term->meanStd = 0;
-  c.motion.minStdXY = c.motion.minStdPhi = 1e-4;
-  return c;
+template <class T>
+std::string bytesOf(T value) {
+  std::string bytes;
+  StateWriter out(bytes);
+  out(value);
+  return bytes;
 }
 
 struct Filtered {
   std::vector<TPose2D> path;
   std::vector<size_t> closures;  ///< updates
   mrpt::maps::COccupancyGridMap2D grid;
+  std::vector<DatabaseLine> lines;
+  std::string map;        ///< bytes of grid and line database
+  std::string particles;  ///< bytes of the particles with their weights, now and in the last step
+  std::vector<Scans> scans;
 };
 
 Filtered filtered(const std::vector<DrivenPose>& drive, const FilterConfiguration& c) {
@@ -37,6 +38,10 @@ Filtered filtered(const std::vector<DrivenPose>& drive, const FilterConfiguratio
   }
   result.path = filter.bestPath();
   result.grid = filter.bestGrid();
+  result.lines = filter.bestLines();
+  result.map = bytesOf(filter.bestMap());
+  result.particles = bytesOf(filter.particlePoses()) + bytesOf(filter.lastStep());
+  result.scans = filter.updateScans();
   return result;
 }
 
@@ -59,13 +64,46 @@ TEST(LoopClosing, TheFilterGoesOnFromTheCorrectedPathAndMap) {
   EXPECT_LT(std::hypot(on.path[0].x, on.path[0].y), 1e-9);
 }
 
+/// The map that the scans of the updates make along the path.
+std::string mapAlongThePath(const Filtered& result, const FilterConfiguration& c) {
+  std::vector<PosedScans> all;
+  for (size_t i = 0; i < result.path.size(); ++i) all.push_back({result.scans.at(i), result.path[i], true});
+  return bytesOf(mapOf(all, c));
+}
+
+// A grid or a database that were not rebuilt would hold walls along the path before its correction.
+TEST(LoopClosing, GridAndLinesAreThoseOfTheCorrectedPath) {
+  const auto drive = ringDrive(0.03 * kDegree);
+  FilterConfiguration c = trustingConfiguration();
+  for (const bool useLines : {false, true}) {
+    SCOPED_TRACE(useLines);
+    c.useLines = useLines;
+    const Filtered result = filtered(drive, c);
+    ASSERT_FALSE(result.closures.empty());
+    ASSERT_EQ(result.scans.size(), result.path.size());
+    EXPECT_EQ(result.lines.empty(), !useLines);
+    EXPECT_TRUE(result.map == mapAlongThePath(result, c));
+  }
+}
+
+void expectTheSame(const std::vector<DrivenPose>& drive, FilterConfiguration c) {
+  const Filtered on = filtered(drive, c);
+  c.loopClosing.enabled = false;
+  const Filtered off = filtered(drive, c);
+  EXPECT_TRUE(on.closures.empty());
+  EXPECT_EQ(on.path, off.path);
+  EXPECT_EQ(on.lines.empty(), !c.useLines);
+  EXPECT_TRUE(on.map == off.map);
+  EXPECT_TRUE(on.particles == off.particles);
+}
+
 TEST(LoopClosing, WithoutALoopItChangesNothing) {
   auto drive = ringDrive(0.03 * kDegree);
   drive.resize(drive.size() / 3);
-  FilterConfiguration c = trustingConfiguration();
-  const Filtered on = filtered(drive, c);
-  c.loopClosing.enabled = false;
-  EXPECT_EQ(on.path, filtered(drive, c).path);
+  expectTheSame(drive, trustingConfiguration());
+  FilterConfiguration improved;
+  improved.filter.particles = 6;
+  expectTheSame(drive, improved);
 }
 
 TEST(LoopClosing, IsTheSameForAnyNumberOfThreads) {

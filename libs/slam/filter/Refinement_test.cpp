@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "testing/MappedRoom.h"
+#include "testing/RingDrive.h"
 
 namespace hybrid_slam {
 namespace {
@@ -82,6 +83,75 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
   FilterConfiguration general = c;
   general.useLines = false;
   EXPECT_TRUE(mapOf(scans, general).lines.lines().empty());
+}
+
+/// A drive as the refinement gets it: one pose and one reading for each update.
+struct WholeLog {
+  std::vector<TPose2D> path, truth;
+  std::vector<Scans> scans;
+};
+
+WholeLog wholeLog(const std::vector<DrivenPose>& drive) {
+  WholeLog log;
+  for (const DrivenPose& step : drive) {
+    log.path.push_back(log.path.empty() ? step.truth : log.path.back() + step.motion);
+    log.truth.push_back(step.truth);
+    log.scans.push_back(observed(step.scans[0]));
+  }
+  return log;
+}
+
+FilterConfiguration withLines(bool useLines) {
+  FilterConfiguration c;
+  c.useLines = useLines;
+  return c;
+}
+
+TEST(CloseLoops, CorrectsAWholePath) {
+  const WholeLog log = wholeLog(ringDrive(0.03 * kDegree));
+  std::vector<TPose2D> path = log.path;
+  const auto closures = closeLoops(path, log.scans, std::nullopt, withLines(false));
+  ASSERT_FALSE(closures.empty());
+  EXPECT_EQ(path, closures.back().path);
+  ASSERT_EQ(path.size(), log.path.size());
+  EXPECT_LT((path[0] - log.path[0]).norm(), 1e-6) << "the first pose defines the map frame";
+  EXPECT_LT(test::rms(path, log.truth), 0.5 * test::rms(log.path, log.truth));
+  for (const LoopClosure& closure : closures) {
+    EXPECT_LT(closure.earlier, closure.later);
+    EXPECT_LT(closure.later, log.scans.size());
+  }
+}
+
+TEST(CloseLoops, PosesWithoutScansFollowTheLastScan) {
+  WholeLog log = wholeLog(ringDrive(0.03 * kDegree));
+  log.scans.resize(log.scans.size() - 40);
+  std::vector<TPose2D> path = log.path;
+  ASSERT_FALSE(closeLoops(path, log.scans, std::nullopt, withLines(false)).empty());
+  ASSERT_EQ(path.size(), log.path.size());
+  for (size_t i = log.scans.size(); i < path.size(); ++i) {
+    const TPose2D motion = path[i] - path[i - 1], before = log.path[i] - log.path[i - 1];
+    EXPECT_NEAR(motion.x, before.x, 1e-9);
+    EXPECT_NEAR(motion.y, before.y, 1e-9);
+    EXPECT_NEAR(motion.phi, before.phi, 1e-9);
+  }
+}
+
+TEST(CloseLoops, APathThatClosesItselfStaysAsItIs) {
+  const WholeLog log = wholeLog(ringDrive(0));
+  std::vector<TPose2D> path = log.path;
+  EXPECT_TRUE(closeLoops(path, log.scans, std::nullopt, withLines(false)).empty());
+  EXPECT_EQ(path, log.path);
+}
+
+// One wrong turn: see LoopCloser_test.
+TEST(CloseLoops, UsesTheDirectionOfTheWalls) {
+  auto drive = ringDrive(0);
+  drive[63].motion.phi += 2.5 * kDegree;
+  const WholeLog log = wholeLog(drive);
+  std::vector<TPose2D> without = log.path, with = log.path;
+  ASSERT_FALSE(closeLoops(without, log.scans, std::nullopt, withLines(true)).empty());
+  ASSERT_FALSE(closeLoops(with, log.scans, 0.0, withLines(true)).empty());
+  EXPECT_LT(test::rms(with, log.truth), 0.6 * test::rms(without, log.truth));
 }
 
 }  // namespace

@@ -14,16 +14,25 @@ struct Driven {
   std::vector<LoopClosure> closures;
 };
 
+/// What the lines tell the closer.
+struct SeenLines {
+  bool areSeen = false;             ///< each scan shows a wall along x
+  std::optional<double> direction;  ///< rad, of the walls in the map
+};
+
 /// Drives with the closer, as the filter does: after a closure it continues from the corrected path.
-Driven closed(const std::vector<DrivenPose>& drive,
-              const LoopClosingOptions& options = LoopClosingOptions()) {
+Driven closed(const std::vector<DrivenPose>& drive, const LoopClosingOptions& options = LoopClosingOptions(),
+              const SeenLines& lines = {}) {
   LoopCloser closer(options, GridOptions());
   Driven driven;
+  const LineSegment wall = makeSegment(TPoint2D(0, 3), TPoint2D(5, 3));
   for (const DrivenPose& step : drive) {
     driven.path.push_back(driven.path.empty() ? step.truth : driven.path.back() + step.motion);
-    closer.add(step.motion, step.scans, {}, false);
+    std::vector<LineSegment> seen;
+    if (lines.areSeen) seen.push_back(transformed(wall, TPose2D() - step.truth));
+    closer.add(step.motion, step.scans, seen, false);
     if (!closer.isDue()) continue;
-    if (auto closure = closer.close(driven.path, std::nullopt)) {
+    if (auto closure = closer.close(driven.path, lines.direction)) {
       driven.path = closure->path;
       driven.closures.push_back(*closure);
     }
@@ -58,6 +67,38 @@ TEST(LoopCloser, ClosesARingWhoseHeadingDrifts) {
     EXPECT_GT(first.shift, 0.5);
     EXPECT_LT(first.earlier, first.later);
   }
+}
+
+/// A ring with one wrong turn, by 2.5 deg in the first corridor.
+std::vector<DrivenPose> wrongTurn() {
+  auto drive = ringDrive(0);
+  drive[63].motion.phi += 2.5 * kDegree;
+  return drive;
+}
+
+double headingError(const std::vector<TPose2D>& path, const std::vector<DrivenPose>& drive, size_t at) {
+  return std::abs(std::remainder(path.at(at).phi - drive[at].truth.phi, 2 * M_PI));
+}
+
+// The motions alone spread the error over the lap.
+TEST(LoopCloser, TheDirectionsOfTheWallsShowWhereATurnWasWrong) {
+  const auto drive = wrongTurn();
+  const Driven without = closed(drive), with = closed(drive, {}, {true, 0.0});
+  ASSERT_FALSE(without.closures.empty());
+  ASSERT_FALSE(with.closures.empty());
+  const auto& byMotions = without.closures[0].path;
+  const auto& byLines = with.closures[0].path;
+  EXPECT_GT(headingError(byMotions, drive, 90), 1 * kDegree);
+  EXPECT_LT(headingError(byLines, drive, 90), 0.5 * kDegree);
+  EXPECT_LT(largestError(byLines, drive), 0.4 * largestError(byMotions, drive));
+}
+
+TEST(LoopCloser, LinesInAnotherDirectionThanTheMapsAreIgnored) {
+  const auto drive = wrongTurn();
+  const Driven without = closed(drive);
+  ASSERT_FALSE(without.closures.empty());
+  EXPECT_EQ(closed(drive, {}, {true, std::nullopt}).path, without.path) << "the map has no direction";
+  EXPECT_EQ(closed(drive, {}, {true, 20 * kDegree}).path, without.path) << "more than 3 deg off";
 }
 
 TEST(LoopCloser, APathThatClosesItselfStaysAsItIs) { EXPECT_TRUE(closed(ringDrive(0)).closures.empty()); }

@@ -160,6 +160,32 @@ TEST(FloorPlan, AShortSlantedWallTakesTheBuildingsDirection) {
   EXPECT_GE(shortOnes, 1);
 }
 
+// It is too far off the building's direction, and too short for one of its own.
+TEST(FloorPlan, ALongSlantedWallKeepsItsDirection) {
+  const double angle = 20 * M_PI / 180;
+  PaintedGrid map;
+  map.free(0, 0, 12, 12);
+  map.wall(0, 0, 12, kCell);
+  map.wall(0, 0, kCell, 12);
+  map.slantedWall(4, 5, 4 + 2 * std::cos(angle), 5 + 2 * std::sin(angle));
+  const FloorPlan plan = floorPlanOf({}, map.grid);
+  ASSERT_EQ(plan.directions.size(), 1u);
+  EXPECT_NEAR(plan.directions[0], 0, 1e-3);
+  int slanted = 0, straight = 0;
+  for (const PlanWall& wall : plan.walls) {
+    if (wall.length() > 10) {
+      ++straight;
+      EXPECT_TRUE(wall.isSnapped);
+    } else if (wall.length() > 1.5) {
+      ++slanted;
+      EXPECT_FALSE(wall.isSnapped);
+      EXPECT_NEAR(std::sin(wall.line.angle - angle), 0, 0.05);
+    }
+  }
+  EXPECT_GE(straight, 2);
+  EXPECT_GE(slanted, 1);
+}
+
 TEST(FloorPlan, AnyMapGivesAPlanOfFiniteWalls) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     std::mt19937 random(seed);
