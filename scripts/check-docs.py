@@ -5,8 +5,10 @@ and that the commands of these pages work.
   scripts/check-docs.py                 checks only the marks, instantly
   scripts/check-docs.py --run [BIN]     also runs the `checked by` commands, with the programs in BIN
                                         (build/release/bin)
-  scripts/check-docs.py --commands PREFIX    instead runs the commands of the pages, with the programs that
-                                        `cmake --install BUILD --prefix PREFIX` installs
+  scripts/check-docs.py [--keep FOLDER] --commands PREFIX [PAGE...]
+                                        instead runs the commands of the pages (own-log.md, ...; all by default), with
+                                        the programs that `cmake --install BUILD --prefix PREFIX` installs; in
+                                        FOLDER/PAGE (FOLDER/own-log), to keep what they write
   --root FOLDER                         check the pages of another repository
 
 A mark is an HTML comment directly before the table or picture; there may be several:
@@ -26,11 +28,15 @@ like), unless it is a reference table: its first column is all `code` and headed
 Commands to type are ```sh blocks. Those of a page run one after the other in a temporary folder, which is empty at
 first. Each must end with 0. A comment on the line before a block says otherwise:
 
-  <!-- first: COMMANDS -->      also runs these before, to make the files that the page speaks of; datasets/ and
-                                config-ini/ are the installed folders
-  <!-- not run: WHY -->         for a block that needs a robot, root, hours, ...
+  <!-- first: COMMANDS -->      also runs these before, in the same shell, to make the files that the page speaks of;
+                                datasets/ and config-ini/ are the installed folders, tests/ and workflow/ those of the
+                                repository, $PREFIX is the folder of the installation
+  <!-- needs NAME -->           skips the block if this environment variable is unset or this program is missing;
+                                `; first: COMMANDS` may follow
+  <!-- not run: WHY -->         for a block that needs root, hours, ...; its files and options must exist nevertheless
 
-An indented line that calls a program is an error, unless it is a synopsis, with [ or `...`.
+A line outside of these blocks that is indented or fenced and calls a program (of apps/, a script, or a usual one such
+as cmake) is an error, unless it is a synopsis, with [ or `...`, or in a marked transcript.
 
 `checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
 in percent of the page's number."""
@@ -40,6 +46,7 @@ import fnmatch
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -47,8 +54,12 @@ from pathlib import Path
 
 TIME_LIMIT = 60  # s, for one command
 BLOCK_LIMIT = 120  # s, for the commands of one block
-BLOCK = re.compile(r"(?:^<!--\s*(first|not run):\s*((?:(?!-->).)*?)\s*-->\n)?^```sh\n(.*?)^```$",
-                   re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?:^<!--((?:(?!-->).)*)-->\n)?^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK_MARK = re.compile(r"\s*(?:needs ([\w-]+)\s*(?:;\s*|$))?(?:(first|not run):\s*(\S.*?))?\s*", re.DOTALL)
+ASSIGNMENTS = re.compile(r"""(?:[A-Z_]+=(?:'[^']*'|"[^"]*"|\S*) +)*""")
+BUILT = re.compile(r"\bbuild/\w+/bin/([\w-]+)")
+USUAL = ("apt", "apt-get", "bash", "cmake", "ctest", "doxygen", "export", "git", "make", "mkdocs", "ninja", "pip",
+         "python3", "rawlog-edit", "RawLogViewer", "rbpf-slam", "SceneViewer3D", "sh", "snakemake", "source", "sudo")
 MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
 CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
 DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
@@ -141,8 +152,9 @@ def differences(page, made, tolerance):
 
 
 class Checker:
-    def __init__(self, root, bin_folder, data_folder):
-        self.root, self.bin, self.data = root, bin_folder, data_folder
+    def __init__(self, root, bin_folder, prefix=None):
+        self.root, self.bin, self.prefix = root, bin_folder, prefix
+        self.data = prefix and prefix / "share/hybrid_slam"
         self.errors, self.skipped, self.marked, self.outputs = [], [], 0, {}
 
     def output_of(self, command):
@@ -155,7 +167,7 @@ class Checker:
 
     def run(self, command, folder, limit):
         """(exit code, output, why it failed or "")"""
-        environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}
+        environment = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}", "PREFIX": str(self.prefix or "")}
         run = subprocess.run(["timeout", "-k", "5", str(limit), "bash", "-c", command], cwd=folder, env=environment,
                              stdin=subprocess.DEVNULL, text=True, capture_output=True)
         if run.returncode == 124:
@@ -163,24 +175,66 @@ class Checker:
         return run.stdout, run.returncode and \
             f"ended with {run.returncode}: {(run.stderr or run.stdout).strip()[-200:]!r}" or ""
 
-    def check_commands(self, page):
-        """Runs the blocks of a page, and finds commands outside of them."""
+    def is_there(self, name):
+        """Whether an environment variable is set, or a program is installed."""
+        if name.isupper():
+            return bool(os.environ.get(name))
+        return shutil.which(name, path=f"{self.bin}:{os.environ['PATH']}") is not None
+
+    def blocks_of(self, page):
+        """(match, name that it needs, `first`, `not run` or None, what, code) of each ```sh block."""
         text = page.read_text()
-        place = lambda offset: f"{page.relative_to(self.root)}:{text.count(chr(10), 0, offset) + 1}"
-        programs = "|".join(sorted(folder.name for folder in self.root.glob("apps/*/")))
-        for command in re.finditer(rf"^    (?:{programs}) (?!.*\.\.\.)[^[\n]*$", text, re.MULTILINE):
-            self.errors.append(f"{place(command.start())}: command that no test runs: expected a ```sh block")
-        with tempfile.TemporaryDirectory() as folder:
-            for block in BLOCK.finditer(text):
-                how, what, code = block.groups()
-                if how == "not run":
-                    self.skipped.append(f"{place(block.start())}: not run: {what}")
-                    continue
-                first = re.sub(r"(?<![\w./-])(?=(?:datasets|config-ini)/)", f"{self.data}/", what or "")
-                _, why = self.run(f"set -e\n{first}\n{code}", folder, BLOCK_LIMIT)
-                self.outputs[place(block.start())] = why
-                if why:
-                    self.errors.append(f"{place(block.start(3))}: {why}")
+        for block in BLOCK.finditer(text):
+            mark = BLOCK_MARK.fullmatch(block[1] or "")
+            if mark:
+                yield block, *mark.groups(), block[2]
+            else:
+                self.errors.append(f"{self.place(page, text, block.start())}: expected `<!-- first: COMMANDS -->`, "
+                                   "`<!-- needs NAME -->` or `<!-- not run: WHY -->`")
+
+    def place(self, page, text, offset):
+        return f"{page.relative_to(self.root)}:{text.count(chr(10), 0, offset) + 1}"
+
+    def run_commands(self, page, folder):
+        """Runs the blocks of a page in a folder."""
+        text = page.read_text()
+        for block, needed, how, what, code in self.blocks_of(page):
+            place = self.place(page, text, block.start())
+            if how == "not run" or needed and not self.is_there(needed):
+                self.skipped.append(f"{place}: not run: {what if how == 'not run' else needed + ' is missing'}")
+                continue
+            first = re.sub(r"(?<![\w./-])(?=(?:datasets|config-ini)/)", f"{self.data}/", what or "")
+            first = re.sub(r"(?<![\w./-])(?=(?:tests|workflow)/)", f"{self.root}/", first)
+            _, why = self.run(f"set -e\n{first}\n{code}", folder, BLOCK_LIMIT)
+            self.outputs[place] = why
+            if why:
+                self.errors.append(f"{self.place(page, text, block.start(2))}: {why}")
+
+    def check_blocks(self, page, transcripts):
+        """Finds commands outside of the blocks, and those of blocks that are not run if they cannot work.
+        transcripts: indices of the lines that begin a marked transcript"""
+        text = page.read_text()
+        for block, _, how, _, code in self.blocks_of(page):
+            if how != "not run":
+                continue
+            for line in code.replace("\\\n", " ").splitlines():
+                command = BUILT.sub(r"\1", line)
+                if source_of(self.root, ASSIGNMENTS.sub("", command).partition(" ")[0]):
+                    wrong = command_errors(self.root, shlex.join(shlex.split(command, comments=True)))
+                    self.errors += [f"{self.place(page, text, block.start())}: {error}" for error in wrong]
+        apps = sorted(folder.name for folder in self.root.glob("apps/*/"))
+        call = re.compile(rf"(?:\$ +)?{ASSIGNMENTS.pattern}(?:\S*/)?(?:{'|'.join([*apps, *USUAL])}|"
+                          r"hybrid_slam_\w+_test|[\w-]+\.(?:sh|py))(?= |$)(?!.*\.\.\.)[^[]*")
+        fence = in_transcript = None
+        for i, line in enumerate(text.splitlines()):
+            indented = line.startswith("    ")
+            in_transcript = indented and (in_transcript or i in transcripts)
+            if line.startswith(("```", "~~~")):
+                fence = line[3:].strip() if fence is None else None
+            elif call.fullmatch(line.strip()) and (fence not in (None, "sh", "cpp") or
+                                                   indented and fence is None and not in_transcript):
+                self.errors.append(f"{page.relative_to(self.root)}:{i + 1}: command that no test runs: "
+                                   "expected a ```sh block")
 
     def check_figures(self, place, rows, check):
         """Compares a page's table with its command's; of several, with the one with the same headings."""
@@ -201,6 +255,7 @@ class Checker:
         targets = {i: ("table", rows) for i, rows in tables_of(lines)}
         targets.update((i, ("picture", None)) for i, line in enumerate(lines) if PICTURE.search(line))
         targets.update((i, ("transcript", None)) for i in marks if i < len(lines) and lines[i].startswith("    "))
+        self.check_blocks(page, {i for i, (kind, _) in targets.items() if kind == "transcript"})
         for i in marks.keys() - targets.keys() - {start for start, _, _ in marks.values()}:
             self.errors.append(f"{page.relative_to(self.root)}:{i}: mark without a table or picture on the next line")
         for i, (kind, rows) in sorted(targets.items()):
@@ -227,18 +282,26 @@ class Checker:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--run", nargs="?", const="build/release/bin", metavar="BIN")
-    parser.add_argument("--commands", type=Path, metavar="PREFIX")
+    parser.add_argument("--commands", nargs="+", metavar=("PREFIX", "PAGE"))
+    parser.add_argument("--keep", type=Path, metavar="FOLDER")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent, metavar="FOLDER")
     options = parser.parse_args()
     root = options.root.resolve()
     pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
     if options.commands:
-        prefix = options.commands.resolve()
-        checker = Checker(root, prefix / "bin", prefix / "share/hybrid_slam")
+        prefix = Path(options.commands[0]).resolve()
+        unknown = set(options.commands[1:]) - {page.name for page in pages}
+        if unknown:
+            parser.error(f"no such page: {', '.join(sorted(unknown))}")
+        pages = [page for page in pages if page.name in (options.commands[1:] or [page.name])]
+        checker = Checker(root, prefix / "bin", prefix)
         for page in pages:
-            checker.check_commands(page)
+            with tempfile.TemporaryDirectory() as temporary:
+                folder = options.keep.resolve() / page.stem if options.keep else temporary
+                os.makedirs(folder, exist_ok=True)
+                checker.run_commands(page, folder)
     else:
-        checker = Checker(root, options.run and root / options.run, None)
+        checker = Checker(root, options.run and root / options.run)
         for page in pages:
             checker.check_page(page)
     print(*checker.skipped, *checker.errors,

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Called by scripts/test-packages.sh in a bare root folder: installs the packages beside this script, maps, starts the
-# window, builds the C++ example, removes them. Beside it are also robot.bag (a ROS bag of three scans), consumer
-# (tests/consumer), and with-display.sh and gui-signal.sh of tests/.
+# window, runs the commands of the installed pages, builds the C++ example, removes them. Beside it are also consumer
+# (tests/consumer), with-display.sh and gui-signal.sh of tests/, install.sh (the pages' command that installs the
+# packages) and project (scripts/check-docs.py and what it needs).
 set -euo pipefail
 cd "$(dirname "$0")"
 fail() { echo "error: $*" >&2; exit 1; }
@@ -9,19 +10,31 @@ apt_get() {
   apt-get -q -y -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-unsafe-io "$@" >apt.log 2>&1 ||
     { tail -n 40 apt.log >&2; fail "apt-get $*"; }
 }
+# good_map FOLDER POSES: results of a run that mapped a whole log well
+good_map() {
+  local poses
+  poses=$(wc -l <"$1/trajectory.tum")
+  [[ -s $1/map.png && $poses -eq $2 ]] || fail "$1: $poses poses, expected a map and $2 poses"
+  grep -q '"verdict": "consistent"' "$1/metrics.json" || fail "$1: $(grep '"verdict"' "$1/metrics.json")"
+}
+# pages PAGE...: runs the commands of installed pages in empty folders, /root/trial/PAGE
+pages() {
+  python3 project/scripts/check-docs.py --keep /root/trial --commands /usr "$@" || fail "commands of the pages"
+}
 apt_get update
 
 echo "== from a bare system to a map"
-apt_get install --no-install-recommends ./hybrid-slam_*.deb ./libhybrid-slam0*.deb
+apt_get install --no-install-recommends ./hybrid-slam_*.deb ./libhybrid-slam[0-9]*.deb
 (cd /root && hybrid-slam -q datasets/csie/csie-corridor.rawlog -o map)
-[[ -s /root/map/map.png ]] || fail "no map"
+scans=$(wc -l </usr/share/hybrid_slam/datasets/csie/csie-corridor.tum)
+good_map /root/map "$scans"
 
-echo "== a new user's trial: own-robot.md, a CARMEN log and a bag, in an empty folder"
-mkdir /root/trial
-# The commands of the page before those that need a robot: a server that replays a log, a live run, and its recording.
-awk '/^```/ { inside = /sh$/ && ++block <= 2; next } inside' /usr/share/doc/hybrid-slam/doc/own-robot.md >commands.sh
-(cd /root/trial && bash -e /packages/commands.sh)
-[[ -s /root/trial/live/map.png && -s /root/trial/again/map.png ]] || fail "own-robot.md makes no maps"
+echo "== a new user's trial with the installed pages: a bag of a drive, live runs; and a CARMEN log"
+apt_get install --no-install-recommends python3
+ln -s /usr/share/doc/hybrid-slam/{README.md,doc} project
+pages first-map.md own-log.md own-robot.md live.md
+for name in robot coarse again tuesday wednesday; do good_map "/root/trial/own-log/$name" "$scans"; done
+good_map /root/trial/own-robot/again "$scans"
 # 40 scans of a robot that drives 4 m straight, in a room of 8 m x 6 m.
 awk 'BEGIN {
   for (scan = 0; scan < 40; ++scan) {
@@ -36,14 +49,16 @@ awk 'BEGIN {
     printf " %s 0 0 %s 0 0 %s robot %s\n", x, x, scan, scan
   }
 }' >/root/trial/robot.clf
-cp robot.bag /root/trial
-for log in robot.clf robot.bag; do
-  (cd /root/trial && hybrid-slam -q $log -o $log.map)
-  [[ -s /root/trial/$log.map/map.png ]] || fail "no map of $log"
-done
+(cd /root/trial && hybrid-slam -q robot.clf -o carmen)
+good_map /root/trial/carmen 40
 
 echo "== programs, pages, settings"
-apt_get install --no-install-recommends ./hybrid-slam-gui_*.deb
+mkdir build
+ln -s /packages build/packages
+# The pages' command; the user's apt asks.
+apt() { apt_get --no-install-recommends "$@"; }
+source ./install.sh
+[[ -x /usr/bin/hybrid-slam-gui ]] || fail "the pages' command does not install the window"
 for package in hybrid-slam hybrid-slam-gui; do
   for program in $(dpkg -L $package | sed -n 's|^/usr/bin/||p'); do
     "$program" --version | grep -qE "^$program [0-9.]+$" || fail "$program --version"
@@ -56,8 +71,6 @@ for package in hybrid-slam hybrid-slam-gui; do
 done
 (cd /root && simul-floorplan -q config-ini/simul-csie-corridor.ini -o robot.rawlog)
 (cd /root && hybrid-slam -q config-ini/csie-lms100.ini robot.rawlog -o paper)
-loaded=$(LD_PRELOAD=libhybrid_slam_mrpt_plugin.so.0.1 /bin/true 2>&1)
-[[ -z $loaded ]] || fail "the plugin for MRPT's programs: $loaded"
 (hybrid-slam /dev/null 2>&1 || true) | grep -q "error: " || fail "no error"
 
 echo "== the window, and its entry in the desktop's menu"
@@ -72,6 +85,11 @@ for type in $(value MimeType | tr ';' ' '); do
   [[ -f /usr/share/mime/$type.xml ]] || fail "$entry: no files are of type $type"
   grep -q "^$type=.*hybrid-slam-gui.desktop" /usr/share/applications/mimeinfo.cache || fail "$type opens no window"
 done
+
+echo "== MRPT's programs: the plugin, rawlog-edit"
+apt_get install --no-install-recommends mrpt-apps
+rm -r /root/trial
+pages mrpt-plugin.md own-log.md
 
 echo "== completion"
 apt_get install --no-install-recommends bash-completion

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the Debian packages of this machine's release: libhybrid-slam0.1, libhybrid-slam-dev, hybrid-slam,
-# hybrid-slam-gui.
+# Builds the Debian packages of this machine's release: libhybrid-slam with the version, libhybrid-slam-dev, hybrid-slam
+# and hybrid-slam-gui.
 #   scripts/package.sh [-C FOLDER]     FOLDER (build/packages) gets the packages and is emptied before
 # DEBFULLNAME and DEBEMAIL name the maintainer. For Debian 13 on Debian 12: scripts/debian13.sh scripts/package.sh
 source "$(dirname "$0")/lib.sh"
@@ -20,7 +20,7 @@ build package
 rm -rf build/package/packages
 cpack --config build/package/CPackConfig.cmake -B "$PWD/build/package/packages"
 # CPack makes scripts that call ldconfig, where Debian has a trigger for it (packaging/triggers).
-for package in build/package/packages/libhybrid-slam0*.deb; do
+for package in build/package/packages/libhybrid-slam[0-9]*.deb; do
   dpkg-deb --raw-extract "$package" build/package/packages/library
   rm -f build/package/packages/library/DEBIAN/post{inst,rm}
   dpkg-deb --root-owner-group --build build/package/packages/library "$package" >/dev/null

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests the packages: lintian, and in a bare Debian root folder install, map, open the window, build the C++
-# example, remove.
+# Tests the packages: lintian, and in a bare Debian root folder install, map, open the window, run the commands of the
+# installed pages, build the C++ example, remove.
 #   scripts/test-packages.sh [RELEASE [FOLDER]]
 # RELEASE is bookworm or trixie (this machine's by default), FOLDER holds its packages (build/packages, of
 # scripts/package.sh). build/RELEASE.tar keeps the bare root for the next call. Needs root, for chroot.
@@ -26,9 +26,14 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/root"
 tar -C "$work/root" -xf "$bare" --exclude='./dev/*'
-install -D -t "$work/root/packages" "$folder"/*.deb scripts/installed-packages.sh tests/{with-display,gui-signal}.sh
-cp -r tests/consumer "$work/root/packages"
-cp tests/fuzz/corpus/bag/ros1-none "$work/root/packages/robot.bag"
+inside=$work/root/packages
+install -D -t "$inside" "$folder"/*.deb scripts/installed-packages.sh tests/{with-display,gui-signal}.sh
+cp -r tests/consumer "$inside"
+# The commands of the installed pages run there: what runs them, and the pages' own command that installs the packages.
+mkdir "$inside/project"
+cp --parents -t "$inside/project" scripts/check-docs.py tests/robot.sh tests/rawlog-to-bag.py
+sed -nE 's/^sudo (apt install [^#]*[^# ]) *(#.*)?$/\1/p' README.md doc/first-map.md | sort -u >"$inside/install.sh"
+[[ $(wc -l <"$inside/install.sh") -eq 1 ]] || { echo "error: README.md and first-map.md install differently"; exit 1; }
 
 # Only this command sees the mounts, which end with it.
 # shellcheck disable=SC2016

@@ -118,37 +118,76 @@ class CheckDocs(unittest.TestCase):
                          (0, ["doc/page.md:4: skipped, LOGS is unset: scripts/table.sh"]))
         self.assertEqual(self.check(page, "--run", LOGS="1")[0], 1)
 
-    def commands(self, page):
+    def commands(self, page, *pages, **environment):
         """(exit code, lines but the last) for the commands of a page, with an installed program and log."""
         self.write("prefix/bin/mapper", "#!/bin/sh\ncat \"$1\" >map\n").chmod(0o755)
         self.write("prefix/share/hybrid_slam/datasets/log", "a log\n")
-        return self.check(page, "--commands", self.root / "prefix")
+        return self.check(page, "--keep", self.root / "kept", "--commands", self.root / "prefix", *pages, **environment)
 
     def test_commands_of_a_page_run_in_one_folder(self):
-        page = "<!-- first: cp datasets/log . -->\n```sh\nmapper log\n```\n\nMore.\n\n```sh\ngrep -q 'a log' map\n```\n"
+        page = ("<!-- first: cp datasets/log . -->\n```sh\nmapper log\n```\n\n"
+                "More.\n\n```sh\ngrep -q 'a log' map\n```\n")
         self.assertEqual(self.commands(page), (0, []))
+        self.assertEqual((self.root / "kept/page/map").read_text(), "a log\n")
         code, lines = self.commands(page.replace("a log' map", "another' map"))
         self.assertEqual((code, lines), (1, ["doc/page.md:9: ended with 1: ''"]))
         code, lines = self.commands(page.replace("mapper log", "false\nmapper log"))
         self.assertEqual((code, lines[0]), (1, "doc/page.md:3: ended with 1: ''"))
         self.assertEqual(self.commands("<!-- first: echo hello >file -->\n```sh\ngrep hello file\n```\n"), (0, []))
 
+    def test_what_comes_first_may_replace_a_program_and_use_the_tests(self):
+        self.write("tests/robot.sh", "robot() { cp \"$PREFIX\"/share/hybrid_slam/datasets/log \"$1\"; }\n")
+        page = ("<!-- first: . tests/robot.sh; mapper() {\n  command mapper \"$2\"; } -->\n"
+                "```sh\nrobot l\nmapper x l\n```\n")
+        self.assertEqual(self.commands(page), (0, []))
+        self.assertEqual((self.root / "kept/page/map").read_text(), "a log\n")
+
     def test_the_folder_of_a_page_is_empty_at_first(self):
+        code, lines = self.check("```sh\n[ -z \"$(ls)\" ] && touch file\n```\n", "--commands", self.root / "prefix")
+        self.assertEqual((code, lines), (0, []))
         code, lines = self.commands("```sh\nmapper datasets/log\n```\n")
         self.assertEqual((code, len(lines)), (1, 1))
         self.assertIn("doc/page.md:2: ended with 1: ", lines[0])
 
-    def test_commands_of_the_readme_run(self):
+    def test_commands_of_the_readme_and_of_single_pages_run(self):
         self.write("README.md", "```sh\nfalse\n```\n")
         self.assertEqual(self.commands("Text.\n"), (1, ["README.md:2: ended with 1: ''"]))
+        self.assertEqual(self.commands("Text.\n", "page.md"), (0, []))
+        self.assertEqual(self.commands("Text.\n", "page.md", "README.md"), (1, ["README.md:2: ended with 1: ''"]))
 
     def test_commands_that_are_not_run_say_why(self):
-        self.assertEqual(self.commands("<!-- not run: needs a robot -->\n```sh\nfalse\n```\n"),
-                         (0, ["doc/page.md:1: not run: needs a robot"]))
-        self.assertEqual(self.commands("Text.\n\n    mapper [options] LOG\n    mapper --fast ...\n"), (0, []))
-        code, lines = self.commands("Text.\n\n    mapper robot.log\n")
-        self.assertEqual(code, 1)
-        self.assertIn("doc/page.md:3: command that no test runs", lines[0])
+        self.assertEqual(self.commands("<!-- not run: needs root -->\n```sh\nfalse\n```\n"),
+                         (0, ["doc/page.md:1: not run: needs root"]))
+        for mark in ("not run:", "not ran: needs root"):
+            self.expect_error(f"<!-- {mark} -->\n```sh\nfalse\n```\n", "doc/page.md:1: expected `<!-- first: COMMANDS")
+
+    def test_commands_are_not_run_without_what_they_need(self):
+        page = "<!-- needs LOGS; first: cp datasets/log . -->\n```sh\nmapper log\n```\n"
+        self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: LOGS is missing"]))
+        self.assertEqual(self.commands(page, LOGS="1"), (0, []))
+        self.assertEqual(self.commands(page.replace("mapper", "false"), LOGS="1")[0], 1)
+        page = "<!-- needs no-such-program -->\n```sh\nfalse\n```\n"
+        self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: no-such-program is missing"]))
+        self.assertEqual(self.commands(page.replace("no-such-program", "mapper")),
+                         (1, ["doc/page.md:3: ended with 1: ''"]))
+
+    def test_commands_that_are_not_run_exist(self):
+        page = "<!-- not run: takes hours -->\n```sh\nLOGS=\"1 2\" scripts/table.sh all \\\n  out/x    # long\n```\n"
+        self.expect_good(page)
+        self.expect_good(page.replace("LOGS=\"1 2\" scripts/table.sh all", "build/release/bin/mapper --particles"))
+        self.expect_error(page.replace("LOGS", "SEEDS"), "doc/page.md:1: scripts/table.sh does not know the variable")
+        self.expect_error(page.replace("all", "--all"), "table.sh does not know the option --all")
+
+    def test_commands_outside_of_blocks_are_found(self):
+        self.expect_good("Text.\n\n    mapper [options] LOG\n    mapper --fast ...\n    mapped: 3 scans\n")
+        self.expect_good("<!-- made by: mapper -->\n    $ mapper\n    mapper 0.05\n")
+        self.expect_good("```\nmapper [options]\n# a room\n```\n\n```cpp\nmapper x\n```\n")
+        for line in ("mapper robot.log", "ctest --preset release", "LOGS=\"1 2\" scripts/table.sh",
+                     "$ mapper robot.log", "snakemake --profile x", "build/release/bin/mapper x",
+                     "bin/hybrid_slam_lines_test", "export LOGS=~/x"):
+            self.expect_error(f"Text.\n\n    {line}\n", "doc/page.md:3: command that no test runs")
+            self.expect_error(f"```\n{line}\n```\n", "doc/page.md:2: command that no test runs")
+        self.expect_error("```bash\nmapper x\n```\n", "doc/page.md:2: command that no test runs")
 
 
 if __name__ == "__main__":

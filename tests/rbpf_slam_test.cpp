@@ -1,9 +1,12 @@
 // MRPT's own rbpf-slam with the plugin.
 
 #include <gtest/gtest.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CSetOfLines.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "Shell.h"
@@ -47,6 +50,20 @@ TEST_F(RbpfSlam, WeighsItsParticlesWithTheLinesOfThePlugin) {
   const std::string without = path("", "s/^hybridLineMap_count.*//");
   EXPECT_NE(with, without);
   EXPECT_EQ(path(load, "s/^exponent = 1 /exponent = 0 /"), without);
+}
+
+TEST_F(RbpfSlam, PutsTheLinesIntoItsScenes) {
+  path("LD_PRELOAD=" MRPT_PLUGIN, "s/^LOG_FREQUENCY = 0 /LOG_FREQUENCY = 200 /");
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder.path("out-rbpf-slam-lines/3D/buildingmap_00200.3Dscene")));
+  size_t drawn = 0;  // green lines; the paths of the particles are light blue
+  scene.visitAllObjects([&](const mrpt::opengl::CRenderizable::Ptr& object) {
+    const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(object);
+    if (!lines) return;
+    const mrpt::img::TColor color = lines->getColor_u8();
+    if (color.G > color.R + 100 && color.G > color.B + 100) drawn += lines->getLineCount();
+  });
+  EXPECT_GE(drawn, 5u);
 }
 
 TEST_F(RbpfSlam, NamesAMisspeltSetting) {

@@ -15,6 +15,7 @@
 
 namespace hybrid_slam::bags {
 
+/// A topic of a recording.
 struct Topic {
   std::string name;  ///< without control characters
   std::string type;  ///< `sensor_msgs/LaserScan`, `sensor_msgs/msg/LaserScan`
@@ -22,6 +23,7 @@ struct Topic {
   std::optional<MessageType> messageType;  ///< empty: messages of this topic are not read
 };
 
+/// A message as it is stored, not yet decoded.
 struct StoredMessage {
   size_t topic = 0;        ///< index in topics()
   double time = 0;         ///< s; time of recording

@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::bags {
 
+/// A file that is read once, from its beginning, as a stream of bytes.
 class ByteStream {
  public:
   /// @throws InputError if the file is missing or unreadable

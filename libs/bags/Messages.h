@@ -16,6 +16,7 @@ enum class Encoding { ros1, cdr };
 /// Larger messages are not decoded. A scan of a million beams with intensities has 8 MB.
 constexpr size_t kMostMessageBytes = size_t{16} << 20;
 
+/// A std_msgs/Header.
 struct MessageHeader {
   double time = 0;    ///< s; 0: not set
   std::string frame;  ///< without the leading slash of old ROS versions
@@ -52,6 +53,7 @@ struct TransformMessage {
 
 using Message = std::variant<ScanMessage, OdometryMessage, std::vector<TransformMessage>>;
 
+/// The kinds of messages that are read.
 enum class MessageType { laserScan, multiEchoLaserScan, odometry, transforms };
 
 /// Returns the type with this name in ROS 1 (`sensor_msgs/LaserScan`) or 2 (`sensor_msgs/msg/LaserScan`);

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam::bags {
 
+/// A ROS 1 bag. Its chunks are read one after another, without the index.
 class Ros1Bag : public ChunkedFile {
  public:
   explicit Ros1Bag(const std::string& path);

@@ -14,13 +14,17 @@ namespace hybrid_slam {
 /// @{
 #if MRPT_VERSION >= 0x20e00
 using BuiltMetricMap = const mrpt::maps::CMultiMetricMap&;
+/// Returns the maps as that function must.
 inline BuiltMetricMap builtMetricMap(const mrpt::maps::CMultiMetricMap& map) { return map; }
 #else
 using BuiltMetricMap = const mrpt::maps::CMultiMetricMap*;
+/// Returns the maps as that function must.
 inline BuiltMetricMap builtMetricMap(const mrpt::maps::CMultiMetricMap& map) { return &map; }
 #endif
 
+/// Returns the maps that the function has returned.
 inline const mrpt::maps::CMultiMetricMap& asReference(const mrpt::maps::CMultiMetricMap& map) { return map; }
+/// Returns the maps that the function has returned.
 inline const mrpt::maps::CMultiMetricMap& asReference(const mrpt::maps::CMultiMetricMap* map) { return *map; }
 /// @}
 

@@ -128,6 +128,7 @@ class State {
   }
 };
 
+/// Writes members as bytes.
 class StateWriter : public State<StateWriter> {
  public:
   static constexpr bool kIsReading = false;
@@ -191,6 +192,7 @@ std::shared_ptr<T> newShared() {
   return std::make_shared<T>();
 }
 
+/// Reads members from bytes that may be damaged, and checks them.
 class StateReader : public State<StateReader> {
  public:
   static constexpr bool kIsReading = true;

@@ -11,8 +11,10 @@
 
 namespace hybrid_slam::files {
 
+/// The formats of compressed files that are read.
 enum class Compression { gzip, bzip2, zstd, lz4 };
 
+/// Returns the format's name for messages.
 const char* nameOf(Compression compression);
 
 /// Detects the compression from the first 10 bytes of a file, or all of a shorter one; empty: none.
@@ -34,6 +36,7 @@ class Decompressor {
   virtual bool decode(std::string_view& in, char*& out, size_t& room) = 0;
 };
 
+/// Makes a decompressor for one file.
 std::unique_ptr<Decompressor> makeDecompressor(Compression compression);
 
 /// Decompresses bytes in memory.

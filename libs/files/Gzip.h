@@ -7,6 +7,7 @@
 
 namespace hybrid_slam::files {
 
+/// Returns the bytes as the content of a gzip file.
 std::string gzipped(std::string_view bytes);
 
 /// Returns the content of a gzip file.

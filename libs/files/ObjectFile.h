@@ -9,6 +9,7 @@
 
 namespace hybrid_slam::files {
 
+/// An open file of objects.
 class ObjectFile {
  public:
   /// @param expected  end of the error messages: "expected a readable log"

@@ -11,6 +11,7 @@ namespace hybrid_slam::files {
 /// Largest number of cells of a grid map: MRPT computes it in 32 bits.
 constexpr size_t kMostGridMapCells = size_t{1} << 28;
 
+/// The layout of one class, in all versions that MRPT reads.
 struct ObjectLayout {
   std::string_view name;  ///< without namespace
   ObjectKind kind;

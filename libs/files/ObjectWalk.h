@@ -41,6 +41,7 @@ struct ObjectCut : ObjectError {
   using ObjectError::ObjectError;
 };
 
+/// A walk through one object after another, within the limits that MRPT itself does not check.
 class ObjectWalk {
  public:
   static constexpr size_t kMostBytes = size_t{1} << 26;  ///< of an object of a log

@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::files {
 
+/// An empty folder of a new name.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((std::filesystem::temp_directory_path() / "hybrid-slam-XXXXXX").string()) {

@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::files {
 
+/// A pose and its time.
 struct StampedPose {
   double timestamp = 0;        ///< s
   mrpt::math::TPose2D pose{};  ///< of the robot, in the frame of the trajectory; m, rad

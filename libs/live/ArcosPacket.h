@@ -20,6 +20,7 @@ using Payload = std::vector<uint8_t>;
 
 /// Checksum of a payload: sum of big-endian words, an odd last byte xored.
 uint16_t checksum(const Payload& payload);
+/// Returns the packet of a payload, with its header and checksum.
 std::string encode(const Payload& payload);
 
 /// The odometry of a standard SIP, in raw units.

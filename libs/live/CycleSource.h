@@ -13,6 +13,7 @@ using CycleSink = std::function<void(const mrpt::obs::CSensoryFrame::Ptr&)>;
 /// Called at least every 0.1 s; true stops the source.
 using StopCheck = std::function<bool()>;
 
+/// Where cycles come from.
 class CycleSource {
  public:
   virtual ~CycleSource() = default;

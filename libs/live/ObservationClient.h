@@ -13,8 +13,10 @@ namespace hybrid_slam::live {
 
 struct Message;
 
+/// The client's side of a connection.
 class ObservationClient : public CycleSource {
  public:
+  /// Where the server is, and how long to wait for it.
   struct Settings {
     std::string host = "127.0.0.1";
     uint16_t port = 0;

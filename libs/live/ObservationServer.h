@@ -24,6 +24,7 @@ namespace hybrid_slam::live {
 /// occupies a place that another may need. So is one that sends over 1 MiB.
 class ObservationServer {
  public:
+  /// What a client may cost the server.
   struct Limits {
     size_t queue = 50;  ///< cycles queued per client
     size_t clients = 250;

@@ -19,12 +19,14 @@
 
 namespace hybrid_slam::live {
 
+/// What a message says.
 enum class MessageKind : uint8_t {
   cycle = 1,      ///< the observations of one cycle, in order of time
   heartbeat = 2,  ///< no data; the server is alive
   end = 3,        ///< the replayed log has ended
 };
 
+/// A message of the server.
 struct Message {
   MessageKind kind = MessageKind::heartbeat;
   uint64_t session = 0;  ///< random, drawn at server start: a new session means restarted odometry
@@ -39,7 +41,9 @@ struct WireError : std::runtime_error {
 
 constexpr size_t kMaxPayload = size_t{16} << 20;  ///< bytes
 
+/// Returns the bytes of a message, with its length and checksum.
 std::string encode(const Message& message);
+/// Returns the payload of a cycle.
 std::string serialise(const mrpt::obs::CSensoryFrame& frame);
 /// @throws WireError for anything but one whole CSensoryFrame of observations; no memory is
 /// taken for lengths that the bytes only claim

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam::live {
 
+/// A rawlog as a source of cycles.
 class RawlogPlayer : public CycleSource {
  public:
   /// @param cycleRate   cycles per second of log time; 0: one cycle per scan

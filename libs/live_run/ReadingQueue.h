@@ -12,6 +12,7 @@
 
 namespace hybrid_slam::live {
 
+/// A reading that waits for the filter.
 struct QueuedReading {
   readings::Reading reading;  ///< its motion is since the previous filtered scan
   size_t skipped = 0;         ///< scans skipped before it

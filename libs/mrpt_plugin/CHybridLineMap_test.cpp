@@ -7,6 +7,7 @@
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/poses/CPose3D.h>
@@ -231,6 +232,32 @@ TEST(CHybridLineMap, IsDrawnUnlessSwitchedOff) {
   EXPECT_FALSE(map.getVisualization()->getByClass<mrpt::opengl::CSetOfLines>());
   map.clear();
   EXPECT_TRUE(map.isEmpty());
+}
+
+/// As in a .3Dscene file of rbpf-slam, which a viewer without the plugin reads.
+TEST(CHybridLineMap, IsDrawnTheSameInAScene) {
+  const CHybridLineMap map = someMap();
+  mrpt::opengl::COpenGLScene scene;
+  scene.insert(map.getVisualization());
+  const auto read = std::dynamic_pointer_cast<mrpt::opengl::COpenGLScene>(objectOf(bytesOf(scene)));
+  ASSERT_TRUE(read);
+  const auto drawn = read->getByClass<mrpt::opengl::CSetOfLines>();
+  ASSERT_TRUE(drawn);
+  const mrpt::img::TColor color = drawn->getColor_u8();
+  EXPECT_TRUE(color.G > color.R + 100 && color.G > color.B + 100);  // green
+  const std::vector<DatabaseLine>& lines = map.database().lines();
+  ASSERT_GE(lines.size(), 4u);
+  ASSERT_EQ(drawn->getLineCount(), lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) {
+    double x0 = 0, y0 = 0, z0 = 1, x1 = 0, y1 = 0, z1 = 1;
+    drawn->getLineByIndex(i, x0, y0, z0, x1, y1, z1);
+    EXPECT_NEAR(x0, lines[i].start.x, 1e-4);
+    EXPECT_NEAR(y0, lines[i].start.y, 1e-4);
+    EXPECT_NEAR(x1, lines[i].end.x, 1e-4);
+    EXPECT_NEAR(y1, lines[i].end.y, 1e-4);
+    EXPECT_EQ(z0, 0);
+    EXPECT_EQ(z1, 0);
+  }
 }
 
 }  // namespace

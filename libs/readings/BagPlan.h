@@ -22,6 +22,7 @@ struct BagOptions {
 
 /// Contents of a bag, from one pass.
 struct BagContents {
+  /// A topic and what was found in it.
   struct Entry {
     bags::Topic topic;
     size_t messages = 0, broken = 0;
@@ -45,6 +46,7 @@ BagContents contentsOf(
 /// Each scan topic is a laser. Its pose follows from the first transforms between the robot's base and the
 /// scan's frame: a laser does not move on the robot.
 struct BagPlan {
+  /// A laser that is used.
   struct Laser {
     std::string topic;
     mrpt::math::TPose3D pose;  ///< on the robot

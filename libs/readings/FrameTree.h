@@ -13,6 +13,7 @@
 
 namespace hybrid_slam::readings {
 
+/// Returns a pose of ROS as one of MRPT.
 mrpt::poses::CPose3D poseOf(const bags::FramePose& pose);
 
 /// Keeps the parent and the pose of each frame's first transform.

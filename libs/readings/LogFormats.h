@@ -12,6 +12,7 @@
 
 namespace hybrid_slam::readings {
 
+/// A format of text logs.
 struct LogFormat {
   const char* key;   ///< of option --format
   const char* name;  ///< for the user
@@ -40,6 +41,7 @@ const LogFormat* formatOf(std::string_view line);
 /// Returns the format with this key (--format); null if there is none.
 const LogFormat* formatNamed(std::string_view key);
 
+/// Makes a parser of one format, for LogFormat::makeParser.
 template <class Parser>
 std::unique_ptr<LogParser> makeParser(const LogParserOptions& options) {
   return std::make_unique<Parser>(options);

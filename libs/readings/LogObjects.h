@@ -17,6 +17,7 @@
 
 namespace hybrid_slam::readings {
 
+/// What a log contains, for the user.
 struct LogSummary {
   std::string format;  ///< for the user
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;

@@ -29,6 +29,7 @@ struct OdometryRecord {
   mrpt::math::TPose2D pose;
 };
 
+/// A scan as it is logged.
 struct LaserRecord {
   std::string label;          ///< the record's name in the log
   double time = 0;            ///< s
@@ -50,6 +51,7 @@ struct OtherRecord {
 /// `monostate`: no record (blank line, comment, parameter).
 using LogRecord = std::variant<std::monostate, OtherRecord, OdometryRecord, LaserRecord>;
 
+/// What the rows of a log leave open.
 struct LogParserOptions {
   LogTime time = LogTime::ipc;
   double period = 1;                  ///< s between two scans of a DP-SLAM log

@@ -124,6 +124,7 @@ std::optional<mrpt::math::TPose2D> incrementOf(const mrpt::serialization::CSeria
 /// Returns whether an object is an action that should have odometry.
 bool isAction(const mrpt::serialization::CSerializable::Ptr& object);
 
+/// Returns whether all coordinates are finite.
 bool isFinite(const mrpt::math::TPose2D& pose);
 /// Returns whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);

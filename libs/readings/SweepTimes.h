@@ -39,6 +39,7 @@ struct SweepTime {
   double seconds = 0;  ///< from the first beam to the last; NaN for a text that is not a number
 };
 
+/// Returns a comment that states a sweep time, for a log.
 mrpt::obs::CObservationComment::Ptr commentOf(const SweepTime& sweep, mrpt::Clock::time_point timestamp);
 /// Returns the sweep time that a comment states; empty for other observations.
 std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation);

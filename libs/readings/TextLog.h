@@ -16,6 +16,7 @@
 
 namespace hybrid_slam::readings {
 
+/// How to convert a text log.
 struct LogConversionOptions : LogParserOptions {
   const LogFormat* format = nullptr;  ///< null: detected from the content
   /// Readings at or beyond this (m) are no returns. Default: 80 m, because a SICK laser in 80 m mode reports

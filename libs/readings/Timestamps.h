@@ -7,6 +7,7 @@
 
 namespace hybrid_slam::readings {
 
+/// Returns whether an observation has a time.
 inline bool isStamped(const mrpt::obs::CObservation& observation) {
   return observation.timestamp != INVALID_TIMESTAMP;
 }

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam::run {
 
+/// The pixels of a picture.
 struct GreyPicture {
   size_t width = 0, height = 0;
   std::vector<uint8_t> grey;        ///< 0 black .. 255 white, row by row from the top; mean of colours

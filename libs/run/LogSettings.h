@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::run {
 
+/// A setting that is derived from the log, and why.
 struct LogSetting {
   std::string section, key, value;
   std::string reason;  ///< the evidence in the log

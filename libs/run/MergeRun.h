@@ -6,6 +6,7 @@
 
 namespace hybrid_slam::run {
 
+/// What to merge, and where to.
 struct MergeOptions {
   std::string older, newer;  ///< files or folders (MapPartFile.h)
   std::string output;        ///< folder
@@ -13,6 +14,7 @@ struct MergeOptions {
   int threads = 0;           ///< 0: all cores
 };
 
+/// What has become of a merge.
 struct MergeOutcome {
   bool isMerged = false;  ///< false: no file was written
   std::string summary;    ///< the figures, one line

@@ -16,6 +16,7 @@ std::string motionModelSection(const MotionModelOptions& model, const std::vecto
 /// Header and row of the table of iterations: number, log-likelihood per update, then mean_d, mean_t, var_d,
 /// var_t of D, C and T.
 std::string motionModelTableHead();
+/// The row of an iteration under this head; 0 is the prior.
 std::string motionModelTableRow(int iteration, double logLikelihood, const MotionModelOptions& model);
 
 }  // namespace hybrid_slam::run

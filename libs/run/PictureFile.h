@@ -10,6 +10,7 @@ namespace hybrid_slam::run {
 
 /// @throws std::runtime_error that says what is wrong
 GreyPicture decodePgm(const std::string& bytes);
+/// Decodes a PNG file of at most 2^28 pixels. @throws std::runtime_error that says what is wrong
 GreyPicture decodePng(const std::string& bytes);
 
 /// @throws std::runtime_error for no pixels, more than 2^28, or more than 2^20 per side

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam::run {
 
+/// The walls of one file, which must be of the size of a building.
 class PlanLines {
  public:
   /// @param file  named in errors

@@ -4,6 +4,7 @@
 
 namespace hybrid_slam::run {
 
+/// CPU time of this program so far, in all threads (s).
 double cpuSeconds();
 
 /// Peak resident memory of this program (MB); getrusage would include the parent's.

@@ -6,6 +6,7 @@
 
 namespace hybrid_slam::run {
 
+/// How map_server reads grey values: as three states, as probabilities, or as the cells' values themselves.
 enum class RosMapMode { trinary, scale, raw };
 
 /// Contents of a map.yaml.

@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::run {
 
+/// Writes the names of the columns of steps.csv.
 void writeStepsHeader(std::ostream& out);
 /// @param timestamp  s; @param milliseconds  duration of the update
 void writeStep(std::ostream& out, double timestamp, const FilterStep& step, double milliseconds);
@@ -20,7 +21,9 @@ void writeStep(std::ostream& out, double timestamp, const FilterStep& step, doub
 /// @param table  header, and a row for each update
 std::string withLoops(const std::string& table, const std::vector<LoopClosure>& loops);
 
+/// Writes the names of the columns of particles.csv.
 void writeParticlesHeader(std::ostream& out);
+/// Writes a row for each particle of an update. @param timestamp  s
 void writeParticles(std::ostream& out, double timestamp, const FilterStep& step);
 
 }  // namespace hybrid_slam::run

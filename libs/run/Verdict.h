@@ -16,6 +16,7 @@ struct DoubtfulPlace {
   double length = 0;        ///< m of path
 };
 
+/// The verdict on a map, with its reasons (doc/verdict.md).
 struct Verdict {
   enum class Level { consistent, doubtful, lost };
 

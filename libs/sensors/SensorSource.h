@@ -13,6 +13,7 @@
 
 namespace hybrid_slam::sensors {
 
+/// Each sensor runs in its own thread.
 class SensorSource : public live::CycleSource {
  public:
   /// Every section with a `driver` is a sensor, unless it has `rawlog-grabber-ignore = true`.

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam {
 
+/// A circle and how well points determine it.
 struct FittedCircle {
   mrpt::math::TPoint2D centre;  ///< m
   double radius = 0;            ///< m

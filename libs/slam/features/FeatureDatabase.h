@@ -10,6 +10,7 @@
 
 namespace hybrid_slam {
 
+/// A feature of the map, merged from its observations.
 struct MapFeature : PointFeature {
   int count = 1;     ///< number of observations, including the first
   int inserted = 0;  ///< update that inserted it

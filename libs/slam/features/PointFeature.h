@@ -10,6 +10,7 @@
 
 namespace hybrid_slam {
 
+/// The kinds of features. Only those of the same kind are compared.
 enum class FeatureKind {
   concaveCorner,  ///< of a room, seen from inside
   convexCorner,   ///< of a building, seen from outside
@@ -18,6 +19,7 @@ enum class FeatureKind {
   wallEnd         ///< of a wall at an opening
 };
 
+/// A feature with its uncertainty, in a scan or in the map.
 struct PointFeature {
   FeatureKind kind = FeatureKind::concaveCorner;
   mrpt::math::TPoint2D position;                             ///< m, in the feature's frame

@@ -7,6 +7,7 @@
 
 namespace hybrid_slam {
 
+/// A particle filter that is fed with readings.
 class Filter : public FilterView {
  public:
   /// Processes one reading: accumulates the odometry and, if the robot has moved or turned far enough,

@@ -17,6 +17,7 @@
 
 namespace hybrid_slam {
 
+/// A particle, for display.
 struct WeightedPose {
   mrpt::math::TPose2D pose;
   double logWeight;

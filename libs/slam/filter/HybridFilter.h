@@ -14,6 +14,7 @@ namespace hybrid_slam {
 class StateReader;
 class StateWriter;
 
+/// The filter with grids and lines. It updates the particles in `[particle_filter] threads`.
 class HybridFilter : public Filter {
  public:
   /// @throws InputError for incompatible settings

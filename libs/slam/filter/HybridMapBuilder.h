@@ -10,6 +10,7 @@
 
 namespace hybrid_slam {
 
+/// The filter for programs that are written for MRPT's map builders.
 class HybridMapBuilder : public mrpt::slam::CMetricMapBuilder, public HybridFilter {
  public:
   explicit HybridMapBuilder(const FilterConfiguration& configuration);

@@ -16,6 +16,7 @@
 
 namespace hybrid_slam {
 
+/// All particles, with the steps that change them together.
 class ParticleSet : public MrptParticles {
  public:
   /// @param profiler  records the times of sampling and resampling; must outlive the set

@@ -9,6 +9,7 @@
 
 namespace hybrid_slam {
 
+/// A grid that is made of scans when it is asked for.
 class PathGrid {
  public:
   explicit PathGrid(const GridOptions& options);

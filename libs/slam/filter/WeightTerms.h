@@ -22,6 +22,7 @@ class WeightTerms {
         lineLikelihood_(c.lineWeight, c.association, c.database.minCount, c.improved),
         features_(c.features) {}
 
+  /// The terms at one pose.
   struct Value {
     LineWeight line;
     double logFeatures = 0;

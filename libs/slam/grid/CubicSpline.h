@@ -7,6 +7,7 @@ namespace hybrid_slam {
 /// Four floats in one SIMD register.
 using Float4 = float __attribute__((vector_size(16)));
 
+/// Sum of the four elements.
 inline float sum(Float4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 /// The weights of the samples at -1, 0, 1 and 2 for position t in [0, 1), and their derivatives with respect

@@ -14,6 +14,7 @@ struct BeamShares {
   double explained = 0;     ///< end at a wall and pass through none
   double contradicted = 0;  ///< end where the map is free, or pass through a wall
 };
+/// Compares a scan at a pose (map frame) with the map.
 BeamShares beamShares(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid);
 
 /// Searches an unchanging map for a scan. The constructor costs a pass over the map.
@@ -22,6 +23,7 @@ class GlobalSearch {
   /// @param around  centre of the search (m, map frame): cells within 500 m are searched
   GlobalSearch(const OccupancyGrid& grid, const mrpt::math::TPoint2D& around);
 
+  /// A pose where the scan may have been taken.
   struct Place {
     mrpt::math::TPose2D pose;  ///< map frame
     double score;              ///< share of the beams that end at walls, those near a wall count half

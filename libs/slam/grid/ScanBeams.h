@@ -16,6 +16,7 @@ namespace hybrid_slam {
 /// The valid beams of a robot's lasers in the robot frame; only the rotation by its heading remains to be
 /// computed for a particle.
 struct ScanBeams {
+  /// A valid beam.
   struct Ray {
     double dirX, dirY;  ///< unit vector, robot frame
     double range;       ///< m

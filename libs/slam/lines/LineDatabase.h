@@ -28,6 +28,7 @@ struct LineDatabaseOptions : Options {
 /// Largest number of updates of a run, far below the greatest int.
 constexpr int kMostUpdates = 1'000'000'000;
 
+/// A line of the map, merged from its observations.
 struct DatabaseLine : LineSegment {
   int count = 1;     ///< number of observations, including the first
   int inserted = 0;  ///< update that inserted it

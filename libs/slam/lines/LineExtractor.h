@@ -24,6 +24,7 @@ struct LineExtractor {
 
 extern const LineExtractor kSplitExtractor, kIncrementalExtractor, kRegressionExtractor, kRansacExtractor,
     kHoughExtractor, kEmExtractor;
+/// All methods, the default first.
 inline std::vector<const LineExtractor*> lineExtractors() {
   return {&kSplitExtractor,  &kIncrementalExtractor, &kRegressionExtractor,
           &kRansacExtractor, &kHoughExtractor,       &kEmExtractor};

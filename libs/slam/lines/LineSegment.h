@@ -39,6 +39,7 @@ LineSegment makeSegment(double rho, double theta, const mrpt::math::TPoint2D& st
 
 /// Transforms segments from `frame` to the frame that `frame` is given in (sensor -> robot -> map).
 LineSegment transformed(const LineSegment& segment, const mrpt::math::TPose2D& frame);
+/// Transforms each segment in the same way.
 std::vector<LineSegment> transformed(std::vector<LineSegment> segments, const mrpt::math::TPose2D& frame);
 
 /// Normalises to rho >= 0 and theta in (-pi, pi]: (rho, theta) and (-rho, theta + pi) are the same line.

@@ -46,6 +46,7 @@ struct DirectionMatch {
 /// direction.
 DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options);
 
+/// w_line at one heading.
 struct LineWeight {
   double value = 1;  ///< in [floor, 1]; 1 if no line was observed or the database has no direction yet
   double slope = 0;  ///< derivative of value with respect to the heading, 1/rad; 0 at the floor

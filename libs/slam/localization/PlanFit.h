@@ -10,6 +10,7 @@
 
 namespace hybrid_slam {
 
+/// Where points lie in a plan.
 struct PlanFit {
   mrpt::math::TPose2D pose;         ///< of the points' frame in the scaled plan (m, rad)
   double scale = 1;                 ///< by which the coordinates of the plan are multiplied

@@ -32,6 +32,7 @@ class PlanSearch {
   /// Searches with the first 240 scans that are 0.5 m or 20 deg apart.
   void process(const mrpt::math::TPose2D& odometry, const Scans& scans);
 
+  /// The robot in the plan.
   struct Found {
     double scale;              ///< of the plan
     mrpt::math::TPose2D pose;  ///< current pose of the robot, in the scaled plan

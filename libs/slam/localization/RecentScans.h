@@ -10,6 +10,7 @@
 
 namespace hybrid_slam {
 
+/// A scan and where it was taken.
 struct RecentScan {
   mrpt::math::TPose2D pose;  ///< odometry, corrected by scan matching; frame of the oldest scan ever added
   PreparedScan scan;

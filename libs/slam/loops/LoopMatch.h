@@ -23,12 +23,14 @@ struct Agreement {
   }
 };
 
+/// The best place of one local map in another.
 struct LoopMatch {
   mrpt::math::TPose2D pose;  ///< of the newer map's frame in the older's
   Agreement agreement;
   double second = 0;  ///< highest score elsewhere in the window, as a fraction of this one's
 };
 
+/// Compares two local maps. @param pose  of the newer map's frame in the older's
 Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const mrpt::math::TPose2D& pose);
 
 /// Information of the beams of the newer map on its pose in the older map.

@@ -24,12 +24,14 @@ struct PoseEdge {
   }
 };
 
+/// Poses and what is known about the motions between them.
 struct PoseGraph {
   std::vector<mrpt::math::TPose2D> poses;  ///< map frame; the first stays
   std::vector<PoseEdge> motions;           ///< trusted
   std::vector<PoseEdge> loops;             ///< may be false
 };
 
+/// The most likely poses, and the loops that they agree with.
 struct OptimizedGraph {
   std::vector<mrpt::math::TPose2D> poses;
   std::vector<double> loopWeights;  ///< of each loop edge: 0 if it is false, else 1; two of 0: no solution

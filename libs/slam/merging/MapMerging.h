@@ -15,6 +15,7 @@ struct MapPart {
   std::vector<Scans> scans;               ///< of each update; empty: not known
 };
 
+/// The map of both.
 struct MergedMap {
   mrpt::math::TPose2D frame;                      ///< of the newer map in that of the older (m, rad)
   ScanMap map;                                    ///< in the frame and the cells of the older map

@@ -68,6 +68,7 @@ struct MotionDistribution {
   mrpt::math::TPose2D mean;
   Eigen::Matrix3d covariance;
 };
+/// The motion model from a pose. @param odometry  motion (m, rad), in the robot frame at `start`
 MotionDistribution motionDistribution(const mrpt::math::TPose2D& start, const mrpt::math::TPose2D& odometry,
                                       const MotionModelOptions& options);
 

@@ -17,12 +17,14 @@ struct Expectation {
 };
 using EStep = std::function<Expectation(const MotionModelOptions& model)>;
 
+/// A model and how likely it makes the log.
 struct EmIteration {
   int number = 0;  ///< 0: the prior
   MotionModelOptions model;
   double logLikelihood = 0;
 };
 
+/// The result of learning.
 struct LearntMotionModel {
   EmIteration best;          ///< highest likelihood
   bool isConverged = false;  ///< false: the likelihood was still rising

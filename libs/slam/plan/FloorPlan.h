@@ -30,6 +30,7 @@ struct Opening {
   mrpt::math::TPoint2D start, end;  ///< m, map frame
 };
 
+/// Walls and openings, in the map frame.
 struct FloorPlan {
   std::vector<PlanWall> walls;
   std::vector<Opening> openings;

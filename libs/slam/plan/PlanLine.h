@@ -6,6 +6,7 @@
 
 namespace hybrid_slam {
 
+/// A wall without thickness.
 struct PlanLine {
   mrpt::math::TPoint2D start, end;  ///< m, frame of the plan
 };

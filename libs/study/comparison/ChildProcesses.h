@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// A command to run.
 struct ChildCommand {
   std::vector<std::string> arguments;  ///< program first; searched in PATH if it has no slash
   std::filesystem::path messages;      ///< file for standard error; standard output is discarded

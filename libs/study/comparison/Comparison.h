@@ -13,6 +13,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// A run and where its results go.
 struct ComparisonRun {
   Run run;
   RunFolder folder;

@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// The figures of a run.
 enum class Figure {
   transMean,    ///< relations metric, translation
   rotMean,      ///< relations metric, rotation
@@ -34,6 +35,7 @@ enum class Figure {
 };
 constexpr size_t kFigures = 19;
 
+/// How a figure is written.
 struct FigureName {
   Figure figure;
   const char* column;  ///< in results.csv
@@ -55,6 +57,7 @@ struct RunResult {
   const std::optional<double>& operator[](Figure f) const { return figures[static_cast<size_t>(f)]; }
 };
 
+/// Returns the status as in results.csv.
 const char* statusName(RunResult::Status status);
 
 /// Formats a number for tables: 6 significant digits, empty if missing.

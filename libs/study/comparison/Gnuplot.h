@@ -7,6 +7,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// A plot to draw.
 struct Plot {
   std::string description;    ///< alternative text, and for scripts/report-figure.py
   int width = 0, height = 0;  ///< pixels

@@ -49,6 +49,7 @@ ParticleCount parseParticleCount(const std::string& text);
 std::vector<Group> makeGroups(const std::vector<std::string>& methods, const std::vector<Variant>& variants,
                               const std::vector<ParticleCount>& particles);
 
+/// One run of a group.
 struct Run {
   size_t group = 0;
   int seed = 0;

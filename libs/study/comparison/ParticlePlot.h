@@ -12,6 +12,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// A row of particles.csv.
 struct WeightedParticle {
   mrpt::math::TPose2D pose;
   double logWeight = 0;

@@ -10,8 +10,10 @@
 
 namespace hybrid_slam::comparison {
 
+/// Returns the folder of a run.
 RunFolder folderOf(const ReportInput& input, const RunResult& run);
 
+/// Returns the finished runs of a group, in the order of the results.
 std::vector<const RunResult*> finishedRuns(const ReportInput& input, size_t group);
 
 /// The figure that ranks the runs; empty without a reference and relations.

@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// What the report is about.
 struct ReportInput {
   std::string command;  ///< command line
   std::string version;

@@ -6,6 +6,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// The error of the motion from the first to the last pose.
 struct ReturnError {
   double translation = 0;  ///< m
   double rotation = 0;     ///< rad, in [0, pi]

@@ -15,6 +15,7 @@ namespace hybrid_slam::comparison {
 constexpr size_t kSpreads = 5;
 using Spread = std::array<double, kSpreads>;
 
+/// The spread at one update.
 struct SpreadStep {
   double timestamp = 0;  ///< s
   Spread spread{};

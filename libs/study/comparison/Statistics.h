@@ -14,9 +14,11 @@ namespace hybrid_slam::comparison {
 /// @param values  at least one
 double interpolatedQuantile(std::vector<double> values, double p);
 
+/// The median, and the quartiles around it.
 struct Quartiles {
   double lower = 0, median = 0, upper = 0;
 };
+/// Interpolates linearly between order statistics (type 7 of Hyndman and Fan).
 Quartiles quartiles(const std::vector<double>& values);
 
 /// [low, high], both ends included.

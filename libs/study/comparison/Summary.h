@@ -30,6 +30,7 @@ struct PairedComparison {
   double wilcoxonP = 1, signP = 1;   ///< two-sided
 };
 
+/// The summary of one group.
 struct GroupSummary {
   size_t done = 0, failed = 0;
   /// Number of successes among finished and failed runs: a failed run is not a success. Empty without a
@@ -51,6 +52,7 @@ std::vector<GroupSummary> groupSummaries(size_t groups, const std::vector<RunRes
 /// One row per group and figure.
 void writeSummary(const std::vector<Group>& groups, const std::vector<GroupSummary>& summaries,
                   std::ostream& out);
+/// Returns the same as a tree.
 nlohmann::ordered_json summaryJson(const std::vector<Group>& groups,
                                    const std::vector<GroupSummary>& summaries);
 

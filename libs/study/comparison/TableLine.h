@@ -8,6 +8,7 @@
 
 namespace hybrid_slam::comparison {
 
+/// Returns the cells of a row; a comma at the end ends the last one.
 inline std::vector<std::string> splitAtCommas(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream in(line);

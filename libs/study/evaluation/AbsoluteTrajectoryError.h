@@ -13,6 +13,7 @@
 
 namespace hybrid_slam::evaluation {
 
+/// The errors of a trajectory after its alignment.
 struct AteErrors {
   size_t pairs = 0;                 ///< poses with a reference pose
   ErrorStatistics translation;      ///< m

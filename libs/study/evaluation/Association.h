@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::evaluation {
 
+/// An estimated pose and its reference.
 struct PosePair {
   double timestamp = 0;                         ///< of the estimate, s
   mrpt::math::TPose2D estimate{}, reference{};  ///< each in its trajectory's frame; m, rad

@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::evaluation {
 
+/// How the errors compare with the covariances.
 struct NormalizedErrors {
   size_t pairs = 0;     ///< poses with a reference pose
   double mean = 0;      ///< of e^T P^-1 e over (x, y, phi): 3 if the covariances are right

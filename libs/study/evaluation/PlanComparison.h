@@ -46,6 +46,7 @@ mrpt::math::TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::ve
 PlanErrors comparePlans(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth,
                         const std::vector<mrpt::math::TPoint2D>& ends, const AgreementOptions& options = {});
 
+/// Moves walls rigidly.
 std::vector<PlanLine> moved(std::vector<PlanLine> walls, const mrpt::math::TPose2D& by);
 
 }  // namespace hybrid_slam::evaluation

@@ -24,6 +24,7 @@ struct Relation {
 ///         an angle beyond 1e7 rad.
 std::vector<Relation> loadRelations(const std::string& file);
 
+/// The errors over all relations.
 struct RelationErrors {
   size_t relations = 0;         ///< given
   size_t used = 0;              ///< relations with a pose at both times

@@ -16,6 +16,7 @@ struct RpeDelta {
   Unit unit = Unit::metres;
 };
 
+/// The errors over all pairs.
 struct RpeErrors {
   size_t pairs = 0;             ///< pose pairs
   ErrorStatistics translation;  ///< m

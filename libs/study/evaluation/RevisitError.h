@@ -11,11 +11,13 @@
 
 namespace hybrid_slam::evaluation {
 
+/// When a scan counts as a revisit.
 struct RevisitOptions {
   double distance = 3;  ///< m; largest distance between the poses of two scans at one place
   double path = 20;     ///< m; least distance driven between the two
 };
 
+/// The errors over all revisits.
 struct RevisitErrors {
   size_t scans = 0;       ///< with a pose
   size_t revisits = 0;    ///< of these, with beams and an earlier scan of the place

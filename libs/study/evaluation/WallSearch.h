@@ -20,8 +20,10 @@ struct WallPoint {
 /// Points in the middle of pieces of a wall of `step` (m).
 std::vector<WallPoint> pointsOn(const std::vector<PlanLine>& walls, double step);
 
+/// The walls of one plan, to be searched.
 class WallSearch {
  public:
+  /// A wall near a point.
   struct Found {
     double offset;  ///< m, distance
     double angle;   ///< rad, difference of the directions, 0..pi/2

@@ -21,10 +21,12 @@ namespace hybrid_slam::simulation {
 
 class BuildingPlan;
 
+/// The scanners that are simulated.
 enum class LaserType { lms100, lms200 };
 
 /// Data sheet values.
 struct LaserSpec {
+  /// A resolution and how fast the scanner is at it.
   struct Mode {
     double resolutionDeg;  ///< between beams
     double rate;           ///< scans/s, at most
@@ -38,6 +40,7 @@ struct LaserSpec {
   double divergence;   ///< rad, full angle of a beam, which hits both sides of an edge
 };
 
+/// Returns the data sheet of a scanner.
 const LaserSpec& laserSpec(LaserType type);
 
 /// INI section [laser].

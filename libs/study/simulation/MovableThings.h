@@ -20,6 +20,7 @@ struct PlacedThing {
   std::vector<Wall> walls;  ///< in the frame of the floor plan (m)
 };
 
+/// Returns the walls of closed doors and of boxes.
 std::vector<Wall> wallsOf(const std::vector<PlacedThing>& things);
 
 /// Doors that are open or closed, and boxes that stand at one of several places, in each session.

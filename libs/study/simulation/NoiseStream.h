@@ -6,6 +6,7 @@
 
 namespace hybrid_slam::simulation {
 
+/// What the noise is of. Each has its own random streams.
 enum class NoiseSource : uint64_t { laser = 1, odometry = 2, doors = 3, boxes = 4 };
 
 /// @param session  1 or more

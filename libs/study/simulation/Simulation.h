@@ -34,6 +34,7 @@ struct SimulatedLog {
   double scanTime = 0;                ///< s, from the first beam to the last
 };
 
+/// The two forms of rawlogs: single observations, or pairs of an action and observations.
 enum class RawlogForm { observations, pairs };
 
 /// INI section [simulation].

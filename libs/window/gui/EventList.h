@@ -12,6 +12,7 @@
 
 namespace hybrid_slam::window {
 
+/// The list; a long event is shown whole under the mouse pointer.
 class EventList : public wxListBox {
  public:
   /// @param help  for "What is this?"

@@ -10,6 +10,7 @@
 
 namespace hybrid_slam::window {
 
+/// A page and its entry in the menu.
 struct HelpPage {
   const char* entry;  ///< of the menu, with its key
   const char* page;

@@ -18,6 +18,7 @@
 
 namespace hybrid_slam::window {
 
+/// The page of the tab *Live*.
 class LivePage : public wxPanel {
  public:
   explicit LivePage(wxWindow* parent);

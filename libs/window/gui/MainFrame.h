@@ -18,6 +18,7 @@
 
 namespace hybrid_slam::window {
 
+/// The window.
 class MainFrame : public wxFrame {
  public:
   MainFrame();

@@ -24,6 +24,7 @@ struct SharedView {
   Layers layers;
 };
 
+/// A pane; all panes of a page share their view.
 class MapCanvas : public mrpt::gui::CWxGLCanvasBase {
  public:
   /// @param title      shown while there is no map, in lines of at most 40 letters

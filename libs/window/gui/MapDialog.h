@@ -11,6 +11,7 @@
 
 namespace hybrid_slam::window {
 
+/// The dialog *Map or floor plan*.
 class MapDialog : public wxDialog {
  public:
   MapDialog(wxWindow* parent, const MapChoice& now);

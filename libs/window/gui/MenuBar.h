@@ -41,6 +41,7 @@ enum MenuCommand {
   kFirstPage  ///< of HelpPages.h; the others follow
 };
 
+/// Makes the menu bar, which its frame will own.
 wxMenuBar* makeMenuBar();
 
 }  // namespace hybrid_slam::window

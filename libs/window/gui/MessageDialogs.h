@@ -18,11 +18,13 @@ inline wxString shownText(const std::string& message,
   return wxString::FromUTF8(files::withInstalledPages(message, bin));
 }
 
+/// Shows an error until it is confirmed.
 inline void showError(wxWindow* parent, const std::string& message,
                       const std::filesystem::path& bin = files::programFolder()) {
   wxMessageDialog(parent, shownText(message, bin), "hybrid-slam: error", wxOK | wxICON_ERROR).ShowModal();
 }
 
+/// Shows a message until it is confirmed.
 inline void showNotice(wxWindow* parent, const std::string& message,
                        const std::filesystem::path& bin = files::programFolder()) {
   wxMessageDialog(parent, shownText(message, bin), "hybrid-slam", wxOK | wxICON_INFORMATION).ShowModal();

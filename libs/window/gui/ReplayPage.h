@@ -18,6 +18,7 @@
 
 namespace hybrid_slam::window {
 
+/// The page of the tab *Replay*.
 class ReplayPage : public wxPanel {
  public:
   explicit ReplayPage(wxWindow* parent);

@@ -13,6 +13,7 @@ namespace hybrid_slam::window {
 
 /// State of a replay after some scans.
 struct Checkpoint {
+  /// The state of one method.
   struct Lane {
     std::string run;  ///< FilterRun::state
     FilterWatch watch;

@@ -41,6 +41,7 @@ struct UncertaintyEllipse {
   double direction = 0;               ///< rad, of the major axis
 };
 
+/// What a window shows of a filter.
 struct FilterSnapshot {
   std::string method;  ///< as in `--method`
   size_t updates = 0;

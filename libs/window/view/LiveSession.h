@@ -15,6 +15,7 @@
 
 namespace hybrid_slam::window {
 
+/// What a window shows of a live run.
 struct LiveSnapshot {
   enum class State { running, finishing, done, failed };
   State state = State::running;

@@ -8,6 +8,7 @@
 
 namespace hybrid_slam::window {
 
+/// A value shared by threads.
 template <class Snapshot>
 class Published {
  public:

@@ -32,6 +32,7 @@ struct Lane {
   std::exception_ptr failure;  ///< why the results could not be written
 };
 
+/// The filters and how far they have come.
 struct ReplayPass {
   using Method = run::RunOptions::Method;
   using Clock = std::chrono::steady_clock;

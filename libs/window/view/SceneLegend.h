@@ -13,6 +13,7 @@
 
 namespace hybrid_slam::window {
 
+/// A symbol and what it stands for.
 struct LegendEntry {
   enum class Symbol { area, stroke, arrow, circle, ellipse };
   std::string label;

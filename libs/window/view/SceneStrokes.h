@@ -12,10 +12,11 @@ namespace hybrid_slam::window {
 
 /// Colours, explained in doc/gui.md.
 namespace colours {
-inline const mrpt::img::TColor kRed(220, 0, 0), kGreen(0, 150, 0), kBlue(0, 70, 230), kOrange(245, 130, 0),
-    kViolet(150, 0, 180), kLightBlue(80, 180, 255), kBlack(0, 0, 0), kWhite(255, 255, 255), kGrey(80, 80, 80);
+inline const mrpt::img::TColor kRed{220, 0, 0}, kGreen{0, 150, 0}, kBlue{0, 70, 230}, kOrange{245, 130, 0},
+    kViolet{150, 0, 180}, kLightBlue{80, 180, 255}, kBlack{0, 0, 0}, kWhite{255, 255, 255}, kGrey{80, 80, 80};
 }  // namespace colours
 
+/// Returns the point ahead of another. @param heading  rad; @param distance  m
 inline mrpt::math::TPoint2D ahead(const mrpt::math::TPoint2D& from, double heading, double distance) {
   return {from.x + distance * std::cos(heading), from.y + distance * std::sin(heading)};
 }
