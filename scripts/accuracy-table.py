@@ -110,9 +110,11 @@ def particles_table(out):
         found = [runs(out / "runs" / log / variant) for variant in chosen]
         pairs += [(log, [one[seed] for one in found]) for seed in found[0] if all(seed in one for one in found)]
     finished = [of_seed for _, of_seed in pairs if all(of_seed)]  # a failed run has no time
+    if not finished:
+        return
     print("| particles | runs | lost | verdict lost | CPU time of all (s) | against 15 particles, median of the pairs |")
     print("|---|---|---|---|---|---|")
-    for k, variant in enumerate(chosen if finished else ()):
+    for k, variant in enumerate(chosen):
         lost = sum(error_or_inf(of_seed[k]) > bounds(log)[1] for log, of_seed in pairs)
         judged = sum(of_seed[k][1]["verdict"] == "lost" for of_seed in finished)
         seconds = [sum(of_seed[one][1]["cpu_s"] for of_seed in finished) for one in (k, 1)]
