@@ -18,7 +18,8 @@ import sys
 from pathlib import Path
 
 WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
-          "sheared-6": "CSIE, sheared 6 deg", "rectangle": "rectangle", "wing": "wing at 30 deg", "octagon": "octagon",
+          "sheared-6": "CSIE, sheared 6 deg", "rectangle": "rectangle",
+          "rectangle-30": "rectangle at 30 deg to the cells", "wing": "wing at 30 deg", "octagon": "octagon",
           "round": "round hall", "clutter": "clutter", "corridor": "corridor and hall", "intel": "Intel", "csail": "MIT CSAIL",
           "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
 ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first available in a world
