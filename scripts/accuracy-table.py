@@ -15,6 +15,7 @@ LOGS = {
     "csail": "MIT CSAIL",
     "fr079": "Freiburg 079",
     "mit-killian": "MIT Killian Court",
+    "mit-killian-short": "MIT Killian Court, ranges 2 cm shorter",
     "dpslam-loop5": "DP-SLAM's loop",
     "intel-lab-scans": "Intel without odometry",
     "csail-scans": "MIT CSAIL without odometry",
@@ -29,6 +30,7 @@ VARIANTS = {
     "no-lines": "no lines",
     "no-closing": "no loop closing",
     "no-adapting": "15 particles",
+    "sixty": "60 particles",
     "no-learning": "odometry not learned",
     "no-refining": "no refinement",
 }
@@ -50,20 +52,23 @@ def error_of(result):
 
 
 def runs(folder, name="errors"):
-    """Of each seed: the errors and the metrics; None for a run that failed."""
-    found = []
-    for log in sorted(folder.glob("*.log")):
+    """The errors and the metrics of each seed; None for a run that failed."""
+    found = {}
+    for log in sorted(folder.glob("*.log"), key=lambda log: int(log.stem)):
         run = log.with_suffix("")
         files = [run / f"{name}.json", run / "metrics.json"]
-        found.append([json.loads(file.read_text()) for file in files] if all(f.exists() for f in files) else None)
+        found[int(log.stem)] = [json.loads(f.read_text()) for f in files] if all(f.exists() for f in files) else None
     return found
 
 
+def error_or_inf(run):
+    return error_of(run[0]) if run else float("inf")
+
+
 def cell(log, folder, name="errors", digits=4):
-    all_runs = runs(folder, name)
-    if not all_runs:
+    errors = [error_or_inf(run) for run in runs(folder, name).values()]
+    if not errors:
         return ""
-    errors = [error_of(run[0]) if run else float("inf") for run in all_runs]
     lost = sum(error > bounds(log)[1] for error in errors)
     text = f"{statistics.median(errors):.{digits}f} ({max(errors):.{digits}f})"
     return text + (f", {lost} of {len(errors)} lost" if lost else "")
@@ -74,7 +79,7 @@ def default_table(out):
     print("|---|---|---|---|---|---|---|---|")
     for log, title in LOGS.items():
         folder = out / "runs" / log / "default"
-        done = [run for run in runs(folder) if run]
+        done = [run for run in runs(folder).values() if run]
         if not done:
             continue
         text, _, lost = cell(log, folder).partition(", ")
@@ -86,6 +91,36 @@ def default_table(out):
         seconds = statistics.median(run[1]["cpu_s"] for run in done)
         memory = statistics.median(run[1]["peak_rss_mb"] for run in done)
         print(f"| {title} | {text} | {rotation} | {lost or '0'} | {counts} | {particles} | {seconds:.1f} | {memory:.0f} |")
+
+
+def second_runs(out):
+    """Which runs of the default command were repeated with more particles, because the first was judged lost."""
+    for log, title in LOGS.items():
+        all_runs = runs(out / "runs" / log / "default")
+        seeds = [str(seed) for seed, run in all_runs.items() if run and run[1]["second_run"]]
+        if all_runs:
+            print(f"second runs, {title}: {len(seeds)} of {len(all_runs)}" + (f" (seeds {', '.join(seeds)})" if seeds else ""))
+
+
+def particles_table(out):
+    """The default number of particles against fixed ones, over the logs and seeds that all have run."""
+    chosen = ("default", "no-adapting", "sixty")
+    pairs = []  # (log, the run of each)
+    for log in LOGS:
+        found = [runs(out / "runs" / log / variant) for variant in chosen]
+        pairs += [(log, [one[seed] for one in found]) for seed in found[0] if all(seed in one for one in found)]
+    finished = [of_seed for _, of_seed in pairs if all(of_seed)]  # a failed run has no time
+    if not finished:
+        return
+    print("| particles | runs | lost | verdict lost | CPU time of all (s) | against 15 particles, median of the pairs |")
+    print("|---|---|---|---|---|---|")
+    for k, variant in enumerate(chosen):
+        lost = sum(error_or_inf(of_seed[k]) > bounds(log)[1] for log, of_seed in pairs)
+        judged = sum(of_seed[k][1]["verdict"] == "lost" for of_seed in finished)
+        seconds = [sum(of_seed[one][1]["cpu_s"] for of_seed in finished) for one in (k, 1)]
+        ratio = statistics.median(of_seed[k][1]["cpu_s"] / of_seed[1][1]["cpu_s"] for of_seed in finished)
+        cost = f"{seconds[0] / seconds[1]:.2f}, {ratio:.2f}"
+        print(f"| {VARIANTS[variant]} | {len(pairs)} | {lost} | {judged} | {seconds[0]:.0f} | {cost} |")
 
 
 def ablation_table(out):
@@ -107,7 +142,7 @@ def peer_table(out):
 
 def main():
     out = pathlib.Path(sys.argv[1])
-    for table in (peer_table, default_table, ablation_table):
+    for table in (peer_table, default_table, second_runs, ablation_table, particles_table):
         table(out)
         print()
 

@@ -3,33 +3,29 @@
 # README.md, which scripts/accuracy-table.py prints.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
 # SEEDS=10 runs from FIRST_SEED=1 on of each log and variant, JOBS at a time (all cores). A seed of everything takes about
-# 7 minutes of one core. LOGS and VARIANTS select some. Resumes after an interruption.
+# 11 minutes of one core. LOGS and VARIANTS select some; LOGS=mit-killian-short is Killian Court with 2 cm taken off all
+# ranges. The variants of a log and seed run one after the other, so that their times can be compared. Resumes after an
+# interruption.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/accuracy}
 data=${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}
 install_packages "${packages[@]}"
 build release hybrid-slam slam-eval simul-floorplan
 bin=$PWD/build/release/bin
+source scripts/worlds.sh
 public="intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans"
 read -ra logs <<<"${LOGS:-$public csie csie-30 csie-80 csie-170 csie-mixed}"
-read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting no-learning no-refining}"
-
-# Slips of the simulated loop: time (s), turn (deg), shift (m).
-slips() {
-  case $1 in
-    csie) ;;
-    csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
-    *) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
-  esac
-}
+read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting sixty no-learning no-refining}"
 
 mkdir -p "$out/logs"
 out=$(realpath "$out")
 for log in "${logs[@]}"; do
   case $log in
-    *-scans)  # without the odometry
-      zcat "$data/${log%-scans}.clf.gz" |
-        awk '$1 == "FLASER" { for (i = $2 + 3; i <= $2 + 8; ++i) $i = 0; print }' | gzip -n >"$out/logs/$log.clf.gz" ;;
+    *-scans) without_odometry "$data/${log%-scans}.clf.gz" >"$out/logs/$log.clf.gz" ;;
+    *-short)
+      zcat "$data/${log%-short}.clf.gz" |
+        awk '$1 == "FLASER" { for (i = 3; i <= $2 + 2; ++i) if ($i > 0.02 && $i < 80) $i -= 0.02 } { print }' |
+        gzip -n >"$out/logs/$log.clf.gz" ;;
     csie*)
       [[ -f $out/logs/$log.rawlog ]] ||
         "$bin/simul-floorplan" -q config-ini/simul-csie-loop.ini --set "odometry.slips=$(slips "$log")" \
@@ -44,6 +40,7 @@ options() {
     no-lines) echo "-m general" ;;
     no-closing) echo "--set loop_closing.enabled=false" ;;
     no-adapting) echo "-n 15" ;;
+    sixty) echo "-n 60" ;;
     no-learning) printf -- "--set motion_model.%s_mean_std=0 " distance drift turn ;;
     no-refining) echo "--set run.refine=0" ;;
     *) echo "error: unknown variant $1" >&2 && exit 2 ;;
@@ -53,6 +50,7 @@ options() {
 # evaluate LOG RUN: the errors of a run, JSON.
 evaluate() {
   local log=${1%-scans} odometry=()
+  log=${log%-short}
   [[ ! -f $data/$log.odom.gz ]] || odometry=(--odometry "$data/$log.odom.gz")
   case $log in
     csie*) "$bin/slam-eval" ate --trajectory "$2/trajectory.tum" --reference "$out/logs/$log.tum" ;;
@@ -84,10 +82,12 @@ run() {
 }
 export -f run options evaluate
 export out data bin
-for variant in "${variants[@]}"; do
+for ((seed = ${FIRST_SEED:-1}; seed < ${FIRST_SEED:-1} + ${SEEDS:-10}; ++seed)); do
   for log in "${logs[@]}"; do
-    mkdir -p "$out/runs/$log/$variant"
-    for ((seed = ${FIRST_SEED:-1}; seed < ${FIRST_SEED:-1} + ${SEEDS:-10}; ++seed)); do echo "$log $variant $seed"; done
+    for variant in "${variants[@]}"; do
+      mkdir -p "$out/runs/$log/$variant"
+      echo "$log $variant $seed"
+    done
   done
 done | xargs -P "${JOBS:-$(nproc)}" -L 1 bash -c 'run "$@"' run
 exec scripts/accuracy-table.py "$out"

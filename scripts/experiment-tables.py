@@ -6,7 +6,9 @@
   scripts/experiment-tables.py particles FOLDER    of scripts/sweep-particles.sh: particles.md, particles.svg in FOLDER
   scripts/experiment-tables.py frames FOLDER       of scripts/frames.sh: frames.md in FOLDER
   scripts/experiment-tables.py features FOLDER     of scripts/features.sh: features.md in FOLDER
+  scripts/experiment-tables.py parameters FOLDER   of scripts/features.sh parameters: parameters.md in FOLDER
   scripts/experiment-tables.py line-methods FOLDER of scripts/line-methods.sh: line-methods.md in FOLDER
+  scripts/experiment-tables.py line-settings FOLDER of scripts/line-methods.sh settings: line-settings.md in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 Also prints the tables. Needs gnuplot for the figures."""
@@ -19,7 +21,8 @@ import sys
 from pathlib import Path
 
 WORLDS = {"csie": "CSIE", "sheared-1": "CSIE, sheared 1 deg", "sheared-3": "CSIE, sheared 3 deg",
-          "sheared-6": "CSIE, sheared 6 deg", "rectangle": "rectangle", "wing": "wing at 30 deg", "octagon": "octagon",
+          "sheared-6": "CSIE, sheared 6 deg", "rectangle": "rectangle",
+          "rectangle-30": "rectangle at 30 deg to the cells", "wing": "wing at 30 deg", "octagon": "octagon",
           "round": "round hall", "clutter": "clutter", "corridor": "corridor and hall", "intel": "Intel", "csail": "MIT CSAIL",
           "killian": "MIT Killian Court", "fr079": "Freiburg 079", "dpslam": "DP-SLAM's loop"}
 ERRORS = ("ate_rmse_m", "trans_mean_m", "revisit_median_m")  # the first available in a world
@@ -178,6 +181,25 @@ def tiles_of(grid):
     return len(known)
 
 
+def parameters(folder):
+    """Settings of the features: successes, error, and the spread along the heading against that without features."""
+    worlds = {"csie-corridor": "log of Fig. 5", **WORLDS}
+    by_world = {w: {g.name: g for g in groups(folder / w)} for w in worlds if (folder / w / "summary.json").is_file()}
+    rows = []
+    for name in next(iter(by_world.values())):
+        cells = []
+        for world, of_name in by_world.items():
+            g = of_name[name]
+            ratio = g.along.get("against_first", {}).get("median_ratio")
+            cells.append(g.cell() + (f", {ratio:.2f} times" if ratio is not None else ""))
+        setting, _, value = name.removeprefix("hybrid-").rpartition("_")
+        rows.append([{"hybrid": "no features", "default": "features"}.get(value, f"`{setting}` {value}")] + cells)
+    text = "<!-- made by: scripts/features.sh parameters -->\n" + markdown(
+        ["setting"] + [worlds[w] for w in by_world], rows)
+    (folder / "parameters.md").write_text(text)
+    print(text)
+
+
 def line_methods(folder):
     """Methods with and without grids, and the size of a particle's map: its tiles, and 72 bytes for each line; of ortho
     the covariance of its state."""
@@ -198,6 +220,24 @@ def line_methods(folder):
     text = "<!-- made by: scripts/line-methods.sh -->\n" + markdown(
         ["log", "method", "particles", "successes, error (m)", "lines", "map of a particle (kB)", "CPU (s)"], rows)
     (folder / "line-methods.md").write_text(text)
+    print(text)
+
+
+def line_settings(folder):
+    """The error (m) with other settings of the methods without grids."""
+    text = ""
+    for method in ("linemap", "ortho"):
+        by_world = {w: {g.name: g for g in groups(folder / f"{w}-{method}")} for w in WORLDS}
+        by_world = {w: of_name for w, of_name in by_world.items() if of_name}
+        rows = []
+        for name in next(iter(by_world.values()), []):
+            parts = [part.rpartition("_") for part in name.removeprefix(method).removeprefix("-").split("+")]
+            setting = ", ".join(f"`{key}` {value}" for key, _, value in parts if key) or "default"
+            errors = [of_name[name].median for of_name in by_world.values()]
+            rows.append([setting] + ["" if e is None else f"{e:.3g}" for e in errors])
+        text += "<!-- made by: scripts/line-methods.sh settings -->\n"
+        text += markdown([method] + [WORLDS[w] for w in by_world], rows) + "\n"
+    (folder / "line-settings.md").write_text(text)
     print(text)
 
 
@@ -274,8 +314,8 @@ set grid lc '#dddddd'
 
 
 def main():
-    commands = {"weights": weights, "search": search, "particles": particles, "frames": frames,
-                "features": features, "line-methods": line_methods}
+    commands = {"weights": weights, "search": search, "particles": particles, "frames": frames, "features": features,
+                "parameters": parameters, "line-methods": line_methods, "line-settings": line_settings}
     if len(sys.argv) == 5 and sys.argv[1] == "always":
         sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
                          for g in groups(sys.argv[2])))

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """Floor plan and route of a building without right angles, or without walls that give lines: invented, for experiments.
-usage: make-worlds.py rectangle|octagon|round|clutter|corridor FOLDER    writes FOLDER/WORLD.plan and FOLDER/WORLD.route
 
-rectangle the loop of datasets/csie/wing.plan with right angles: the same corridors, pillars and doors, in the same order
-          and as long in all, around a rectangle instead of one half turned by 30 deg
-octagon   a loop of corridors, 2.5 m wide, around an octagon: walls at 0 and 45 deg, modulo 90 deg
-round     a ring hall, 4 m wide, with columns along both walls: no straight wall
-clutter   a warehouse: pallets at any angle inside a ragged wall, no straight piece longer than 1.2 m
-corridor  45 m long and 2.5 m wide, door frames 0.15 m deep and pillars at both walls, a round hall at one end; there and back
+usage: make-worlds.py rectangle|rectangle-30|octagon|round|clutter|corridor FOLDER
+writes FOLDER/WORLD.plan and FOLDER/WORLD.route
+
+rectangle     the loop of datasets/csie/wing.plan with right angles: the same corridors, pillars and doors, in the same
+              order and as long in all, around a rectangle instead of one half turned by 30 deg
+rectangle-30  the same, but the robot starts at 30 deg to the walls, so that they are at this angle to its map's cells
+octagon       a loop of corridors, 2.5 m wide, around an octagon: walls at 0 and 45 deg, modulo 90 deg
+round         a ring hall, 4 m wide, with columns along both walls: no straight wall
+clutter       a warehouse: pallets at any angle inside a ragged wall, no straight piece longer than 1.2 m
+corridor      45 m long and 2.5 m wide, door frames 0.15 m deep and pillars at both walls, a round hall at one end; there
+              and back
 """
 import math
 import random
@@ -138,7 +142,7 @@ def corridor(draw):
     return plan, route, (3, 1.25), ring
 
 
-WORLDS = {"rectangle": rectangle, "octagon": octagon, "round": round_hall, "clutter": clutter, "corridor": corridor}
+WORLDS = {"rectangle": rectangle, "rectangle-30": rectangle, "octagon": octagon, "round": round_hall, "clutter": clutter, "corridor": corridor}
 
 
 def main():
@@ -152,6 +156,9 @@ def main():
         route[-1] = row("via", *turns[4], 1.5)
     elif world == "octagon":
         route.append(row("via", *turns[0], 0.8))
+    elif world == "rectangle-30":
+        x, y = route[0].split()[1:3]
+        route[0] = row("start", float(x), float(y), -30)
     route.insert(1, "speed 0.65\nturn_speed 40")
     with open(f"{folder}/{world}.plan", "w") as f:
         f.write("\n".join(plan) + "\n")

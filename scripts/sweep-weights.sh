@@ -3,7 +3,8 @@
 # graded weights, no lines. Tables and figure of doc/experiments.md.
 #   scripts/sweep-weights.sh [OUT]     OUT defaults to out/weights
 # SEEDS=20 runs per group from FIRST_SEED=1 on; WORLDS="csie intel" selects worlds. Resumes after an interruption.
-# Takes about 1.5 hours on two cores. The public logs need HYBRID_SLAM_DATASETS.
+# Takes about 1.5 hours on two cores. The public logs need HYBRID_SLAM_DATASETS. OUT/verdicts.md compares the verdicts of
+# all these runs with the references, as scripts/verdict-campaign.sh does.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/weights}
 bin=build/release/bin
@@ -33,3 +34,4 @@ for world in "${worlds[@]}"; do
   compare "$world" "$out/worlds" "${options[@]}" "${improved[@]}" -o "$out/$world-improved"
 done
 scripts/experiment-tables.py weights "$out"
+scripts/verdict-table.py "$out" >"$out/verdicts.md"

@@ -1,7 +1,8 @@
 # The worlds of the experiments; sourced by the scripts that use them (after lib.sh, with `bin` set). Simulates logs
-# and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md).
+# and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md); WORLD-scans is a public log without its odometry.
 
 simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)  # the script may choose others
+simulation_options=()  # of simul-floorplan, for all simulated worlds
 public_worlds=()
 [[ -z ${HYBRID_SLAM_DATASETS:-} ]] || public_worlds=(intel csail killian fr079 dpslam)
 
@@ -10,16 +11,29 @@ public_worlds=()
 general_best=grid_weight.exponent=120,grid_weight.sigma=0.2,grid_weight.beams=90
 general_best_improved=motion_model.distance_mean_std=0,motion_model.drift_mean_std=0,motion_model.turn_mean_std=0
 
+# Slips of the odometry in the loop csie-30 (80, 170, mixed): time (s), turn (deg), shift (m).
+slips() {
+  case $1 in
+    csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
+    csie-*) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
+  esac
+}
+
+# without_odometry LOG.clf.gz: the log (gzipped CARMEN) with all poses zero.
+without_odometry() {
+  zcat "$1" | awk '$1 == "FLASER" { for (i = $2 + 3; i <= $2 + 8; ++i) $i = 0; print }' | gzip -n
+}
+
 # make_worlds FOLDER: plans, routes and logs of all worlds; keeps existing ones.
 make_worlds() {
-  local folder=$1 csie=$PWD/datasets/csie world log
+  local folder=$1 csie=$PWD/datasets/csie world file
   mkdir -p "$folder"
   for world in "${simulated_worlds[@]}"; do
     [[ ! -f $folder/$world.rawlog ]] || continue
     case $world in
-      csie) cp $csie/csie.plan "$folder/csie.plan"; cp $csie/csie-loop.route "$folder/csie.route" ;;
+      csie | csie-*) cp "$csie/csie.plan" "$folder/$world.plan"; cp "$csie/csie-loop.route" "$folder/$world.route" ;;
       wing) cp $csie/wing.plan $csie/wing.route "$folder" ;;
-      rectangle | octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
+      rectangle* | octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
       *)
         scripts/shear-world.py "${world#*-}" <$csie/csie.plan >"$folder/$world.plan"
         scripts/shear-world.py "${world#*-}" <$csie/csie-loop.route >"$folder/$world.route"
@@ -27,18 +41,24 @@ make_worlds() {
     esac
     sed -e "s|^plan *=.*|plan = $world.plan|" -e "s|^route *=.*|route = $world.route|" \
       config-ini/simul-csie-loop.ini >"$folder/$world-simul.ini"
-    "$bin/simul-floorplan" -q "$folder/$world-simul.ini" -o "$folder/$world.rawlog"
+    "$bin/simul-floorplan" -q "$folder/$world-simul.ini" --set "odometry.slips=$(slips "$world")" \
+      "${simulation_options[@]}" -o "$folder/$world.rawlog"
   done
   for world in "${public_worlds[@]}"; do
-    log=$(log_of "$world")
-    [[ -f $folder/$world.rawlog ]] ||
-      "$bin/log2rawlog" "$HYBRID_SLAM_DATASETS/$log.clf.gz" "$folder/$world.rawlog" >/dev/null 2>"$folder/$world.log"
+    [[ ! -f $folder/$world.rawlog ]] || continue
+    file=$HYBRID_SLAM_DATASETS/$(log_of "$world").clf.gz
+    if [[ $world == *-scans ]]; then
+      without_odometry "$file" >"$folder/$world.clf.gz"
+      file=$folder/$world.clf.gz
+    fi
+    "$bin/log2rawlog" "$file" "$folder/$world.rawlog" >/dev/null 2>"$folder/$world.log"
   done
 }
 
 log_of() {
   case $1 in
-    intel) echo intel-lab ;;
+    intel*) echo intel-lab ;;
+    csail*) echo csail ;;
     killian) echo mit-killian ;;
     dpslam) echo dpslam-loop5 ;;
     *) echo "$1" ;;
@@ -55,8 +75,8 @@ compare() {
   log=${HYBRID_SLAM_DATASETS:-}/$(log_of "$world")
   truth=("${ini:-config-ini/paper.ini}" "$folder/$world.rawlog" --relations "$log.relations")
   case $world in
-    csail) ;;
-    intel | fr079) truth+=(--odometry "$log.odom.gz") ;;
+    csail*) ;;
+    intel* | fr079) truth+=(--odometry "$log.odom.gz") ;;
     killian) truth+=(--odometry "$log.odom.gz" --success-relations 0.3) ;;
     dpslam) truth=("${ini:-config-ini/paper.ini}" "$folder/$world.rawlog" --revisits 8) ;;
     *)
