@@ -25,6 +25,7 @@ TARGETS = [
     (r"dxflib/.*", "dxflib"),
     (r"CLI/.*", "CLI11::CLI11"),
     (r"wx/.*", "hybrid_slam_wx"),
+    (r"X11/.*", "X11::X11"),
     (r"thread|future|condition_variable", "Threads::Threads"),
 ]
 # What a function of cmake/HybridSlamTargets.cmake links by itself.
