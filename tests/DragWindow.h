@@ -24,11 +24,14 @@ class DragWindow : public wxFrame {
     file_.AddFile(wxString::FromUTF8(file));
     Bind(wxEVT_LEFT_DOWN, [this](wxMouseEvent&) {
       constexpr int kInterval = 20;  // ms
+      if (hand_.IsRunning()) return;
+      hasBegun_ = true;
       hand_.Start(kInterval);
       result_ = wxDropSource(file_, this).DoDragDrop();  // runs the windows until the hand lets go
     });
     Show();
   }
+  bool hasBegun() const { return hasBegun_; }
   bool isOver() const { return result_.has_value() && !hand_.IsRunning(); }
   /// Returns wxDragCopy if the file has been taken; empty while it has not been dragged.
   std::optional<wxDragResult> result() const { return result_; }
@@ -54,6 +57,7 @@ class DragWindow : public wxFrame {
 
   wxFileDataObject file_;
   Hand hand_;
+  bool hasBegun_ = false;
   std::optional<wxDragResult> result_;
 };
 

@@ -73,11 +73,14 @@ MapFeature merged(const MapFeature& feature, const PointFeature& seen) {
 
 void FeatureDatabase::update(const std::vector<PointFeature>& seen, const FeatureOptions& options) {
   ++updates_;
+  std::vector<size_t> near = candidates(seen);
   for (const PointFeature& feature : seen) {
-    if (const MapFeature* match = closestMatch(feature))
+    if (const MapFeature* match = closestMatch(feature, near)) {
       features_[static_cast<size_t>(match - features_.data())] = merged(*match, feature);
-    else
+    } else {
+      near.push_back(features_.size());
       features_.push_back({feature, 1, updates_});
+    }
   }
   if (updates_ % options.pruneInterval != 0) return;
   const auto isHopeless = [&](const MapFeature& feature) {
@@ -86,10 +89,31 @@ void FeatureDatabase::update(const std::vector<PointFeature>& seen, const Featur
   features_.erase(std::remove_if(features_.begin(), features_.end(), isHopeless), features_.end());
 }
 
-const MapFeature* FeatureDatabase::closestMatch(const PointFeature& seen, int minCount) const {
+// The map is searched once for a scan, not once for each of its features.
+std::vector<size_t> FeatureDatabase::candidates(const std::vector<PointFeature>& seen) const {
+  std::vector<size_t> near;
+  if (seen.empty()) return near;
+  mrpt::math::TPoint2D least = seen[0].position, most = least;
+  for (const PointFeature& feature : seen) {
+    least = {std::min(least.x, feature.position.x), std::min(least.y, feature.position.y)};
+    most = {std::max(most.x, feature.position.x), std::max(most.y, feature.position.y)};
+  }
+  constexpr double kMargin = kFarthest + 1e-6;  // rounding
+  for (size_t i = 0; i < features_.size(); ++i) {
+    const mrpt::math::TPoint2D& at = features_[i].position;
+    if (least.x - kMargin <= at.x && at.x <= most.x + kMargin && least.y - kMargin <= at.y &&
+        at.y <= most.y + kMargin)
+      near.push_back(i);
+  }
+  return near;
+}
+
+const MapFeature* FeatureDatabase::closestMatch(const PointFeature& seen,
+                                                const std::vector<size_t>& candidates, int minCount) const {
   const MapFeature* closest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const MapFeature& feature : features_) {
+  for (const size_t i : candidates) {
+    const MapFeature& feature = features_[i];
     if (feature.count < minCount) continue;
     const auto squares = matchDistance(seen, feature);
     if (squares && *squares < least) {

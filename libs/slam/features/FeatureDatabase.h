@@ -43,8 +43,12 @@ class FeatureDatabase {
 
   const std::vector<MapFeature>& features() const { return features_; }
 
-  /// Returns the closest match among the features observed at least `minCount` times, or null.
-  const MapFeature* closestMatch(const PointFeature& seen, int minCount = 1) const;
+  /// Returns the indices of the features that are near enough to match one of those seen, in ascending order.
+  std::vector<size_t> candidates(const std::vector<PointFeature>& seen) const;
+
+  /// Returns the closest match among the candidates observed at least `minCount` times, or null.
+  const MapFeature* closestMatch(const PointFeature& seen, const std::vector<size_t>& candidates,
+                                 int minCount = 1) const;
 
   template <class State>
   void visit(State& state) {

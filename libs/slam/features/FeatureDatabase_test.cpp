@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "base/State.h"
 #include "testing/TestScans.h"
@@ -87,11 +88,39 @@ TEST(FeatureDatabase, InsertsMergesAndPrunes) {
   database.update({corner(5, 5)}, options);
   ASSERT_EQ(database.features().size(), 3u);
   EXPECT_EQ(database.features()[0].count, options.minCount);
-  EXPECT_EQ(database.closestMatch(corner(5.01, 5)), &database.features()[2]);
-  EXPECT_EQ(database.closestMatch(corner(5.01, 5), options.minCount), nullptr) << "seen once";
-  EXPECT_EQ(database.closestMatch(corner(0.02, 0), options.minCount), &database.features()[0]);
+  const auto all = database.candidates({corner(0, 0), corner(5, 5)});
+  EXPECT_EQ(all.size(), 3u);
+  EXPECT_EQ(database.closestMatch(corner(5.01, 5), all), &database.features()[2]);
+  EXPECT_EQ(database.closestMatch(corner(5.01, 5), all, options.minCount), nullptr) << "seen once";
+  EXPECT_EQ(database.closestMatch(corner(0.02, 0), all, options.minCount), &database.features()[0]);
   for (int i = 0; i < 2 * options.pruneInterval; ++i) database.update({}, options);
   EXPECT_EQ(database.features().size(), 2u) << "what was seen once is gone";
+}
+
+TEST(FeatureDatabase, TheCandidatesHoldEveryMatch) {
+  FeatureOptions options;
+  options.pruneInterval = 1000;  // none is pruned
+  FeatureDatabase database;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, 20), deviation(0.01, 1);
+  for (int i = 0; i < 300; ++i) database.update({corner(place(random), place(random), 0.001)}, options);
+  size_t matched = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<PointFeature> seen{corner(place(random), place(random), deviation(random)),
+                                         corner(place(random), place(random), deviation(random))};
+    const auto candidates = database.candidates(seen);
+    for (const PointFeature& feature : seen) {
+      const MapFeature* closest = nullptr;
+      double least = std::numeric_limits<double>::infinity();
+      for (const MapFeature& known : database.features())
+        if (const auto squares = matchDistance(feature, known); squares && *squares < least)
+          least = *squares, closest = &known;
+      ASSERT_EQ(database.closestMatch(feature, candidates), closest);
+      matched += closest != nullptr;
+    }
+  }
+  EXPECT_GT(matched, 200u);
+  EXPECT_TRUE(database.candidates({corner(30, 5)}).empty());
 }
 
 TEST(FeatureDatabase, ANewFeatureSurvivesThePruning) {

@@ -27,13 +27,16 @@ FeatureLikelihood::FeatureLikelihood(const std::vector<PointFeature>& seen, cons
   const auto isUsed = [&](const MapFeature& feature) { return feature.count >= options.minCount; };
   if (seen.empty() || std::none_of(known.begin(), known.end(), isUsed)) return;
   share_ = 1 / std::sqrt(static_cast<double>(seen.size()));
-  for (const PointFeature& feature : seen) {
-    PointFeature there = transformed(feature, predicted);
+  std::vector<PointFeature> all;
+  for (const PointFeature& feature : seen) all.push_back(transformed(feature, predicted));
+  const std::vector<size_t> candidates = database.candidates(all);
+  for (size_t i = 0; i < seen.size(); ++i) {
+    PointFeature& there = all[i];
     const Eigen::Matrix2d covariance = there.covariance;
     const auto byPose = derivative(there.position, predicted);
     there.covariance += byPose * uncertainty * byPose.transpose();
-    if (const MapFeature* match = database.closestMatch(there, options.minCount))
-      matches_.push_back({feature.position, match->position, (covariance + match->covariance).inverse()});
+    if (const MapFeature* match = database.closestMatch(there, candidates, options.minCount))
+      matches_.push_back({seen[i].position, match->position, (covariance + match->covariance).inverse()});
     else
       unmatched_ -= 0.5 * share_ * mostSquares_;
   }
