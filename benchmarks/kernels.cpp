@@ -171,7 +171,7 @@ void particleUpdate(benchmark::State& state) {
   c.filter.particles = static_cast<int>(state.range(0));
   const auto steps = test::drive(4);
   size_t updates = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     HybridMapBuilder builder(c);
     builder.rememberScans(false);
     for (const auto& step : steps) test::feed(builder, step);
