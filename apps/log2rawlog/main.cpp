@@ -67,7 +67,7 @@ void warnOfJumps(const std::string& input, const readings::LogSummary& s, const 
       warn({std::to_string(count) + " " + what + ": first in " + input + ", " + unit + " " +
             std::to_string(number) + "; kept as logged"});
   };
-  warnOf(s.odometryJumps, "odometry jumps of over 100 m", s.firstOdometryJump);
+  warnOf(s.odometryJumps, "odometry jumps of over 100 m or far above the robot's speed", s.firstOdometryJump);
   warnOf(s.timeJumps, "time jumps of over a day", s.firstTimeJump);
 }
 

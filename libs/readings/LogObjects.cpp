@@ -66,7 +66,7 @@ mrpt::serialization::CSerializable::Ptr LogObjects::take() {
 }
 
 void LogObjects::operator()(const OdometryRecord& record) {
-  if (last_ && isJump(last_->pose, record.pose))
+  if (jumps_.isJump(record.pose, record.time))
     ++summary.odometryJumps;
   else if (last_)
     summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "readings/LogParser.h"
+#include "readings/OdometryJumps.h"
 #include "readings/SweepTimes.h"
 
 namespace hybrid_slam::readings {
@@ -29,7 +30,7 @@ struct LogSummary {
   float longestRange = 0;                      ///< m, among the valid readings
   size_t wrongSweeps = 0;                      ///< scans that state an impossible scan time
   size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
-  /// Odometry readings over kMaxStep apart and rows over a day apart: number, and line of the first (text
+  /// Jumps of the odometry (OdometryJumps) and rows over a day apart: number, and line of the first (text
   /// logs).
   size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
 };
@@ -68,6 +69,7 @@ class LogObjects {
   SweepSetting sweepSetting_;
   std::map<std::string, double> sweeps_;  ///< s, last written for each laser
   std::optional<OdometryRecord> last_;
+  OdometryJumps jumps_;
   double lastTime_ = 0;                             ///< s, of the previous record
   std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry
 };

@@ -23,7 +23,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.stepsBack, "timestamps step back", "log order kept");
   add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
   add(log.noOdometry, "actions without odometry", "taken as no motion");
-  add(log.jumps, "odometry jumps of over 100 m", "taken as no motion");
+  add(log.jumps, "odometry jumps of over 100 m or far above the robot's speed", "taken as no motion");
   add(log.wrongSweeps, "scan times (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",
       "these scans are not corrected for the robot's motion");
   for (const auto& [label, seconds] : log.sweeps)

@@ -101,13 +101,14 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     else
       note(summary.wrongOdometry, reader.entry());
   };
-  std::optional<TPose2D> first, previous;
-  const auto noteReading = [&](const TPose2D& pose) {
+  std::optional<TPose2D> first;
+  OdometryJumps jumps;
+  const auto noteReading = [&](const CObservationOdometry& odometry) {
+    const TPose2D pose = odometry.odometry.asTPose();
     noteOdometry(pose, summary.hasOdometryReadings);
     if (!isFinite(pose)) return;
     if (!first) first = pose;
-    if (previous && isJump(*previous, pose)) note(summary.jumps, reader.entry());
-    previous = pose;
+    if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
     summary.hasMotion |= pose != *first;
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
@@ -150,7 +151,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     });
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation))
-        noteReading(odometry->odometry.asTPose());
+        noteReading(*odometry);
       if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) noteScan(*scan);
     });
     if (!hasBegun) beginning.take(object);

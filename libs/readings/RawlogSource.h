@@ -48,7 +48,7 @@ struct RawlogSummary {
   Oddity wrongOdometry;                                                   ///< NaN or infinite
   Oddity noOdometry;                                                      ///< actions
   Oddity wrongSweeps;                                                     ///< impossible scan times
-  Oddity jumps;                                                           ///< of the odometry, over kMaxStep
+  Oddity jumps;                                                           ///< of the odometry (OdometryJumps)
   Oddity brokenLines;                    ///< of a text log; messages of a bag
   Oddity passedOver;                     ///< observations of classes that are not read
   std::string passedOverClasses;         ///< a list

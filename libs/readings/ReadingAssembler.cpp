@@ -120,7 +120,7 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
-  const TPose2D pose = withoutJumps(odometry.odometry.asTPose());
+  const TPose2D pose = withoutJumps(odometry);
   const bool isStampedOdometry = isStamped(odometry);
   const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
   for (Waiting& scan : waiting_) {
@@ -139,11 +139,12 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   completeReady();
 }
 
-TPose2D ReadingAssembler::withoutJumps(const TPose2D& reading) {
+TPose2D ReadingAssembler::withoutJumps(const CObservationOdometry& odometry) {
+  const TPose2D reading = odometry.odometry.asTPose();
   const bool isFirst = !lastReading_;
   const TPose2D before = lastReading_.value_or(reading);
   lastReading_ = reading;
-  const bool isAJump = isFirst ? isFarAway(reading) : isJump(before, reading);
+  const bool isAJump = odometryJumps_.isJump(reading, timeOf(odometry)) || (isFirst && isFarAway(reading));
   jumps_ += isAJump ? 1 : 0;
   if (isFirst && isAJump) return {};
   if (jumps_ == 0 || !lastOdometry_) return reading;

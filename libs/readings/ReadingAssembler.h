@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/LaserScan.h"
+#include "readings/OdometryJumps.h"
 #include "readings/OdometryTrack.h"
 #include "readings/ScanGrouper.h"
 #include "readings/SweepTimes.h"
@@ -33,11 +34,11 @@ struct Reading {
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
 /// previous odometry reading is used; the last 1000 scans before the first odometry reading use that one, and
-/// earlier ones are dropped. A jump of the odometry by over 100 m, or a first reading beyond 1e8 m, counts as
-/// no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one reading.
-/// Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN, infinite,
-/// not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides which scans
-/// are used and which of them form one reading.
+/// earlier ones are dropped. A jump of the odometry (OdometryJumps), or a first reading beyond 1e8 m, counts
+/// as no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one
+/// reading. Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN,
+/// infinite, not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides
+/// which scans are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -72,7 +73,7 @@ class ReadingAssembler {
   void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
-  mrpt::math::TPose2D withoutJumps(const mrpt::math::TPose2D& reading);
+  mrpt::math::TPose2D withoutJumps(const mrpt::obs::CObservationOdometry& odometry);
   void finishWaiting();
   struct Waiting {
     mrpt::obs::CObservation2DRangeScan::Ptr scan;
@@ -102,6 +103,7 @@ class ReadingAssembler {
       collected_;                                    ///< with odometry
   std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
   std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
+  OdometryJumps odometryJumps_;
   size_t jumps_ = 0, dropped_ = 0;
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
@@ -128,15 +130,5 @@ bool isAction(const mrpt::serialization::CSerializable::Ptr& object);
 bool isFinite(const mrpt::math::TPose2D& pose);
 /// Returns whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
-
-/// Largest step (m) between two odometry readings. A larger one means two logs in one file, reset odometry,
-/// or an error.
-constexpr double kMaxStep = 100;
-/// Returns whether a first odometry reading is impossible. Map coordinates (UTM) reach 1e7 m.
-inline bool isFarAway(const mrpt::math::TPose2D& reading) { return !(reading.norm() <= 1e8); }
-/// Returns whether two odometry readings are over kMaxStep apart.
-inline bool isJump(const mrpt::math::TPose2D& before, const mrpt::math::TPose2D& now) {
-  return !((now - before).norm() <= kMaxStep);
-}
 
 }  // namespace hybrid_slam::readings

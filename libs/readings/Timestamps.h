@@ -5,6 +5,8 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <optional>
+
 namespace hybrid_slam::readings {
 
 /// Returns whether an observation has a time.
@@ -14,5 +16,10 @@ inline bool isStamped(const mrpt::obs::CObservation& observation) {
 
 /// Seconds since 1970, UTC.
 inline double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::toDouble(t); }
+
+/// Returns the time (s) of an observation; empty without one.
+inline std::optional<double> timeOf(const mrpt::obs::CObservation& observation) {
+  return isStamped(observation) ? std::optional(seconds(observation.timestamp)) : std::nullopt;
+}
 
 }  // namespace hybrid_slam::readings
