@@ -20,6 +20,8 @@ constexpr size_t kMostPlaces = 10;
 // Calibrated on seeds from 101 on: doc/verdict.md.
 constexpr double kReturningDoubtful = 0.12, kReturningLost = 0.5;
 constexpr double kRecentDoubtful = 0.12, kRecentLost = 0.25;
+constexpr double kJump = 0.5;      // share of a scan's beams that contradict the map
+constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
 
@@ -28,18 +30,37 @@ size_t contradictedOf(const std::vector<Revisit>& revisits) {
                                            [](const Revisit& revisit) { return revisit.isContradicted(); }));
 }
 
-/// Stretches of contradicted scans.
-std::vector<DoubtfulPlace> placesOf(const std::vector<Revisit>& revisits) {
-  std::vector<std::vector<const Revisit*>> stretches;
+using Stretch = std::vector<const Revisit*>;
+
+/// Contradicted scans near each other.
+std::vector<Stretch> stretchesOf(const std::vector<Revisit>& revisits) {
+  std::vector<Stretch> stretches;
   for (const Revisit& revisit : revisits) {
     if (!revisit.isContradicted()) continue;
     if (stretches.empty() || revisit.distance - stretches.back().back()->distance > kGap)
       stretches.emplace_back();
     stretches.back().push_back(&revisit);
   }
+  return stretches;
+}
+
+/// Successive scans with most of their beams contradicted.
+std::vector<Stretch> jumpsOf(const std::vector<Revisit>& recent) {
+  std::vector<Stretch> jumps(1);
+  for (const Revisit& revisit : recent) {
+    if (revisit.share() > kJump)
+      jumps.back().push_back(&revisit);
+    else if (!jumps.back().empty())
+      jumps.emplace_back();
+  }
+  return jumps;
+}
+
+/// The stretches with at least `fewest` scans as places, the longest first.
+std::vector<DoubtfulPlace> placesOf(const std::vector<Stretch>& stretches, size_t fewest) {
   std::vector<DoubtfulPlace> places;
-  for (const auto& stretch : stretches) {
-    if (stretch.size() < kFewest) continue;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.size() < fewest) continue;
     const Revisit& middle = *stretch[stretch.size() / 2];
     places.push_back({{middle.pose.x, middle.pose.y},
                       middle.update,
@@ -48,6 +69,10 @@ std::vector<DoubtfulPlace> placesOf(const std::vector<Revisit>& revisits) {
   std::stable_sort(places.begin(), places.end(),
                    [](const DoubtfulPlace& a, const DoubtfulPlace& b) { return a.length > b.length; });
   return places;
+}
+
+std::string text(const mrpt::math::TPoint2D& at) {
+  return "(" + fixedText(at.x, 1) + ", " + fixedText(at.y, 1) + ") m";
 }
 
 std::string share(size_t count, size_t all) {
@@ -63,11 +88,10 @@ std::string Verdict::name() const {
 }
 
 std::string Verdict::line() const {
-  std::string text = "verdict: " + name();
-  for (size_t i = 0; i < reasons.size(); ++i) text += (i == 0 ? ": " : "; ") + reasons[i];
-  if (level != Level::consistent && !places.empty())
-    text += "; longest at (" + fixedText(places[0].at.x, 1) + ", " + fixedText(places[0].at.y, 1) + ") m";
-  return text;
+  std::string line = "verdict: " + name();
+  for (size_t i = 0; i < reasons.size(); ++i) line += (i == 0 ? ": " : "; ") + reasons[i];
+  if (level != Level::consistent && !places.empty()) line += "; longest at " + text(places[0].at);
+  return line;
 }
 
 Verdict verdictOf(const Evidence& evidence) {
@@ -88,9 +112,14 @@ Verdict verdictOf(const Evidence& evidence) {
   judge(evidence.returning, kReturningDoubtful, kReturningLost,
         "returning scans contradict what was mapped before");
   judge(evidence.recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
-  verdict.places = placesOf(evidence.returning);
+  verdict.places = placesOf(stretchesOf(evidence.returning), kFewest);
   if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
     find(Level::doubtful, "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
+  const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
+  if (!jumps.empty())
+    find(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
+                              ": successive scans contradict what was mapped just before");
+  verdict.places.insert(verdict.places.end(), jumps.begin(), jumps.end());
   if (evidence.spread > kSpread)
     find(Level::doubtful,
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");

@@ -22,7 +22,7 @@ struct Verdict {
 
   Level level = Level::consistent;
   std::vector<std::string> reasons;   ///< short sentences, the most serious first
-  std::vector<DoubtfulPlace> places;  ///< the longest first, at most ten
+  std::vector<DoubtfulPlace> places;  ///< at most ten; returning stretches before jumps, the longest first
 
   std::string name() const;
   /// One line: `verdict: doubtful: REASON; REASON; longest at (X, Y) m`.

@@ -65,9 +65,14 @@ TEST(Verdict, FewScansAreDoubtfulAtMost) {
 }
 
 TEST(Verdict, ScansThatDoNotFitTheirSurroundings) {
-  EXPECT_EQ(of({}, scans(100, 10, 22)).level, Level::consistent);
-  EXPECT_EQ(of({}, scans(100, 10, 30)).level, Level::doubtful);
-  EXPECT_EQ(of({}, scans(100, 10, 40)).level, Level::lost);
+  const auto everySecond = [](size_t count) {  // not successive
+    std::vector<Revisit> recent = scans(100);
+    for (size_t i = 0; i < count; ++i) recent[10 + 2 * i].contradicted = 40;
+    return recent;
+  };
+  EXPECT_EQ(of({}, everySecond(12)).level, Level::consistent);
+  EXPECT_EQ(of({}, everySecond(20)).level, Level::doubtful);
+  EXPECT_EQ(of({}, everySecond(30)).level, Level::lost);
 }
 
 TEST(Verdict, OneLongPlaceIsDoubtfulInALargeMap) {
@@ -78,6 +83,24 @@ TEST(Verdict, OneLongPlaceIsDoubtfulInALargeMap) {
   EXPECT_NEAR(verdict.places[0].length, 19.5, 1e-9);
   EXPECT_EQ(verdict.places[0].update, 120u);
   EXPECT_EQ(of(scans(2000, 100, 120)).level, Level::consistent);
+}
+
+/// A share of 4 % of the path: the rule on the share does not see it.
+TEST(Verdict, SuccessiveScansThatContradictTheirSurroundingsAreAJump) {
+  const Verdict verdict = of({}, scans(100, 40, 43));
+  EXPECT_EQ(
+      verdict.line(),
+      "verdict: doubtful: the path may have jumped at (20.5, 0.0) m: successive scans contradict what was "
+      "mapped just before; no place was seen twice; longest at (20.5, 0.0) m");
+  EXPECT_EQ(of(scans(100), scans(100, 40, 42)).level, Level::consistent) << "people";
+  std::vector<Revisit> recent = scans(100, 40, 46);
+  recent[42].contradicted = 2;
+  EXPECT_EQ(of(scans(100), recent).level, Level::doubtful);
+  recent[44].contradicted = 2;
+  EXPECT_EQ(of(scans(100), recent).level, Level::consistent) << "not successive";
+  for (Revisit& scan : recent) scan.contradicted = std::min<size_t>(scan.contradicted, 20);
+  for (size_t i = 40; i < 46; ++i) recent[i].contradicted = 20;
+  EXPECT_EQ(of(scans(100), recent).level, Level::consistent) << "40 % of the beams";
 }
 
 TEST(Verdict, PlacesAreSeparateAndTheLongestComesFirst) {

@@ -14,7 +14,7 @@ constexpr size_t kBeams = 90;
 constexpr int kWall = 6, kSolidWall = 12, kFree = -3;  // log-odds, in units of a cell: 1, 2 hits; 3 misses
 constexpr double kNear = 3, kShort = 4;  // cells at both ends of a beam that may touch its own wall
 constexpr size_t kFewest = 8;            // beams compared
-constexpr double kFewestShare = 0.1, kContradicted = 0.3;
+constexpr double kFewestShare = 0.1;
 
 enum class Finding { unknown, agrees, contradicts };
 
@@ -33,10 +33,6 @@ Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& ce
 }
 
 }  // namespace
-
-bool Revisit::isContradicted() const {
-  return static_cast<double>(contradicted) > kContradicted * static_cast<double>(compared);
-}
 
 void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
   GridOptions options;

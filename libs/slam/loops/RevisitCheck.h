@@ -11,12 +11,14 @@ namespace hybrid_slam {
 
 /// A scan of places mapped before.
 struct Revisit {
-  mrpt::math::TPose2D pose;     ///< of the robot, map frame
-  size_t update = 0;            ///< index of the path
-  double distance = 0;          ///< m, along the path
-  size_t compared = 0;          ///< beams that end in or cross known cells of the earlier map
-  size_t contradicted = 0;      ///< of these, beams that end in free space or cross walls of that map
-  bool isContradicted() const;  ///< more than 30 % of the compared beams
+  mrpt::math::TPose2D pose;  ///< of the robot, map frame
+  size_t update = 0;         ///< index of the path
+  double distance = 0;       ///< m, along the path
+  size_t compared = 0;       ///< beams that end in or cross known cells of the earlier map
+  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of that map
+  /// Share of the compared beams that contradict the map.
+  double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
+  bool isContradicted() const { return share() > 0.3; }
 };
 
 /// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. People
