@@ -18,7 +18,7 @@ constexpr double kPoorFit = 0.8;         // of the usual fit: search below this
 constexpr double kForgetting = 0.1;      // weight of the newest scan in the usual fit
 constexpr size_t kPlaces = 8;            // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
-constexpr double kUncontradicted = 0.1;  // share of the beams: it may be
+constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
@@ -130,10 +130,16 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& be
   std::vector<Hypothesis> all;
   if (!searchesMap_ || contradicting_.size() < kCarriedScans) return all;
   const GlobalSearch search(best.grid, mrpt::math::TPoint2D(best.path.back()));
-  for (const auto& place : search(scan.matchedBeams, alignedHeadings(scan.lines, *best.lines), kMapPlaces)) {
-    const ScanMatch match = matcher_.match(scan.matchedBeams, place.pose, best.grid, kAnywhere);
-    if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
-  }
+  const auto searchAt = [&](const std::vector<double>& headings) {
+    for (const auto& place : search(scan.matchedBeams, headings, kMapPlaces)) {
+      const ScanMatch match = matcher_.match(scan.matchedBeams, place.pose, best.grid, kAnywhere);
+      if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
+    }
+  };
+  const std::vector<double> aligned = alignedHeadings(scan.lines, *best.lines);
+  searchAt(aligned);
+  // The walls around the robot may not run along the dominating direction of the map.
+  if (all.empty() && !aligned.empty()) searchAt({});
   return rivals(std::move(all));
 }
 

@@ -24,7 +24,7 @@ struct StepMotion {
 /// other particles' matches. If it fits much worse than earlier scans, a window around it is searched, and if
 /// the scan contradicts the map at the best pose there, the window at all headings. After several such scans
 /// in succession, the robot was carried: the whole map is searched for a place that all of them fit, with
-/// lines at the four headings that align their walls with the map's.
+/// lines first at the four headings that align their walls with the map's, and then at all headings.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
