@@ -24,6 +24,7 @@ LOGS = {
     "csie-80": "CSIE, slips of 80 deg",
     "csie-170": "CSIE, slips of 170 deg",
     "csie-mixed": "CSIE, slips of 30 to 170 deg",
+    "csie-jumps": "CSIE, jumps of 1 to 8 m",
 }
 VARIANTS = {
     "default": "default",

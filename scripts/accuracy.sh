@@ -14,7 +14,7 @@ build release hybrid-slam slam-eval simul-floorplan
 bin=$PWD/build/release/bin
 source scripts/worlds.sh
 public="intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans"
-read -ra logs <<<"${LOGS:-$public csie csie-30 csie-80 csie-170 csie-mixed}"
+read -ra logs <<<"${LOGS:-$public csie csie-30 csie-80 csie-170 csie-mixed csie-jumps}"
 read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting sixty no-learning no-refining}"
 
 mkdir -p "$out/logs"

@@ -11,10 +11,11 @@ public_worlds=()
 general_best=grid_weight.exponent=120,grid_weight.sigma=0.2,grid_weight.beams=90
 general_best_improved=motion_model.distance_mean_std=0,motion_model.drift_mean_std=0,motion_model.turn_mean_std=0
 
-# Slips of the odometry in the loop csie-30 (80, 170, mixed): time (s), turn (deg), shift (m).
+# Slips of the odometry in the loop csie-30 (80, 170, mixed, jumps): time (s), turn (deg), shift (m).
 slips() {
   case $1 in
     csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
+    csie-jumps) echo "60 90 3, 110 0 1, 150 180 5, 200 45 1.5, 230 -90 8" ;;
     csie-*) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
   esac
 }
