@@ -20,6 +20,7 @@ import sys
 
 DATA = pathlib.Path(os.environ["HYBRID_SLAM_DATASETS"])
 BIN = pathlib.Path("build/release/bin")
+NAMES = {"intel-lab": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079", "mit-killian": "MIT Killian Court"}
 
 
 def add(a, b):
@@ -103,7 +104,7 @@ def error(log, out, chosen=None):
 def print_row(log, fault, errors, bound, verdicts):
     good = [e < bound for e in errors]
     lost = [verdict for verdict, ok in zip(verdicts, good) if not ok]
-    print(f"| {log} | {fault} | {sum(good)} of {len(good)} | {statistics.median(errors):.3f} ({max(errors):.3f}) | "
+    print(f"| {NAMES[log]} | {fault} | {sum(good)} of {len(good)} | {statistics.median(errors):.3f} ({max(errors):.3f}) | "
           + (", ".join(f"{lost.count(v)} {v}" for v in sorted(set(lost))) or "-") + " |", flush=True)
 
 
