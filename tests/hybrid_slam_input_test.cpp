@@ -264,7 +264,8 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   for (const double jump : {101., 1e5, 1e9, 1e300}) {
     SCOPED_TRACE(jump);
     expectDone(replay(withJump(jump)),
-               "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 11 of " + folder.path("log.rawlog"));
+               "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 11 of " +
+                   folder.path("log.rawlog"));
     const auto poses = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(poses.size(), 10u);
     EXPECT_LT(poses.back().pose.norm(), 10);

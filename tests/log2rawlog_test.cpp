@@ -64,10 +64,12 @@ TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
       folder.write("in.clf", odometryRow("10", "1") + scanRow("10") + odometryRow("11", "1e30") +
                                  odometryRow("12", "1.1") + odometryRow("100000012", "1.2"));
   EXPECT_EQ(convert(log), 0);
-  EXPECT_EQ(err, "log2rawlog: warning: 2 odometry jumps of over 100 m or far above the robot's speed: first in " + log +
-                     ", line 3; kept as logged\n"
-                     "log2rawlog: warning: 1 time jumps of over a day: first in " +
-                     log + ", line 5; kept as logged\n");
+  EXPECT_EQ(err,
+            "log2rawlog: warning: 2 odometry jumps of over 100 m or far above the robot's speed: first in " +
+                log +
+                ", line 3; kept as logged\n"
+                "log2rawlog: warning: 1 time jumps of over a day: first in " +
+                log + ", line 5; kept as logged\n");
 }
 
 TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {

@@ -83,7 +83,10 @@ void LiveRun::pass(const Arrived& arrived) {
   const size_t jumps = assembler_.jumps();
   assembler_.take(arrived.first);
   if (jumps == 0 && assembler_.jumps() > 0)
-    log_.report("odometry", "jumps by over 100 m or far above the robot's speed, taken as no motion, as are further ones: " + place());
+    log_.report(
+        "odometry",
+        "jumps by over 100 m or far above the robot's speed, taken as no motion, as are further ones: " +
+            place());
   while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
 }
 
