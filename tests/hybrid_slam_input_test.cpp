@@ -258,10 +258,7 @@ test::Log withJump(double jump) {
 }
 
 TEST_F(HybridSlam, OdometryThatJumps) {
-  expectDone(replay(withJump(99)));
-  expectDone(replay(withJump(60), "--set particle_filter.update_distance=100"));
-  fs::remove_all(output);
-  for (const double jump : {101., 1e5, 1e9, 1e300}) {
+  for (const double jump : {60., 101., 1e5, 1e9, 1e300}) {
     SCOPED_TRACE(jump);
     expectDone(replay(withJump(jump)),
                "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 11 of " +
@@ -326,6 +323,9 @@ TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
     log.push_back(test::action({0.1, 0, 0}));
     log.push_back(test::frame({test::scan(1000 + 0.2 * static_cast<double>(i), {})}));
   }
+  log[4] = test::action({99, 0, 0});
+  expectDone(replay(log));
+  expectDone(replay(log, "--set particle_filter.update_distance=100"));
   log[4] = test::action({1e30, 0, 0});
   expectDone(replay(log), "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 5");
 }

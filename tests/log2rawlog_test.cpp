@@ -61,8 +61,8 @@ class Log2Rawlog : public test::ProgramTest {
 
 TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
   const std::string log =
-      folder.write("in.clf", odometryRow("10", "1") + scanRow("10") + odometryRow("11", "1e30") +
-                                 odometryRow("12", "1.1") + odometryRow("100000012", "1.2"));
+      folder.write("in.clf", odometryRow("10", "10") + scanRow("10") + odometryRow("11", "1e30") +
+                                 odometryRow("12", "11") + odometryRow("100000012", "12"));
   EXPECT_EQ(convert(log), 0);
   EXPECT_EQ(err,
             "log2rawlog: warning: 2 odometry jumps of over 100 m or far above the robot's speed: first in " +
