@@ -60,7 +60,7 @@ inline std::vector<TrueLine> trueLines(const simulation::BuildingPlan& plan, con
 /// Sums over scans, after Nguyen et al. 2007.
 struct Agreement {
   size_t trueLines = 0, found = 0, wrong = 0;
-  double angle2 = 0, distance2 = 0;  ///< rad^2, m^2: sums over the lines found
+  std::vector<double> angles, distances;  ///< rad, m: errors of the lines found
 
   /// An extracted line matches a true one within 5 deg and 0.1 m (at its middle) if they overlap by half of
   /// the shorter. Each matches at most one, the longest overlaps first. A line that matches a piece shorter
@@ -91,8 +91,8 @@ struct Agreement {
       isUsed[m.line] = isSeen[m.truth] = true;
       if (!isLine(truth[m.truth])) continue;
       ++found;
-      angle2 += m.difference.theta * m.difference.theta;
-      distance2 += m.difference.rho * m.difference.rho;
+      angles.push_back(m.difference.theta);
+      distances.push_back(m.difference.rho);
     }
     trueLines += static_cast<size_t>(std::count_if(truth.begin(), truth.end(), isLine));
     wrong += static_cast<size_t>(std::count(isUsed.begin(), isUsed.end(), false));

@@ -9,6 +9,8 @@ namespace {
 using mrpt::DEG2RAD;
 using simulation::BuildingPlan;
 using simulation::Wall;
+using testing::DoubleNear;
+using testing::ElementsAre;
 
 /// A scan of 181 beams over 180 deg.
 LaserScan scan(double maxRange = 20) {
@@ -71,13 +73,13 @@ TEST(TrueLines, AgreementCountsFoundAndWrongLinesAndTheirErrors) {
   EXPECT_EQ(sum.trueLines, 2u);
   EXPECT_EQ(sum.found, 1u);
   EXPECT_EQ(sum.wrong, 3u);
-  EXPECT_NEAR(sum.distance2, 0.05 * 0.05, 1e-9);
-  EXPECT_NEAR(sum.angle2, 0, 1e-9);
+  EXPECT_THAT(sum.distances, ElementsAre(DoubleNear(0.05, 1e-9)));
+  EXPECT_THAT(sum.angles, ElementsAre(DoubleNear(0, 1e-9)));
   const double turn = DEG2RAD(2.0);
   sum.add({segment(-3, 5 - 3 * std::tan(turn), 3, 5 + 3 * std::tan(turn))}, truth, 0.5, 10);
   EXPECT_EQ(sum.trueLines, 4u);
   EXPECT_EQ(sum.found, 2u);
-  EXPECT_NEAR(sum.angle2, turn * turn, 1e-9);
+  EXPECT_THAT(sum.angles, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(turn, 1e-9)));
 }
 
 TEST(TrueLines, OverlapByHalfOfTheShorterIsNeeded) {

@@ -6,14 +6,15 @@
 ///
 /// `plan` simulates an LMS-100 at every fourth pose of the trajectories (TUM) and compares the lines of its
 /// scans with the walls that its beams hit. `log` compares the lines of neighbouring scans of a log, 0.3 m or
-/// 10 deg apart by odometry: the error of the odometry's heading is the same for all lines of a scan, so the
-/// mean difference of each pair of scans is subtracted.
+/// 10 deg apart by odometry, and subtracts what an error of the odometry explains.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <cstdio>
 #include <ctime>
 #include <iostream>
 
+#include "Counterparts.h"
+#include "Sigma.h"
 #include "TrueLines.h"
 #include "base/Errors.h"
 #include "files/Trajectory.h"
@@ -71,31 +72,14 @@ void comparePlan(const std::string& planFile, const std::string& seed,
               static_cast<size_t>(options.segmentation.minPoints));
       count += lines[i].size();
     }
-    const auto found = static_cast<double>(sum.found);
-    std::printf("| `%s` | %.0f | %.2f | %.1f | %.1f | %.3f | %.2f |\n", method->name, rate,
+    const Sigma angle = sigmaOf(sum.angles), distance = sigmaOf(sum.distances);
+    std::printf("| `%s` | %.0f | %.2f | %.1f | %.1f | %.3f (%.3f) | %.2f (%.2f) |\n", method->name, rate,
                 static_cast<double>(count) / static_cast<double>(scans.size()),
-                100 * found / static_cast<double>(sum.trueLines),
+                100 * static_cast<double>(sum.found) / static_cast<double>(sum.trueLines),
                 100 * static_cast<double>(sum.wrong) / static_cast<double>(sum.found + sum.wrong),
-                mrpt::RAD2DEG(std::sqrt(sum.angle2 / found)), 1000 * std::sqrt(sum.distance2 / found));
+                mrpt::RAD2DEG(angle.robust), mrpt::RAD2DEG(angle.rms), 1000 * distance.robust,
+                1000 * distance.rms);
   }
-}
-
-/// Differences in direction (rad) between the lines of two scans that show the same wall.
-/// @param motion  pose of the second scan's robot in the frame of the first's
-std::vector<double> turns(const Lines& first, const Lines& second, const TPose2D& motion) {
-  const AssociationOptions options;
-  std::vector<double> result;
-  for (const LineSegment& line : second) {
-    const LineSegment here = transformed(line, motion);
-    const LineSegment* nearest = nullptr;
-    double least = 0;
-    for (const LineSegment& other : first) {
-      const auto distance = matchDistance(here, other, options);
-      if (distance && (!nearest || *distance < least)) nearest = &other, least = *distance;
-    }
-    if (nearest) result.push_back(halfTurnDifference(here.theta, nearest->theta));
-  }
-  return result;
 }
 
 void compareLog(const std::string& file, const std::string& name) {
@@ -113,30 +97,27 @@ void compareLog(const std::string& file, const std::string& name) {
   for (const LineExtractor* method : lineExtractors()) {
     options.method = method;
     const auto [lines, rate] = extractAll(scans, options);
-    size_t count = 0, again = 0, paired = 0, degrees = 0, last = 0;
-    double squares = 0;
+    size_t count = 0, again = 0, compared = 0, last = 0;
+    Differences differences;
     TPose2D motion;
     for (size_t i = 0; i < scans.size(); ++i) {
       count += lines[i].size();
       if (i > 0) motion = motion + motions[i];
       if (i == 0 || (motion.norm() < 0.3 && std::abs(motion.phi) < mrpt::DEG2RAD(10.0))) continue;
-      const std::vector<double> t = turns(lines[last], lines[i], motion);
-      paired += lines[i].size();
-      again += t.size();
-      if (t.size() >= 2) {
-        double mean = 0;
-        for (const double turn : t) mean += turn / static_cast<double>(t.size());
-        for (const double turn : t) squares += (turn - mean) * (turn - mean);
-        degrees += t.size() - 1;
-      }
+      const auto pairs = counterparts(lines[last], lines[i], motion);
+      compared += lines[i].size();
+      again += pairs.size();
+      differences.add(pairs);
       motion = {};
       last = i;
     }
     // Two lines differ by sqrt(2) times the error of one.
-    std::printf("| %s | `%s` | %.0f | %.2f | %.1f | %.2f |\n", name.c_str(), method->name, rate,
-                static_cast<double>(count) / static_cast<double>(scans.size()),
-                100 * static_cast<double>(again) / static_cast<double>(paired),
-                mrpt::RAD2DEG(std::sqrt(squares / (2 * static_cast<double>(degrees)))));
+    const Sigma angle = sigmaOf(differences.angles), distance = sigmaOf(differences.distances);
+    const double degrees = mrpt::RAD2DEG(1 / std::sqrt(2)), millimetres = 1000 / std::sqrt(2);
+    std::printf("| %s | `%s` | %.0f | %.2f | %.1f | %.3f (%.3f) | %.1f (%.1f) |\n", name.c_str(),
+                method->name, rate, static_cast<double>(count) / static_cast<double>(scans.size()),
+                100 * static_cast<double>(again) / static_cast<double>(compared), degrees * angle.robust,
+                degrees * angle.rms, millimetres * distance.robust, millimetres * distance.rms);
   }
 }
 

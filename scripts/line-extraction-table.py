@@ -3,7 +3,7 @@
 
 OUT holds the folders of slam-compare from scripts/line-extraction.sh. The error is the mean translation error of the
 relations, in CSIE the absolute trajectory error (m). Runs of the same world and seed are pairs; p is that of the
-two-sided sign test over all pairs of a set-up, not corrected for the five comparisons of each.
+two-sided sign test over all pairs of a set-up, not corrected for the number of methods.
 
 The default's claim: no other method has significantly smaller errors (p < 0.05 after Holm's correction) in either
 set-up. Exits with 1 if one has."""

@@ -22,12 +22,12 @@ struct LineExtractor {
   std::vector<LineSegment> (*extract)(const LaserScan& scan, const LineExtractionOptions& options);
 };
 
-extern const LineExtractor kSplitExtractor, kIncrementalExtractor, kRegressionExtractor, kRansacExtractor,
-    kHoughExtractor, kEmExtractor;
+extern const LineExtractor kSplitExtractor, kSplitMergeExtractor, kIncrementalExtractor, kRegressionExtractor,
+    kRansacExtractor, kHoughExtractor, kEmExtractor;
 /// All methods, the default first.
 inline std::vector<const LineExtractor*> lineExtractors() {
-  return {&kSplitExtractor,  &kIncrementalExtractor, &kRegressionExtractor,
-          &kRansacExtractor, &kHoughExtractor,       &kEmExtractor};
+  return {&kSplitExtractor,  &kSplitMergeExtractor, &kIncrementalExtractor, &kRegressionExtractor,
+          &kRansacExtractor, &kHoughExtractor,      &kEmExtractor};
 }
 
 /// Section [line_extraction], and the sections of the steps that the methods share.
@@ -42,6 +42,9 @@ struct LineExtractionOptions : Options {
 
 /// Extracts the lines of a scan by the chosen method.
 std::vector<LineSegment> extractLines(const LaserScan& scan, const LineExtractionOptions& options);
+
+/// Largest number of beams in a row that miss a line without dividing it.
+constexpr size_t kMostMissing = 2;
 
 /// Steps 2 and 3 of Sec. III-B: a line for each piece that is straight and long enough.
 /// @param pieces  in the sensor frame

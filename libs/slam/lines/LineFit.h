@@ -2,6 +2,7 @@
 /// @brief Least-squares line fitting (Sec. III-B, step 2): eq. (2)-(6), and orthogonal least squares.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "base/Options.h"
@@ -26,6 +27,19 @@ struct LineFitOptions : Options {
 struct FittedLine {
   double rho = 0;    ///< m
   double theta = 0;  ///< rad, in (-pi, pi]
+};
+
+/// Tests whether a point is within `near` (m) of a line.
+class IsNear {
+ public:
+  IsNear(const FittedLine& line, double near)
+      : c_(std::cos(line.theta)), s_(std::sin(line.theta)), rho_(line.rho), near_(near) {}
+  bool operator()(const mrpt::math::TPoint2D& p) const {
+    return std::abs(p.x * c_ + p.y * s_ - rho_) <= near_;
+  }
+
+ private:
+  double c_, s_, rho_, near_;
 };
 
 /// Orthogonal least squares. Empty for fewer than two distinct points.

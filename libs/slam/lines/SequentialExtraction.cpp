@@ -10,21 +10,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr size_t kMostMissing = 2;  // beams in a row that miss a line without dividing it
-
 using Points = std::vector<TPoint2D>;
 using Places = std::vector<size_t>;  // of points in a run, ascending
-
-/// Tests whether a point is within `near` (m) of a line.
-class IsNear {
- public:
-  IsNear(const FittedLine& line, double near)
-      : c_(std::cos(line.theta)), s_(std::sin(line.theta)), rho_(line.rho), near_(near) {}
-  bool operator()(const TPoint2D& p) const { return std::abs(p.x * c_ + p.y * s_ - rho_) <= near_; }
-
- private:
-  double c_, s_, rho_, near_;
-};
 
 Points pointsAt(PointRange run, const Places& places) {
   Points points;
