@@ -125,8 +125,12 @@ set key off
     print(text)
 
 
+LOCAL_WEIGHTS = {"hybrid": "graded, all lines (default)", "hybrid-near": "graded, lines within 10 m",
+                 "hybrid-frames": "direction frames of all lines", "hybrid-near-frames": "direction frames within 10 m"}
+
+
 def frames(folder):
-    """The default against no lines, paired over seeds."""
+    """The default against no lines, and weights of the walls near the robot against the default, paired over seeds."""
     rows = []
     for world in WORLDS:
         for proposal in ("standard", "improved"):
@@ -135,6 +139,13 @@ def frames(folder):
                 rows.append([WORLDS[world], proposal, runs["hybrid"].cell(), runs["general"].cell(), runs["general"].paired()])
     text = "<!-- made by: scripts/frames.sh -->\n" + markdown(
         ["world", "proposal", "lines", "no lines", "no lines against lines"], rows)
+    rows = []
+    for world in WORLDS:
+        for proposal in ("standard", "improved"):
+            for g in groups(folder / f"local-{world}-{proposal}"):
+                rows.append([WORLDS[world], proposal, LOCAL_WEIGHTS[g.name], g.cell(), "" if g is g.first else g.paired()])
+    text += "\n<!-- made by: scripts/frames.sh -->\n" + markdown(
+        ["world", "proposal", "weight", "result", "against the default"], rows)
     (folder / "frames.md").write_text(text)
     print(text)
 

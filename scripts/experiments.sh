@@ -10,7 +10,8 @@ out=${1:-out/experiments}
 mkdir -p "$out"
 : "${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}"
 # In some scripts these names have another meaning.
-unset SEEDS REAL_SEEDS PAPER_SEEDS LOG_SEEDS FIRST_SEED WORLDS PROPOSALS RATES SETTINGS ROUTE FACTORS PLAN DRAWS FOREIGN
+unset SEEDS REAL_SEEDS PAPER_SEEDS LOG_SEEDS FIRST_SEED WORLDS METHODS PROPOSALS RATES SETTINGS ROUTE FACTORS PLAN DRAWS
+unset FOREIGN LOCAL LOGS
 
 failed=0
 # experiment NAME COMMAND...

@@ -104,7 +104,8 @@ double CHybridLineMap::internal_computeObservationLikelihood(const CObservation&
                                                              const CPose3D& robot) const {
   const CObservation2DRangeScan* scan = usable(observation);
   if (!scan) return 0;
-  const LineWeight weight = lineWeight(linesOf(*scan, options), robot.yaw(), database_, options.weight);
+  const auto compared = comparedLines(database_, {robot.x(), robot.y()}, options.weight);
+  const LineWeight weight = lineWeight(linesOf(*scan, options), robot.yaw(), *compared, options.weight);
   return options.likelihood.exponent * std::log(weight.value);
 }
 

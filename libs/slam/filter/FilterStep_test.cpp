@@ -68,6 +68,18 @@ TEST(FilterStep, TheFramesAreThoseOfTheBestParticlesLines) {
   EXPECT_NEAR(frames[0].direction, 0, 0.5 * kDegree);
 }
 
+TEST(FilterStep, TheFramesInForceAreThoseOfTheLinesNearTheBestParticle) {
+  for (const auto proposal : {Proposal::standard, Proposal::improved}) {
+    FilterConfiguration c = with(proposal);
+    c.lineWeight.radius = 10;
+    EXPECT_EQ(Stepped(c, room()).particles.lastStep().frames.size(), 1u);
+    c.lineWeight.radius = 0.01;
+    const Stepped blind(c, room());
+    EXPECT_TRUE(blind.particles.lastStep().frames.empty());
+    EXPECT_EQ(blind.particles.lastStep().lineWeight, 1);
+  }
+}
+
 TEST(FilterStep, WithoutLinesThereAreNoFrames) {
   FilterConfiguration c = with(Proposal::improved);
   c.useLines = false;

@@ -19,7 +19,9 @@ LineLikelihoodOptions::LineLikelihoodOptions(const LineWeightOptions& lineWeight
 
 LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose2D& predicted,
                                const LineDatabase& database, const LineLikelihoodOptions& options)
-    : database_(database), weight_(options.weight), sigmaRho_(options.sigmaRho) {
+    : compared_(comparedLines(database, TPoint2D(predicted.x, predicted.y), options.weight)),
+      weight_(options.weight),
+      sigmaRho_(options.sigmaRho) {
   double total = 0;
   for (const LineSegment& line : seen) {
     total += line.length;
@@ -35,7 +37,7 @@ LineLikelihood::LineLikelihood(const std::vector<LineSegment>& seen, const TPose
 
 LogDensity LineLikelihood::operator()(const TPose2D& pose) const {
   constexpr double kMostSquares = 9;  // three standard deviations: beyond, it is another wall
-  LogDensity density = lineLogDensity(newLines_, pose.phi, database_, weight_);
+  LogDensity density = lineLogDensity(newLines_, pose.phi, *compared_, weight_);
   const double perAngle = 1 / (weight_.sigma * weight_.sigma), perDistance = 1 / (sigmaRho_ * sigmaRho_);
   for (const KnownWall& wall : walls_) {
     const double angle = std::remainder(wall.theta + pose.phi - wall.knownTheta, M_PI);

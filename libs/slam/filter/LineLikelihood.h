@@ -2,6 +2,7 @@
 /// @brief Likelihood of a scan's lines given a particle's pose, for the improved proposal.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "slam/filter/FilterOptions.h"
@@ -48,7 +49,7 @@ class LineLikelihood {
     double normalX, normalY;      ///< cosine and sine of knownTheta
     double share;                 ///< l / L
   };
-  const LineDatabase& database_;
+  std::shared_ptr<const LineDatabase> compared_;
   LineWeightOptions weight_;
   double sigmaRho_;
   std::vector<LineSegment> newLines_;

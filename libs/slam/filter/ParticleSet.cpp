@@ -220,7 +220,7 @@ void ParticleSet::summarise(const TPose2D& odometry) {
   if (useLines_) step_.lineWeight = bestParticle.lineWeight.value;
   step_.linesSeen = bestParticle.lineWeight.seen;
   step_.linesMatched = bestParticle.lineWeight.matched;
-  step_.frames = directionFrames(bestParticle.lines->lines());
+  step_.frames = terms_.frames(bestParticle);
   setSpread(step_, poses(), bestParticle.path.back().phi);
 }
 

@@ -9,6 +9,7 @@
 #include "slam/filter/LineLikelihood.h"
 #include "slam/filter/Particle.h"
 #include "slam/filter/PreparedScan.h"
+#include "slam/lines/DirectionFrames.h"
 
 namespace hybrid_slam {
 
@@ -42,8 +43,15 @@ class WeightTerms {
   /// w_line, eq. (9); 1 without lines.
   LineWeight lineWeight(const Particle& particle, const mrpt::math::TPose2D& pose,
                         const PreparedScan& scan) const {
-    return useLines_ ? hybrid_slam::lineWeight(scan.lines, pose.phi, *particle.lines, lineWeight_)
-                     : LineWeight();
+    if (!useLines_) return {};
+    return hybrid_slam::lineWeight(
+        scan.lines, pose.phi, *comparedLines(*particle.lines, {pose.x, pose.y}, lineWeight_), lineWeight_);
+  }
+
+  /// The directions that several lines near the particle share.
+  std::vector<DirectionFrame> frames(const Particle& particle) const {
+    const mrpt::math::TPose2D pose = particle.path.back();
+    return directionFrames(linesNear(*particle.lines, {pose.x, pose.y}, lineWeight_.radius).lines());
   }
 
   /// ln p(lines | x) + ln p(features | x) as a function of the pose x. Refers to the particle's map.

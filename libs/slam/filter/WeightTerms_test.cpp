@@ -50,6 +50,24 @@ TEST(WeightTerms, AreThoseOfTheLines) {
   EXPECT_EQ(scene.density(c, kTurned).gradient, lines(kTurned).gradient);
 }
 
+/// The wall is 2 m from the robot.
+TEST(WeightTerms, OnlyLinesWithinTheRadiusGiveADirection) {
+  FilterConfiguration c;
+  const Scene scene;
+  const auto standard = [&] { return WeightTerms(c).at(scene.particle, kTurned, scene.scan).log(); };
+  const double whole = standard(), known = scene.density(c, kTurned).value;
+  ASSERT_LT(whole, 0);
+  c.lineWeight.radius = 2.1;
+  EXPECT_EQ(standard(), whole);
+  c.lineWeight.radius = 1.9;
+  EXPECT_EQ(standard(), 0);
+  EXPECT_EQ(scene.density(c, kTurned).value, known) << "a known wall is compared with itself";
+  c.database.minCount = 100;
+  EXPECT_EQ(scene.density(c, kTurned).value, 0) << "an unknown one has no direction to be compared with";
+  c.lineWeight.radius = 2.1;
+  EXPECT_LT(scene.density(c, kTurned).value, 0);
+}
+
 TEST(WeightTerms, FeaturesThatMatchNothingCostTheSameInBothProposals) {
   FilterConfiguration c;
   c.useLines = false;

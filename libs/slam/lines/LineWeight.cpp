@@ -1,7 +1,12 @@
 #include "slam/lines/LineWeight.h"
 
+#include <mrpt/math/TSegment2D.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "slam/lines/DirectionFrames.h"
 
 namespace hybrid_slam {
 namespace {
@@ -17,16 +22,44 @@ bool hasDirections(const LineDatabase& database, Method method) {
 
 void LineWeightOptions::describe(OptionTable& table) {
   table.add("method", method,
-            {{Method::graded, "graded"},
+            {{Method::frames, "frames"},
+             {Method::graded, "graded"},
              {Method::dominatingDirection, "dominating_direction"},
              {Method::paper, "paper"}},
-            "paper: eq. (9) as printed; graded: eq. (9) with a smooth match; dominating_direction: a smooth "
-            "match to the dominating direction only");
+            "paper: eq. (9) as printed; graded: eq. (9) with a smooth match; frames: a smooth match to the "
+            "directions that several lines share; dominating_direction: to the dominating direction only");
   table.addAngle("sigma_deg", sigma, 0.05, 22.5,
-                 "graded, dominating_direction: standard deviation of a direction");
+                 "graded, frames, dominating_direction: standard deviation of a direction");
   table.addAngle("threshold_deg", threshold, 0, 45,
                  "paper: largest deviation from parallel or perpendicular for a match");
   table.add("floor", floor, 1e-6, 1, "", "minimum weight, so that one bad scan cannot kill a particle");
+  table.add("radius", radius, 0, 1000, "m",
+            "lines are compared with those of the database within this distance of the robot; 0: with all");
+}
+
+LineDatabase linesNear(const LineDatabase& database, const mrpt::math::TPoint2D& robot, double radius) {
+  if (radius <= 0) return database;
+  std::vector<DatabaseLine> near;
+  for (const DatabaseLine& line : database.lines())
+    if (mrpt::math::TSegment2D(line.start, line.end).distance(robot) <= radius) near.push_back(line);
+  return LineDatabase(std::move(near));
+}
+
+std::shared_ptr<const LineDatabase> comparedLines(const LineDatabase& database,
+                                                  const mrpt::math::TPoint2D& robot,
+                                                  const LineWeightOptions& options) {
+  if (options.method != Method::frames && options.radius <= 0)
+    return {std::shared_ptr<void>(), &database};  // not owned
+  LineDatabase near = linesNear(database, robot, options.radius);
+  if (options.method != Method::frames) return std::make_shared<LineDatabase>(std::move(near));
+  std::vector<DatabaseLine> lines;
+  for (const DirectionFrame& frame : directionFrames(near.lines())) {
+    DatabaseLine line;
+    line.theta = line.direction = frame.direction;
+    line.length = frame.evidence;  // observed once, so this is its evidence
+    lines.push_back(line);
+  }
+  return std::make_shared<LineDatabase>(std::move(lines));
 }
 
 DirectionMatch matchDirection(double theta, const LineDatabase& database, const LineWeightOptions& options) {
@@ -42,6 +75,7 @@ DirectionMatch matchDirection(double theta, const LineDatabase& database, const 
     match.slope -= agreement * d * information;
   };
   switch (options.method) {
+    case Method::frames:
     case Method::graded: {
       const double total = database.totalEvidence();
       if (total <= 0) break;

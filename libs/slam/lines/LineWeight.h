@@ -3,7 +3,9 @@
 #pragma once
 
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/TPoint2D.h>
 
+#include <memory>
 #include <vector>
 
 #include "base/Options.h"
@@ -15,6 +17,7 @@ namespace hybrid_slam {
 /// Section [line_weight].
 struct LineWeightOptions : Options {
   enum class Method {
+    frames,               ///< smooth match to the directions that several lines share (DirectionFrames.h)
     graded,               ///< eq. (9) with a smooth match to all directions of the database
     dominatingDirection,  ///< smooth match to the dominating direction of the database
     paper                 ///< eq. (9): any database line parallel or perpendicular within a threshold
@@ -23,9 +26,21 @@ struct LineWeightOptions : Options {
   double sigma = mrpt::DEG2RAD(0.4);       ///< rad
   double threshold = mrpt::DEG2RAD(0.25);  ///< rad
   double floor = 0.001;
+  double radius = 0;  ///< m; 0: unlimited
 
   void describe(OptionTable& table) override;
 };
+
+/// The lines of a database within `radius` (m) of the robot; all if it is 0.
+LineDatabase linesNear(const LineDatabase& database, const mrpt::math::TPoint2D& robot, double radius);
+
+/// What the lines seen by a robot at `robot` (map frame) are compared with: the lines of the database within
+/// options.radius or, for `frames`, one line for each direction that several of them share. Without any, the
+/// weight is neutral. Not a copy, but the database itself, where all its lines count; it must then outlive
+/// the result.
+std::shared_ptr<const LineDatabase> comparedLines(const LineDatabase& database,
+                                                  const mrpt::math::TPoint2D& robot,
+                                                  const LineWeightOptions& options);
 
 /// Agreement of one direction with a database.
 struct DirectionMatch {
@@ -39,6 +54,7 @@ struct DirectionMatch {
 ///
 /// - `graded`: sum_j w_j exp(-d_j^2 / (2 sigma^2)) / sum_j w_j. Lines newly inserted by a drifting particle
 ///   have little evidence; several building directions can coexist.
+/// - `frames`: the same; the database is then one of direction frames (comparedLines).
 /// - `dominatingDirection`: exp(-d^2 / (2 sigma^2)), d the angle to LineDatabase::dominatingDirection().
 /// - `paper`, eq. (9): 1 if some d_j, to the line's theta, is below `threshold`, else 0.
 ///

@@ -196,6 +196,61 @@ TEST(LineWeight, StaysBetweenFloorAndOne) {
   }
 }
 
+/// A building of two parts, the second 50 m to the east at 30 deg, each with two walls of 6 m at right
+/// angles.
+LineDatabase buildingWithAWing() {
+  const std::vector<LineSegment> part{makeSegment({-3, -2}, {3, -2}), makeSegment({4, -3}, {4, 3})};
+  std::vector<LineSegment> walls = part;
+  for (const LineSegment& wall : transformed(part, {50, 0, 30 * test::kDegree})) walls.push_back(wall);
+  return databaseOf(walls);
+}
+
+/// By hand: near the robot, one direction has all the evidence; over the whole building, half of it.
+TEST(LineWeight, ComparesWithTheWingThatTheRobotIsIn) {
+  const LineDatabase building = buildingWithAWing();
+  const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};
+  for (const Method m : {Method::graded, Method::frames}) {
+    LineWeightOptions options = method(m);
+    const auto at = [&](double x, double headingDeg) {
+      return lineWeight(seen, headingDeg * test::kDegree, *comparedLines(building, {x, 0}, options), options);
+    };
+    const double d = 0.5 * options.sigma / test::kDegree;
+    for (const double heading : {0, 30}) EXPECT_NEAR(at(0, heading).value, 0.5, 1e-9);
+    options.radius = 10;
+    EXPECT_NEAR(at(0, 0).value, 1, 1e-9);
+    EXPECT_NEAR(at(0, d).value, std::exp(-0.125), 1e-9);
+    EXPECT_EQ(at(0, 30).value, options.floor);
+    EXPECT_EQ(at(0, 30).matched, 0);
+    EXPECT_NEAR(at(50, 30).value, 1, 1e-9);
+    EXPECT_EQ(at(50, 0).value, options.floor);
+    EXPECT_EQ(at(25, 12).value, 1) << "no line is near";
+    EXPECT_EQ(at(25, 12).seen, 2);
+  }
+}
+
+TEST(LineWeight, NearIsTheDistanceFromTheSegment) {
+  const LineDatabase database = databaseOf({makeSegment({-3, 2}, {3, 2})});
+  const auto isNear = [&](double x, double y) { return !linesNear(database, {x, y}, 5).lines().empty(); };
+  EXPECT_TRUE(isNear(0, 6.99));
+  EXPECT_FALSE(isNear(0, 7.01));
+  EXPECT_TRUE(isNear(0, -2.99));
+  EXPECT_TRUE(isNear(7.99, 2));  // beyond the end
+  EXPECT_FALSE(isNear(8.01, 2));
+  EXPECT_FALSE(isNear(6.6, 5.6));  // 3.6 m past the end and 3.6 m aside
+  EXPECT_EQ(linesNear(database, {1000, 0}, 0).lines().size(), 1u) << "no limit";
+}
+
+/// Lines at scattered angles are no frame: then `frames` has nothing to compare with.
+TEST(LineWeight, FramesAreNeutralWithoutASharedDirection) {
+  const LineDatabase scattered = databaseOf({line(0, 6), line(17, 6), line(33, 6), line(61, 6)});
+  const std::vector<LineSegment> seen{line(45, 4)};
+  const auto value = [&](Method m) {
+    return lineWeight(seen, 0, *comparedLines(scattered, {0, 0}, method(m)), method(m)).value;
+  };
+  EXPECT_EQ(value(Method::frames), 1);
+  EXPECT_EQ(value(Method::graded), LineWeightOptions().floor);
+}
+
 TEST(LineWeightOptions, NamesAndRanges) {
   const auto load = [](const char* line) {
     LineWeightOptions options;

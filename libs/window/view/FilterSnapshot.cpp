@@ -76,9 +76,11 @@ std::shared_ptr<FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bo
   if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = judge(view)();
   if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
+  const mrpt::math::TPose2D& pose = out->path.back();
+  const auto compared = comparedLines(before, {pose.x, pose.y}, lineWeight_);
   for (const LineSegment& line : prepare_(scans_).lines) {
-    const LineSegment placed = transformed(line, out->path.back());
-    out->scanLines.push_back({placed, matchDirection(placed.theta, before, lineWeight_).isMatched});
+    const LineSegment placed = transformed(line, pose);
+    out->scanLines.push_back({placed, matchDirection(placed.theta, *compared, lineWeight_).isMatched});
   }
   return out;
 }
