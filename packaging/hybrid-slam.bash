@@ -10,7 +10,7 @@ _hybrid_slam() {
       grep -oE -e '--[a-z-]+')" -- "$cur")
     return
   fi
-  subcommands=$([[ $cword -eq 1 ]] && "$1" --help 2>/dev/null | sed -n '/^Subcommands:/,$ s/^  \([a-z]\+\).*/\1/p')
+  subcommands=$([[ $cword -eq 1 ]] && "$1" --help 2>/dev/null | sed -n '/^Subcommands:/,$ s/^  \([a-z-]\+\).*/\1/p')
   if [[ -n $subcommands ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$subcommands" -- "$cur")
   else

@@ -3,7 +3,7 @@
 
 local -a command=(${words[1]}) options subcommands
 if [[ ${words[1]:t} == slam-eval ]]; then
-  subcommands=(${(f)"$($command --help 2>/dev/null | sed -n '/^Subcommands:/,$ s/^  \([a-z]\+\)  *\(.*\)/\1:\2/p')"})
+  subcommands=(${(f)"$($command --help 2>/dev/null | sed -n '/^Subcommands:/,$ s/^  \([a-z-]\+\)  *\(.*\)/\1:\2/p')"})
   if (( CURRENT == 2 )) && [[ $PREFIX != -* ]]; then
     _describe subcommand subcommands
     return

@@ -33,7 +33,8 @@ const char* const kLonger =  // 10 % longer, turned by 90 deg, shifted by (5, 6)
     "3 5 9.3 0 0 0 0.7071067811865476 0.7071067811865476\n";
 
 TEST_F(SlamEval, HelpAndVersion) {
-  for (const char* call : {"--help", "relations --help", "ate --help", "rpe --help", "revisits --help"}) {
+  for (const char* call : {"--help", "relations --help", "ate --help", "rpe --help", "revisits --help",
+                           "nees-relations --help"}) {
     const Outcome o = run(call);
     EXPECT_EQ(o.status, 0) << call;
     EXPECT_THAT(o.out, HasSubstr("Usage: slam-eval")) << call;

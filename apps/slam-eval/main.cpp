@@ -5,6 +5,7 @@
 #include <mrpt/core/bits_math.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Dense>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "base/Numbers.h"
 #include "files/Trajectory.h"
 #include "readings/EndPointReader.h"
+#include "run/FinishedPath.h"
 #include "run/PlanFiles.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
 #include "study/evaluation/NormalizedError.h"
@@ -36,6 +38,8 @@ constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
 
 struct CommandLine {
   std::string trajectory, relations, odometry, reference, rawlog, covariances;
+  std::string run;
+  double noise = 0, noiseDegrees = 0;  // of the relations, m and deg
   std::string plan, truth;
   bool aligns = false;
   std::string delta = "1m";
@@ -59,6 +63,13 @@ evaluation::RpeDelta parseDelta(const std::string& text) {
   return delta;
 }
 
+void warnOfUnused(size_t relations, size_t used, const CommandLine& line, const std::string& trajectory) {
+  if (used < relations && line.odometry.empty())
+    warn({std::to_string(relations - used) + " of " + std::to_string(relations) +
+          " relations not used: no pose within " + numberText(line.relationTolerance) +
+          " s of their times in " + trajectory + "; --odometry carries poses to them"});
+}
+
 Json relationsJson(const CommandLine& line) {
   const files::Trajectory trajectory = files::loadTum(line.trajectory);
   const std::vector<evaluation::Relation> relations = evaluation::loadRelations(line.relations);
@@ -66,10 +77,7 @@ Json relationsJson(const CommandLine& line) {
       line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
   const evaluation::RelationErrors errors = evaluation::evaluateRelations(
       trajectory, relations, line.odometry.empty() ? nullptr : &odometry, line.relationTolerance);
-  if (errors.used < errors.relations && line.odometry.empty())
-    warn({std::to_string(errors.relations - errors.used) + " of " + std::to_string(errors.relations) +
-          " relations not used: no pose within " + numberText(line.relationTolerance) +
-          " s of their times in " + line.trajectory + "; --odometry carries poses to them"});
+  warnOfUnused(errors.relations, errors.used, line, line.trajectory);
   return {{"relations", errors.relations},
           {"used", errors.used},
           {"trans_mean_m", errors.translation.mean},
@@ -115,11 +123,43 @@ Json rpeJson(const CommandLine& line) {
   return json;
 }
 
+void addNees(Json& json, const evaluation::NormalizedErrors& errors) {
+  json["nees_mean"] = errors.mean;
+  json["nees_median"] = errors.median;
+  json["inside_95"] = errors.inside95;
+  json["inside_95_x"] = errors.insideAxes.x();
+  json["inside_95_y"] = errors.insideAxes.y();
+  json["inside_95_heading"] = errors.insideAxes.z();
+}
+
 Json neesJson(const CommandLine& line) {
   const evaluation::NormalizedErrors errors = evaluation::normalizedErrors(
       files::loadTum(line.trajectory), evaluation::loadCovariances(line.covariances),
       files::loadTum(line.reference), line.referenceTolerance);
-  return {{"pairs", errors.pairs}, {"nees_mean", errors.mean}, {"inside_95", errors.inside95}};
+  Json json{{"pairs", errors.pairs}};
+  addNees(json, errors);
+  return json;
+}
+
+Json neesRelationsJson(const CommandLine& line) {
+  const run::FinishedPath path = run::readFinishedPath(line.run, line.rawlog);
+  const std::vector<evaluation::Relation> relations = evaluation::loadRelations(line.relations);
+  const files::Trajectory odometry =
+      line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
+  const std::vector<evaluation::PlacedRelation> placed = evaluation::placeRelations(
+      path.trajectory, relations, line.odometry.empty() ? nullptr : &odometry, line.relationTolerance);
+  warnOfUnused(relations.size(), placed.size(), line, line.run + "/trajectory.tum");
+  const Eigen::Vector3d noise(line.noise, line.noise, mrpt::DEG2RAD(line.noiseDegrees));
+  const Eigen::Matrix3d ofRelation = noise.cwiseAbs2().asDiagonal();
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const auto& [motion, first, second] : placed)
+    covariances.push_back(
+        path.covariances.between(path.at(first.pose, first.row), path.at(second.pose, second.row)) +
+        ofRelation);
+  const evaluation::NormalizedErrors errors = evaluation::normalizedErrors(placed, covariances);
+  Json json{{"relations", relations.size()}, {"used", errors.pairs}};
+  addNees(json, errors);
+  return json;
 }
 
 Json revisitsJson(const CommandLine& line) {
@@ -192,14 +232,24 @@ int evaluate(int argc, char** argv) {
       app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
   auto* nees =
       app.add_subcommand("nees", "normalised estimation error squared: covariances against the truth");
+  auto* neesRelations =
+      app.add_subcommand("nees-relations", "the same against relations: covariances between two poses");
   for (CLI::App* command : {relations, ate, rpe, revisits, nees})
     command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
-  relations->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
-  relations->add_option("--odometry", line.odometry,
+  for (CLI::App* command : {relations, neesRelations}) {
+    command->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
+    command->add_option("--odometry", line.odometry,
                         "file `t x y theta`, in log order, to interpolate between the trajectory's poses");
-  relations
-      ->add_option("--tolerance", line.relationTolerance,
-                   "largest time difference between a relation and a pose, s; with odometry at most 0.006")
+    command
+        ->add_option("--tolerance", line.relationTolerance,
+                     "largest time difference between a relation and a pose, s; with odometry at most 0.006")
+        ->capture_default_str();
+  }
+  neesRelations->add_option("--run", line.run, "folder with the results of a run")->required();
+  neesRelations->add_option("--rawlog", line.rawlog, "log of this run")->required();
+  neesRelations->add_option("--noise", line.noise, "standard deviation of the relations in x and in y, m")
+      ->capture_default_str();
+  neesRelations->add_option("--noise-deg", line.noiseDegrees, "standard deviation of their rotation, deg")
       ->capture_default_str();
   nees->add_option("--covariances", line.covariances, "covariance.csv of the same run")->required();
   for (CLI::App* command : {ate, rpe, nees}) {
@@ -237,18 +287,23 @@ int evaluate(int argc, char** argv) {
   for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
     if (!(tolerance >= 0))
       throw InputError("wrong value", "option --tolerance", "expected a number of seconds, 0 or more");
+  for (const auto& [option, deviation] :
+       {std::pair("--noise", line.noise), {"--noise-deg", line.noiseDegrees}})
+    if (!(deviation >= 0 && deviation <= 1e7))
+      throw InputError("wrong value", std::string("option ") + option, "expected a number in 0..1e7");
   for (const auto& [option, metres] : {std::pair("--distance", line.revisits.distance),
                                        {"--path", line.revisits.path},
                                        {"--max-range", line.maxRange}})
     if (!(metres > 0))
       throw InputError("wrong value", std::string("option ") + option, "expected a number of metres above 0");
 
-  const Json json = *relations  ? relationsJson(line)
-                    : *ate      ? ateJson(line)
-                    : *revisits ? revisitsJson(line)
-                    : *nees     ? neesJson(line)
-                    : *plan     ? planJson(line)
-                                : rpeJson(line);
+  const Json json = *relations       ? relationsJson(line)
+                    : *ate           ? ateJson(line)
+                    : *revisits      ? revisitsJson(line)
+                    : *nees          ? neesJson(line)
+                    : *neesRelations ? neesRelationsJson(line)
+                    : *plan          ? planJson(line)
+                                     : rpeJson(line);
   std::cout << json.dump(2) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
   return 0;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/Numbers.h"
-#include "slam/loops/PathUncertainty.h"
 
 namespace hybrid_slam::run {
 
@@ -28,9 +28,29 @@ Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
 }
 
+/// The motion since an update.
+Eigen::Matrix3d ofMotion(const TPose2D& since) {
+  const double root = std::sqrt(since.norm());
+  return diagonal(kBetween * root, std::hypot(kBetweenAngle * root, 0.05 * since.phi));
+}
+
+double lengthBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, bool hasLines) {
+  const double drift = hasLines ? kDrift : kOpenDrift, angle = hasLines ? kDriftAngle : kOpenDriftAngle;
+  std::vector<StepVariance> steps(path.size());
+  for (size_t i = 1; i < path.size(); ++i) {
+    const double length = lengthBetween(path[i - 1], path[i]);
+    steps[i] = {square(drift) * length, square(angle) * length};
+  }
+  return steps;
+}
+
 /// Pairs of path indices at the same part of the map.
-std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::vector<double>& distances,
-                                 const std::vector<Revisit>& returning) {
+std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::vector<Revisit>& returning) {
+  std::vector<double> distances(path.size());
+  for (size_t i = 1; i < path.size(); ++i)
+    distances[i] = distances[i - 1] + lengthBetween(path[i - 1], path[i]);
   std::vector<KnownPair> pairs;
   for (const Revisit& revisit : returning) {
     if (revisit.isContradicted() || revisit.update >= path.size()) continue;
@@ -66,24 +86,34 @@ PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles) {
   return squares / sum - mean * mean.transpose();
 }
 
-std::vector<PoseCovariance> pathCovariances(const std::vector<TPose2D>& path,
-                                            const std::vector<PoseCovariance>& particles,
-                                            const std::vector<Revisit>& returning, bool hasLines) {
-  const double drift = hasLines ? kDrift : kOpenDrift, angle = hasLines ? kDriftAngle : kOpenDriftAngle;
-  std::vector<StepVariance> steps(path.size());
-  std::vector<double> distances(path.size());
-  for (size_t i = 1; i < path.size(); ++i) {
-    const double length = std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
-    distances[i] = distances[i - 1] + length;
-    steps[i] = {square(drift) * length, square(angle) * length};
-  }
-  const PathUncertainty uncertainty(path, steps);
-  const std::vector<KnownPair> known = shortCuts(path, distances, returning);
+PathCovariances::PathCovariances(std::vector<TPose2D> path, std::vector<PoseCovariance> particles,
+                                 const std::vector<Revisit>& returning, bool hasLines)
+    : path_(std::move(path)),
+      particles_(std::move(particles)),
+      drift_(path_, driftAlong(path_, hasLines)),
+      shortCuts_(shortCuts(path_, returning)) {
+  particles_.resize(path_.size(), PoseCovariance::Zero());
+}
+
+std::vector<PoseCovariance> PathCovariances::ofPoses() const {
   std::vector<PoseCovariance> all;
-  for (size_t i = 0; i < path.size(); ++i)
-    all.push_back(uncertainty.between(0, i, known) + diagonal(kMatch, kMatchAngle) +
-                  (i < particles.size() ? particles[i] : PoseCovariance::Zero()));
+  for (size_t i = 0; i < path_.size(); ++i)
+    all.push_back(drift_.between(0, i, shortCuts_) + diagonal(kMatch, kMatchAngle) + particles_[i]);
   return all;
+}
+
+PoseCovariance PathCovariances::between(const PathPoint& from, const PathPoint& to) const {
+  // An error of `from` moves `to` the other way in its frame; that of its heading turns `to` about it.
+  PoseCovariance lever = PoseCovariance::Identity(), turn = PoseCovariance::Identity();
+  lever(0, 2) = from.pose.y - to.pose.y, lever(1, 2) = to.pose.x - from.pose.x;
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.pose.phi).toRotationMatrix();
+  const PoseCovariance inMap = drift_.between(from.update, to.update, shortCuts_) + ofMatch(to) +
+                               lever * ofMatch(from) * lever.transpose();
+  return turn * inMap * turn.transpose();
+}
+
+PoseCovariance PathCovariances::ofMatch(const PathPoint& point) const {
+  return diagonal(kMatch, kMatchAngle) + ofMotion(point.pose - path_[point.update]);
 }
 
 void writeCovariances(std::ostream& out, const files::Trajectory& trajectory,
@@ -94,10 +124,7 @@ void writeCovariances(std::ostream& out, const files::Trajectory& trajectory,
     PoseCovariance covariance = diagonal(kMatch, kMatchAngle);
     if (!path.empty()) {
       const size_t update = std::clamp<size_t>(updates[i], 1, path.size()) - 1;
-      const TPose2D since = trajectory[i].pose - path[update];
-      const double root = std::sqrt(since.norm());
-      covariance =
-          covariances[update] + diagonal(kBetween * root, std::hypot(kBetweenAngle * root, 0.05 * since.phi));
+      covariance = covariances[update] + ofMotion(trajectory[i].pose - path[update]);
     }
     out << fixedText(trajectory[i].timestamp, 6);
     for (const auto& [row, column] : {std::pair(0, 0), {0, 1}, {1, 1}, {0, 2}, {1, 2}, {2, 2}})

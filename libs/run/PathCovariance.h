@@ -10,6 +10,7 @@
 
 #include "files/Trajectory.h"
 #include "slam/filter/FilterView.h"
+#include "slam/loops/PathUncertainty.h"
 #include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
@@ -20,15 +21,39 @@ using PoseCovariance = Eigen::Matrix3d;
 /// Covariance of the weighted particles; zero without particles.
 PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles);
 
-/// Covariance of each pose of the path with respect to the first: a random walk along the path, or along a
-/// short cut through a place where returning scans agree with the map; plus the spread of the particles.
-/// @param path       a pose for each update
-/// @param particles  the covariance of the particles at each update
-/// @param returning  scans compared with what was mapped before; those not contradicted are short cuts
-/// @param hasLines   line directions keep the heading: the path drifts less
-std::vector<PoseCovariance> pathCovariances(const std::vector<mrpt::math::TPose2D>& path,
-                                            const std::vector<PoseCovariance>& particles,
-                                            const std::vector<Revisit>& returning, bool hasLines);
+/// A pose at an update of the path, or after it.
+struct PathPoint {
+  size_t update = 0;         ///< index of the path
+  mrpt::math::TPose2D pose;  ///< map frame
+};
+
+/// The uncertainty of a finished path. Its drift is a random walk along the path, or along a short cut
+/// through a place where returning scans agree with the map.
+class PathCovariances {
+ public:
+  /// @param path       a pose for each update, map frame
+  /// @param particles  the covariance of the particles at each update; those of the last ones may be missing
+  /// @param returning  scans compared with what was mapped before; those not contradicted are short cuts
+  /// @param hasLines   line directions keep the heading: the path drifts less
+  PathCovariances(std::vector<mrpt::math::TPose2D> path, std::vector<PoseCovariance> particles,
+                  const std::vector<Revisit>& returning, bool hasLines);
+
+  /// Covariance of each pose of the path with respect to the first: drift, scan match and spread of the
+  /// particles.
+  std::vector<PoseCovariance> ofPoses() const;
+  /// Covariance of one pose in the frame of another, (x, y, phi): drift between the two, scan match and
+  /// motion since the update of each. Without the spread of the particles, most of which is common to both.
+  PoseCovariance between(const PathPoint& from, const PathPoint& to) const;
+
+ private:
+  /// Of the pose within the map, map frame.
+  PoseCovariance ofMatch(const PathPoint& point) const;
+
+  std::vector<mrpt::math::TPose2D> path_;
+  std::vector<PoseCovariance> particles_;
+  PathUncertainty drift_;
+  std::vector<KnownPair> shortCuts_;
+};
 
 /// Writes `timestamp,xx,xy,yy,xphi,yphi,phiphi`, one row per pose of the trajectory. Between two updates, the
 /// covariance of the earlier one grows by the motion since.

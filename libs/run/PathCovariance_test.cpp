@@ -27,6 +27,12 @@ std::vector<Revisit> returnOf(const std::vector<TPose2D>& path, size_t contradic
   return {last};
 }
 
+std::vector<PoseCovariance> ofPoses(const std::vector<TPose2D>& path,
+                                    const std::vector<PoseCovariance>& particles,
+                                    const std::vector<Revisit>& returning, bool hasLines) {
+  return PathCovariances(path, particles, returning, hasLines).ofPoses();
+}
+
 TEST(PathCovariance, OfParticles) {
   const PoseCovariance covariance = covarianceOf({{{1, 2, M_PI - 0.1}, 0}, {{1, 4, 0.1 - M_PI}, 0}});
   EXPECT_NEAR(covariance(0, 0), 0, 1e-12);
@@ -39,31 +45,82 @@ TEST(PathCovariance, OfParticles) {
 
 TEST(PathCovariance, GrowsAlongThePath) {
   const auto path = thereAndBack();
-  const auto all = pathCovariances(path, {}, {}, true);
+  const auto all = ofPoses(path, {}, {}, true);
   ASSERT_EQ(all.size(), path.size());
   EXPECT_LT(deviation(all[0]), 0.02);
   EXPECT_GT(deviation(all[40]), deviation(all[20]));
   EXPECT_GT(deviation(all[80]), deviation(all[40]));
-  EXPECT_GT(deviation(pathCovariances(path, {}, {}, false)[40]), deviation(all[40])) << "without lines";
+  EXPECT_GT(deviation(ofPoses(path, {}, {}, false)[40]), deviation(all[40])) << "without lines";
 }
 
 TEST(PathCovariance, ShrinksWhereTheMapIsSeenAgain) {
   const auto path = thereAndBack();
-  const auto open = pathCovariances(path, {}, {}, true);
-  const auto closed = pathCovariances(path, {}, returnOf(path, 2), true);
+  const auto open = ofPoses(path, {}, {}, true);
+  const auto closed = ofPoses(path, {}, returnOf(path, 2), true);
   EXPECT_LT(deviation(closed[80]), 0.3 * deviation(open[80]));
   EXPECT_LT(deviation(closed[70]), deviation(open[70]));
   EXPECT_EQ(closed[20], open[20]) << "the way from the start is shorter";
-  EXPECT_EQ(pathCovariances(path, {}, returnOf(path, 40), true)[80], open[80]) << "contradicted";
+  EXPECT_EQ(ofPoses(path, {}, returnOf(path, 40), true)[80], open[80]) << "contradicted";
 }
 
 TEST(PathCovariance, HoldsTheSpreadOfTheParticles) {
   const auto path = thereAndBack();
   std::vector<PoseCovariance> particles(path.size(), PoseCovariance::Zero());
   particles[10] = PoseCovariance::Identity();
-  const auto all = pathCovariances(path, particles, {}, true), none = pathCovariances(path, {}, {}, true);
+  const auto all = ofPoses(path, particles, {}, true), none = ofPoses(path, {}, {}, true);
   EXPECT_NEAR((all[10] - none[10] - PoseCovariance::Identity()).norm(), 0, 1e-12);
   EXPECT_EQ(all[11], none[11]);
+}
+
+constexpr double kDegree = M_PI / 180;
+
+TEST(PathCovariance, BetweenTwoPosesOfAStraightPath) {
+  const auto path = thereAndBack();
+  const PoseCovariance covariance =
+      PathCovariances(path, {}, {}, true).between({10, path[10]}, {30, path[30]});
+  const double drift = 1e-4 * 10, match = 1e-4;  // m^2, over 10 m
+  const double turnOfStep = 0.5 * std::pow(0.019 * kDegree, 2), turnOfMatch = std::pow(0.1 * kDegree, 2);
+  double moment = 0, squares = 0;
+  for (double lever = 0; lever < 10; lever += 0.5) moment += lever, squares += lever * lever;
+  PoseCovariance expected = Eigen::Vector3d(drift, drift, 20 * turnOfStep).asDiagonal();
+  expected += 2 * Eigen::Vector3d(match, match, turnOfMatch).asDiagonal().toDenseMatrix();
+  expected(1, 1) += turnOfStep * squares + turnOfMatch * 10 * 10;
+  expected(1, 2) = expected(2, 1) = turnOfStep * moment + turnOfMatch * 10;
+  EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 1e-12) << covariance << "\n\n" << expected;
+}
+
+TEST(PathCovariance, BetweenTwoPosesThroughAShortCut) {
+  const auto path = thereAndBack();
+  const PathCovariances covariances(path, {}, returnOf(path, 2), true);
+  // From x = 5 m back to the start, where the path ends, and on to x = 5 m: 10 m instead of 30 m, and a
+  // match.
+  const double heading = 10 * std::pow(0.019 * kDegree, 2) + 3 * std::pow(0.1 * kDegree, 2);
+  const PathPoint out{10, path[10]}, back{70, path[70]};
+  EXPECT_NEAR(covariances.between(out, back)(2, 2), heading, 1e-12);
+  EXPECT_NEAR(covariances.between(back, out)(2, 2), heading, 1e-12);
+  EXPECT_NEAR(covariances.between(out, back)(0, 0), 10e-4 + 3e-4, 1e-4);
+}
+
+TEST(PathCovariance, BetweenTwoPosesIsInTheFrameOfTheFirst) {
+  auto path = thereAndBack();
+  const auto returning = returnOf(path, 2);
+  const auto between = [&](size_t from, size_t to) {
+    return PathCovariances(path, {}, returning, false).between({from, path[from]}, {to, path[to]});
+  };
+  const PoseCovariance ahead = between(0, 30), behind = between(45, 60), closed = between(12, 72);
+  for (TPose2D& pose : path) pose = TPose2D(7, -3, 2) + pose;
+  EXPECT_TRUE(between(0, 30).isApprox(ahead, 1e-9));
+  EXPECT_TRUE(between(45, 60).isApprox(behind, 1e-9));
+  EXPECT_TRUE(between(12, 72).isApprox(closed, 1e-9));
+}
+
+TEST(PathCovariance, BetweenTwoPosesHoldsTheMotionSinceTheirUpdates) {
+  const auto path = thereAndBack();
+  const PathCovariances covariances(path, {}, {}, true);
+  const PoseCovariance more = covariances.between({10, path[10]}, {30, {15.25, 0, 0}}) -
+                              covariances.between({10, path[10]}, {30, {15, 0, 0}});
+  EXPECT_NEAR(more(0, 0), 0.25 * 4e-4, 1e-12);
+  EXPECT_NEAR(more(2, 2), 0.25 * kDegree * kDegree, 1e-12);
 }
 
 TEST(PathCovariance, ARowForEachPose) {

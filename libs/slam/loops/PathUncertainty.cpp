@@ -13,6 +13,13 @@ namespace {
 
 constexpr double square(double x) { return x * x; }
 
+/// The covariance of a place fixed to a pose, `lever` from it, by that of the pose.
+Eigen::Matrix3d movedBy(const Eigen::Vector2d& lever, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix3d effect = Eigen::Matrix3d::Identity();
+  effect(0, 2) = -lever.y(), effect(1, 2) = lever.x();
+  return effect * covariance * effect.transpose();
+}
+
 }  // namespace
 
 StepVariance stepVariance(const TPose2D& motion, bool hasSlipped) {
@@ -58,8 +65,9 @@ Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vect
   const Eigen::Vector2d& at = places_[to];
   Eigen::Matrix3d least = along(from, to, at);
   for (const KnownPair& pair : known) {
+    const size_t near = from <= to ? pair.earlier : pair.later, far = from <= to ? pair.later : pair.earlier;
     const Eigen::Matrix3d detour =
-        along(from, pair.earlier, at) + pair.covariance + along(pair.later, to, at);
+        along(from, near, at) + movedBy(at - places_[far], pair.covariance) + along(far, to, at);
     if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
   }
   return least;

@@ -14,6 +14,13 @@ PathUncertainty straight() {
   return PathUncertainty(path, std::vector<StepVariance>(path.size(), {1e-4, 1e-6}));
 }
 
+/// The same, of 50 m out and back.
+PathUncertainty outAndBack() {
+  std::vector<TPose2D> path;
+  for (int i = 0; i <= 100; ++i) path.emplace_back(i <= 50 ? i : 100 - i, 0, 0);
+  return PathUncertainty(path, std::vector<StepVariance>(path.size(), {1e-4, 1e-6}));
+}
+
 TEST(PathUncertainty, AHeadingErrorMovesAllThatFollows) {
   const Eigen::Matrix3d covariance = straight().between(0, 100);
   EXPECT_NEAR(covariance(0, 0), 100 * 1e-4, 1e-9);
@@ -29,13 +36,29 @@ TEST(PathUncertainty, IsTheSameOnAnyPartOfAStraightPath) {
 }
 
 TEST(PathUncertainty, AKnownPairIsAShortCut) {
-  std::vector<TPose2D> path;  // 50 m out and back
-  for (int i = 0; i <= 100; ++i) path.emplace_back(i <= 50 ? i : 100 - i, 0, 0);
-  const PathUncertainty uncertainty(path, std::vector<StepVariance>(path.size(), {1e-4, 1e-6}));
+  const PathUncertainty uncertainty = outAndBack();
   const double direct = uncertainty.between(5, 95).trace();
   EXPECT_LT(uncertainty.between(5, 95, {KnownPair{10, 90}}).trace(), 0.2 * direct);
   EXPECT_DOUBLE_EQ(uncertainty.between(5, 10, {KnownPair{0, 90}}).trace(),
                    uncertainty.between(5, 10).trace());
+}
+
+TEST(PathUncertainty, AShortCutIsOneInBothDirections) {
+  for (const auto& [from, to] : {std::pair<size_t, size_t>(5, 95), {95, 5}})
+    EXPECT_NEAR(outAndBack().between(from, to, {KnownPair{10, 90}})(2, 2), 10 * 1e-6, 1e-12) << from;
+}
+
+/// 20 m beyond the pair.
+TEST(PathUncertainty, TheHeadingOfAKnownPairMovesWhatFollows) {
+  const double variance = 1e-6;
+  const Eigen::Matrix3d heading = Eigen::Vector3d(0, 0, variance).asDiagonal();
+  const PathUncertainty path = outAndBack();
+  const Eigen::Matrix3d more =
+      path.between(5, 70, {KnownPair{10, 90, heading}}) - path.between(5, 70, {KnownPair{10, 90}});
+  EXPECT_NEAR(more(0, 0), 0, 1e-12);
+  EXPECT_NEAR(more(1, 1), 400 * variance, 1e-12);
+  EXPECT_NEAR(more(1, 2), 20 * variance, 1e-12);
+  EXPECT_NEAR(more(2, 2), variance, 1e-12);
 }
 
 TEST(PathUncertainty, ASlipIsWide) {

@@ -1,5 +1,6 @@
 #include "study/evaluation/NormalizedError.h"
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "base/Errors.h"
 #include "files/NumberTable.h"
 #include "study/evaluation/Association.h"
+#include "study/evaluation/ErrorStatistics.h"
 #include "study/evaluation/StampIndex.h"
 
 namespace hybrid_slam::evaluation {
@@ -16,8 +18,45 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kChiSquare95 = 7.815;         // three degrees of freedom
+constexpr double kChiSquare95OfAxis = 3.841;   // one
 constexpr double kLargestCovariance = 1e14;    // m^2: of coordinates up to 1e7 m, as files::checkPose
 constexpr double kLargestSquaredError = 1e30;  // the sum of all must be a number
+
+/// Collects the squared errors of the pairs.
+class SquaredErrors {
+ public:
+  /// @param where  of the covariance, for errors
+  void add(const TPose2D& estimate, const TPose2D& truth, const Eigen::Matrix3d& covariance,
+           const std::string& where) {
+    const Eigen::Vector3d error(estimate.x - truth.x, estimate.y - truth.y,
+                                mrpt::math::wrapToPi(estimate.phi - truth.phi));
+    const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+    if (factor.info() != Eigen::Success)
+      throw InputError("covariance without inverse", where, "expected a positive definite matrix");
+    const double squared = error.dot(factor.solve(error));
+    if (!(squared < kLargestSquaredError))
+      throw InputError("covariance too small", where, "expected an error below 1e15 standard deviations");
+    all_.push_back(squared);
+    for (int axis = 0; axis < 3; ++axis)
+      insideAxes_[axis] += mrpt::square(error[axis]) < kChiSquare95OfAxis * covariance(axis, axis) ? 1 : 0;
+  }
+
+  NormalizedErrors result() const {
+    const auto count = static_cast<double>(all_.size());
+    NormalizedErrors result{all_.size(), 0, errorStatistics(all_).median, 0, insideAxes_ / count};
+    for (const double squared : all_) {
+      result.mean += squared;
+      result.inside95 += squared < kChiSquare95 ? 1 : 0;
+    }
+    result.mean /= count;
+    result.inside95 /= count;
+    return result;
+  }
+
+ private:
+  std::vector<double> all_;
+  Eigen::Vector3d insideAxes_ = Eigen::Vector3d::Zero();
+};
 
 }  // namespace
 
@@ -41,30 +80,24 @@ NormalizedErrors normalizedErrors(const files::Trajectory& estimate,
   if (covariances.size() != estimate.size())
     throw InputError("wrong number of covariances", std::to_string(covariances.size()) + " rows",
                      "expected " + std::to_string(estimate.size()) + ", one for each pose");
-  NormalizedErrors result;
   const PosePair first = associate(estimate, reference, tolerance).front();
   const StampIndex index(reference);
-  for (size_t i = 0; i < estimate.size(); ++i) {
-    const auto row = index.nearest(estimate[i].timestamp, tolerance);
-    if (!row) continue;
-    const TPose2D pose = estimate[i].pose - first.estimate, truth = reference[*row].pose - first.reference;
-    const Eigen::Vector3d error(pose.x - truth.x, pose.y - truth.y,
-                                mrpt::math::wrapToPi(pose.phi - truth.phi));
-    const Eigen::LLT<Eigen::Matrix3d> factor(covariances[i]);
-    if (factor.info() != Eigen::Success)
-      throw InputError("covariance without inverse", "row " + std::to_string(i + 1),
-                       "expected a positive definite matrix");
-    const double squared = error.dot(factor.solve(error));
-    if (!(squared < kLargestSquaredError))
-      throw InputError("covariance too small", "row " + std::to_string(i + 1),
-                       "expected an error below 1e15 standard deviations");
-    ++result.pairs;
-    result.mean += squared;
-    result.inside95 += squared < kChiSquare95 ? 1 : 0;
+  SquaredErrors errors;
+  for (size_t i = 0; i < estimate.size(); ++i)
+    if (const auto row = index.nearest(estimate[i].timestamp, tolerance))
+      errors.add(estimate[i].pose - first.estimate, reference[*row].pose - first.reference, covariances[i],
+                 "row " + std::to_string(i + 1));
+  return errors.result();
+}
+
+NormalizedErrors normalizedErrors(const std::vector<PlacedRelation>& relations,
+                                  const std::vector<Eigen::Matrix3d>& covariances) {
+  SquaredErrors errors;
+  for (size_t i = 0; i < relations.size(); ++i) {
+    const auto& [motion, first, second] = relations[i];
+    errors.add(second.pose - first.pose, motion, covariances[i], "used relation " + std::to_string(i + 1));
   }
-  result.mean /= static_cast<double>(result.pairs);
-  result.inside95 /= static_cast<double>(result.pairs);
-  return result;
+  return errors.result();
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
@@ -22,7 +24,9 @@ TEST(NormalizedError, IsTheSquaredErrorInUnitsOfTheVariance) {
       normalizedErrors(line(4, 0.6), std::vector<Eigen::Matrix3d>(4, covariance), line(4, 0), 0.01);
   EXPECT_EQ(errors.pairs, 4u);
   EXPECT_NEAR(errors.mean, 0.75 * 0.36 / 0.04, 1e-9);
+  EXPECT_NEAR(errors.median, 9, 1e-9);
   EXPECT_NEAR(errors.inside95, 0.25, 1e-9) << "9 is outside";
+  EXPECT_EQ(errors.insideAxes, Eigen::Vector3d(1, 0.25, 1));
 }
 
 TEST(NormalizedError, FramesBeginAtTheFirstPose) {
@@ -51,6 +55,35 @@ TEST(NormalizedError, CovariancesThatCannotBeTrueAreNamed) {
       folder.write("c.csv", "timestamp,xx,xy,yy,xphi,yphi,phiphi\n1,1,0,1,0,0,1\n2,1e200,0,1,0,0,1\n");
   EXPECT_EQ(test::errorOf([&] { loadCovariances(file); }),
             "broken line: file `" + file + "`, line 3; expected covariances in -1e14..1e14 (m, rad)");
+}
+
+TEST(NormalizedError, OfRelations) {
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
+  const auto squared = [&](const mrpt::math::TPose2D& motion) {
+    // 1 m ahead, while turning from 175 deg to -175 deg
+    const TrajectoryPoint first{{5, 5, M_PI - 0.1}},
+        second{{5 - std::cos(0.1), 5 + std::sin(0.1), 0.1 - M_PI}};
+    return normalizedErrors({{motion, first, second}}, {covariance}).mean;
+  };
+  EXPECT_NEAR(squared({1, 0, 0.2}), 0, 1e-12);
+  EXPECT_NEAR(squared({1.1, 0, 0.2}), 1, 1e-9) << "one standard deviation";
+  EXPECT_NEAR(squared({0.9, 0, 0.2}), 1, 1e-9);
+  EXPECT_NEAR(squared({1, 0.2, 0.2}), 1, 1e-9) << "in the frame of the first pose";
+  EXPECT_NEAR(squared({1, 0, 0.2 - 0.5}), 1, 1e-9);
+  EXPECT_NEAR(squared({1.1, 0.2, 0.7}), 3, 1e-9);
+}
+
+TEST(NormalizedError, OfTwoRelations) {
+  const std::vector<PlacedRelation> relations{{{1, 0, 0}, {{0, 0, 0}}, {{4, 0, 0}}}, {{}, {}, {}}};
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  const NormalizedErrors errors = normalizedErrors(relations, {one, one});
+  EXPECT_EQ(errors.pairs, 2u);
+  EXPECT_NEAR(errors.mean, 4.5, 1e-12);
+  EXPECT_NEAR(errors.inside95, 0.5, 1e-12) << "9 is outside";
+  EXPECT_EQ(test::errorOf([&] {
+              normalizedErrors(relations, {one, Eigen::Matrix3d::Zero()});
+            }),
+            "covariance without inverse: used relation 2; expected a positive definite matrix");
 }
 
 TEST(NormalizedError, ReadsAFile) {

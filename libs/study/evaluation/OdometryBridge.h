@@ -10,6 +10,12 @@
 
 namespace hybrid_slam::evaluation {
 
+/// A pose between or at the poses of a trajectory.
+struct TrajectoryPoint {
+  mrpt::math::TPose2D pose{};  ///< m, rad
+  size_t row = 0;              ///< of the trajectory: its pose here, or the last one before
+};
+
 /// A filter gives poses only at its updates. Between two of them, the pose at an odometry row is the last
 /// trajectory pose composed with the odometry since; the closing error at the next trajectory pose is spread
 /// equally over the rows in between.
@@ -27,13 +33,13 @@ class OdometryBridge {
 
   /// Returns the pose at a time (s); empty without an odometry row within the tolerance, and before the first
   /// trajectory pose.
-  std::optional<mrpt::math::TPose2D> poseAt(double timestamp) const;
+  std::optional<TrajectoryPoint> poseAt(double timestamp) const;
 
  private:
   const files::Trajectory& odometry_;
   StampIndex rows_;
   double tolerance_;
-  std::map<size_t, mrpt::math::TPose2D> anchors_;  ///< trajectory poses by odometry row
+  std::map<size_t, TrajectoryPoint> anchors_;  ///< trajectory poses by odometry row
 };
 
 }  // namespace hybrid_slam::evaluation

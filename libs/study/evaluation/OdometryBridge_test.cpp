@@ -18,11 +18,11 @@ files::Trajectory straightOdometry(const std::vector<double>& stamps) {
   return odometry;
 }
 
-void expectPose(const std::optional<TPose2D>& pose, double x, double y, double phi) {
-  ASSERT_TRUE(pose.has_value());
-  EXPECT_NEAR(pose->x, x, 1e-12);
-  EXPECT_NEAR(pose->y, y, 1e-12);
-  EXPECT_NEAR(pose->phi, phi, 1e-12);
+void expectPose(const std::optional<TrajectoryPoint>& point, double x, double y, double phi) {
+  ASSERT_TRUE(point.has_value());
+  EXPECT_NEAR(point->pose.x, x, 1e-12);
+  EXPECT_NEAR(point->pose.y, y, 1e-12);
+  EXPECT_NEAR(point->pose.phi, phi, 1e-12);
 }
 
 TEST(OdometryBridge, SpreadsTheClosingErrorInEqualParts) {
@@ -40,6 +40,13 @@ TEST(OdometryBridge, ContinuesInTheFrameOfTheLastPose) {
   EXPECT_FALSE(bridge.poseAt(0).has_value()) << "before the first pose";
   expectPose(bridge.poseAt(1), 10, 20, M_PI / 2);
   expectPose(bridge.poseAt(3), 10, 22, M_PI / 2);
+}
+
+TEST(OdometryBridge, NamesThePoseThatItCarries) {
+  const files::Trajectory odometry = straightOdometry({0, 1, 2, 3, 4});
+  const OdometryBridge bridge({{0, {}}, {2, {2, 0, 0}}}, odometry, 0.006);
+  for (const auto& [timestamp, row] : {std::pair(0.0, 0U), {1.0, 0U}, {2.0, 1U}, {4.0, 1U}})
+    EXPECT_EQ(bridge.poseAt(timestamp)->row, row) << timestamp;
 }
 
 TEST(OdometryBridge, RowOrderIsUsedWhereTimeStepsBack) {
@@ -87,10 +94,10 @@ TEST(OdometryBridge, PerfectOdometryGivesTheTruthFromAnySubset) {
       if (random.uniform() < 0.2) subset.push_back(p);
     const OdometryBridge bridge(subset, odometry, 0.006);
     for (const files::StampedPose& p : truth) {
-      const auto pose = bridge.poseAt(p.timestamp);
-      ASSERT_TRUE(pose.has_value());
-      EXPECT_NEAR(std::hypot(pose->x - p.pose.x, pose->y - p.pose.y), 0, 1e-11);
-      EXPECT_NEAR(std::cos(pose->phi - p.pose.phi), 1, 1e-12);
+      const auto point = bridge.poseAt(p.timestamp);
+      ASSERT_TRUE(point.has_value());
+      EXPECT_NEAR(std::hypot(point->pose.x - p.pose.x, point->pose.y - p.pose.y), 0, 1e-11);
+      EXPECT_NEAR(std::cos(point->pose.phi - p.pose.phi), 1, 1e-12);
     }
   }
 }

@@ -3,50 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
 #include "base/Errors.h"
 #include "files/NumberTable.h"
 #include "study/evaluation/Association.h"
-#include "study/evaluation/OdometryBridge.h"
 #include "study/evaluation/StampIndex.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
 
-using PoseAt = std::function<std::optional<mrpt::math::TPose2D>(double)>;
+using PoseAt = std::function<std::optional<TrajectoryPoint>(double)>;
 
-RelationErrors evaluate(const std::vector<Relation>& relations, const PoseAt& poseAt) {
-  std::vector<double> translations, rotations;
+std::vector<PlacedRelation> place(const std::vector<Relation>& relations, const PoseAt& poseAt) {
+  std::vector<PlacedRelation> placed;
   for (const Relation& relation : relations) {
-    const auto p1 = poseAt(relation.t1), p2 = poseAt(relation.t2);
-    if (!p1 || !p2) continue;
-    const mrpt::math::TPose2D error = (*p2 - *p1) - relation.motion;
-    translations.push_back(std::hypot(error.x, error.y));
-    rotations.push_back(std::abs(error.phi));
+    const auto first = poseAt(relation.t1), second = poseAt(relation.t2);
+    if (first && second) placed.push_back({relation.motion, *first, *second});
   }
-  RelationErrors result;
-  result.relations = relations.size();
-  result.used = translations.size();
-  if (result.used == 0) return result;
-  result.translation = errorStatistics(std::move(translations));
-  result.rotation = errorStatistics(std::move(rotations));
-  return result;
+  return placed;
 }
 
-RelationErrors evaluateNearest(files::Trajectory trajectory, const std::vector<Relation>& relations,
-                               double tolerance) {
-  std::sort(trajectory.begin(), trajectory.end(),
-            [](const files::StampedPose& a, const files::StampedPose& b) {
-              return std::tie(a.timestamp, a.pose.x, a.pose.y, a.pose.phi) <
-                     std::tie(b.timestamp, b.pose.x, b.pose.y, b.pose.phi);
-            });
-  const StampIndex index(trajectory);
-  return evaluate(relations, [&](double timestamp) -> std::optional<mrpt::math::TPose2D> {
-    const auto row = index.nearest(timestamp, tolerance);
-    if (!row) return std::nullopt;
-    return trajectory[*row].pose;
+std::vector<PlacedRelation> placeNearest(const files::Trajectory& trajectory,
+                                         const std::vector<Relation>& relations, double tolerance) {
+  std::vector<size_t> rows(trajectory.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  std::sort(rows.begin(), rows.end(), [&trajectory](size_t i, size_t j) {
+    const files::StampedPose &a = trajectory[i], &b = trajectory[j];
+    return std::tie(a.timestamp, a.pose.x, a.pose.y, a.pose.phi) <
+           std::tie(b.timestamp, b.pose.x, b.pose.y, b.pose.phi);
+  });
+  files::Trajectory sorted;
+  for (const size_t row : rows) sorted.push_back(trajectory[row]);
+  const StampIndex index(sorted);
+  return place(relations, [&](double timestamp) -> std::optional<TrajectoryPoint> {
+    const auto place = index.nearest(timestamp, tolerance);
+    if (!place) return std::nullopt;
+    return TrajectoryPoint{sorted[*place].pose, rows[*place]};
   });
 }
 
@@ -61,16 +56,17 @@ std::vector<Relation> loadRelations(const std::string& file) {
   return relations;
 }
 
-RelationErrors evaluateRelations(const files::Trajectory& trajectory, const std::vector<Relation>& relations,
-                                 const files::Trajectory* odometry, double tolerance) {
-  RelationErrors result;
+std::vector<PlacedRelation> placeRelations(const files::Trajectory& trajectory,
+                                           const std::vector<Relation>& relations,
+                                           const files::Trajectory* odometry, double tolerance) {
+  std::vector<PlacedRelation> placed;
   if (odometry) {
     const OdometryBridge bridge(trajectory, *odometry, tolerance);
-    result = evaluate(relations, [&](double timestamp) { return bridge.poseAt(timestamp); });
+    placed = place(relations, [&](double timestamp) { return bridge.poseAt(timestamp); });
   } else {
-    result = evaluateNearest(trajectory, relations, tolerance);
+    placed = placeNearest(trajectory, relations, tolerance);
   }
-  if (result.used > 0) return result;
+  if (!placed.empty()) return placed;
 
   files::Trajectory ends;
   for (const Relation& relation : relations) {
@@ -82,6 +78,22 @@ RelationErrors evaluateRelations(const files::Trajectory& trajectory, const std:
                    odometry ? "expected odometry rows at both times of a relation, after the first pose"
                             : "expected poses at both times of a relation; try a larger tolerance or "
                               "odometry between the poses");
+}
+
+RelationErrors evaluateRelations(const files::Trajectory& trajectory, const std::vector<Relation>& relations,
+                                 const files::Trajectory* odometry, double tolerance) {
+  std::vector<double> translations, rotations;
+  for (const PlacedRelation& relation : placeRelations(trajectory, relations, odometry, tolerance)) {
+    const mrpt::math::TPose2D error = (relation.second.pose - relation.first.pose) - relation.motion;
+    translations.push_back(std::hypot(error.x, error.y));
+    rotations.push_back(std::abs(error.phi));
+  }
+  RelationErrors result;
+  result.relations = relations.size();
+  result.used = translations.size();
+  result.translation = errorStatistics(std::move(translations));
+  result.rotation = errorStatistics(std::move(rotations));
+  return result;
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -10,6 +10,7 @@
 
 #include "files/Trajectory.h"
 #include "study/evaluation/ErrorStatistics.h"
+#include "study/evaluation/OdometryBridge.h"
 
 namespace hybrid_slam::evaluation {
 
@@ -32,14 +33,25 @@ struct RelationErrors {
   ErrorStatistics rotation;     ///< rad
 };
 
-/// Computes the errors inverse(motion) + (inverse(p1) + p2) over the relations with known poses p1, p2 at t1,
-/// t2.
+/// A relation with the poses of a trajectory at its times.
+struct PlacedRelation {
+  mrpt::math::TPose2D motion{};  ///< of the relation
+  TrajectoryPoint first, second;
+};
+
+/// Finds the poses at the times of relations; relations without both are left out.
 ///
 /// Without odometry, a pose is the trajectory pose nearest in time within the tolerance; of several with the
 /// same timestamp, the last in (x, y, phi) order. With odometry, OdometryBridge gives the pose.
 /// @param odometry   may be null
 /// @param tolerance  s
 /// @throws InputError if no relation can be used.
+std::vector<PlacedRelation> placeRelations(const files::Trajectory& trajectory,
+                                           const std::vector<Relation>& relations,
+                                           const files::Trajectory* odometry, double tolerance);
+
+/// Computes the errors inverse(motion) + (inverse(p1) + p2) over the relations with poses p1, p2 at t1, t2.
+/// Parameters and errors as placeRelations.
 RelationErrors evaluateRelations(const files::Trajectory& trajectory, const std::vector<Relation>& relations,
                                  const files::Trajectory* odometry, double tolerance);
 

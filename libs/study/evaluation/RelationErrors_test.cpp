@@ -86,6 +86,17 @@ TEST(RelationErrors, OfSeveralPosesWithOneStampTheLastByPositionIsTaken) {
   EXPECT_NEAR(e.translation.max, 0, 1e-12);
 }
 
+TEST(RelationErrors, RelationsAreAtRowsOfTheTrajectory) {
+  const files::Trajectory trajectory{{2, {7, 0, 0}}, {1, {3, 0, 0}}, {1, {4, 0, 0}}};
+  const std::vector<Relation> relations{{1, 2, {}}, {0, 1, {}}};
+  const auto placed = placeRelations(trajectory, relations, nullptr, 0.006);
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_EQ(placed[0].first.row, 2u);
+  EXPECT_EQ(placed[0].first.pose.x, 4);
+  EXPECT_EQ(placed[0].second.row, 0u);
+  EXPECT_EQ(placed[0].second.pose.x, 7);
+}
+
 TEST(RelationErrors, NoUsableRelation) {
   using testing::HasSubstr;
   const auto errorOf = [](const files::Trajectory& trajectory,

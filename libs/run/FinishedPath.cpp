@@ -1,0 +1,75 @@
+#include "run/FinishedPath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/Errors.h"
+#include "base/Numbers.h"
+#include "files/LineReader.h"
+#include "readings/RawlogSource.h"
+#include "run/Configuration.h"
+#include "run/VerdictCheck.h"
+
+namespace hybrid_slam::run {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kSameTime = 1e-6;  // s; files have six decimals
+
+/// Reads the first column of steps.csv.
+std::vector<double> updateTimes(const std::string& file) {
+  files::LineReader reader(file);
+  std::vector<double> times;
+  std::string line;
+  for (reader.next(line); reader.next(line);) {
+    const auto time = parseFinite(line.substr(0, line.find(',')));
+    if (!time)
+      throw InputError("broken line", "file `" + file + "`, line " + std::to_string(reader.number()),
+                       "expected a row of steps.csv");
+    times.push_back(*time);
+  }
+  return times;
+}
+
+}  // namespace
+
+PathPoint FinishedPath::at(const TPose2D& pose, size_t row) const {
+  return {std::max<size_t>(updates[row], 1) - 1, pose};
+}
+
+FinishedPath readFinishedPath(const std::string& folder, const std::string& log) {
+  const Configuration configuration(folder + "/config.ini", {"run.rawlog=" + log});
+  const files::Trajectory trajectory = files::loadTum(folder + "/trajectory.tum");
+  const std::vector<double> times = updateTimes(folder + "/steps.csv");
+  std::vector<TPose2D> path;
+  std::vector<size_t> updates;
+  for (const files::StampedPose& row : trajectory) {
+    if (path.size() < times.size() && std::abs(row.timestamp - times[path.size()]) < kSameTime)
+      path.push_back(row.pose);
+    updates.push_back(path.size());
+  }
+  if (path.empty() || path.size() < times.size())
+    throw InputError("the updates are not those of the trajectory", folder + "/steps.csv",
+                     "expected the files of one run");
+
+  const readings::RawlogSummary summary = readings::summarise(log, configuration.input);
+  readings::RawlogSource source(log, configuration.input, summary);
+  VerdictCheck check;
+  size_t row = 0;
+  while (const auto reading = source.next()) {
+    if (row == trajectory.size() || std::abs(reading->timestamp - trajectory[row].timestamp) >= kSameTime)
+      continue;  // the run skipped it
+    if (updates[row] > (row > 0 ? updates[row - 1] : 0)) check.add(trajectory[row].pose, reading->scans);
+    ++row;
+  }
+  if (row < trajectory.size())
+    throw InputError("the log is not that of the run", log,
+                     "expected a scan at each time of " + folder + "/trajectory.tum");
+  return {trajectory, updates,
+          PathCovariances(path, {}, check.evidence().returning, configuration.filter.useLines)};
+}
+
+}  // namespace hybrid_slam::run

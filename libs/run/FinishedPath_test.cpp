@@ -1,0 +1,71 @@
+#include "run/FinishedPath.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "files/NumberTable.h"
+#include "files/TemporaryFolder.h"
+#include "run/Replay.h"
+#include "testing/ErrorOf.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+/// A run of three laps, 29 m, whose third returns to places mapped 20 m before. A single particle has no
+/// spread.
+struct FinishedRun : testing::Test {
+  files::TemporaryFolder folder;
+  std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(240));
+
+  std::string map(const std::string& method) const {
+    Configuration configuration("", {"run.rawlog=" + log, "run.output=" + folder.path(method),
+                                     "run.method=" + method, "particle_filter.particles=1"});
+    replay(configuration, true, std::atomic<bool>{false});
+    return folder.path(method);
+  }
+};
+
+TEST_F(FinishedRun, HasTheCovariancesOfTheRun) {
+  for (const char* method : {"hybrid", "general"}) {
+    const std::string results = map(method);
+    const FinishedPath path = readFinishedPath(results, log);
+    const auto ofPoses = path.covariances.ofPoses();
+    const auto rows =
+        files::readNumberTable(results + "/covariance.csv", "timestamp,xx,xy,yy,xphi,yphi,phiphi");
+    ASSERT_EQ(rows.size(), path.trajectory.size());
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (path.updates[i] == (i > 0 ? path.updates[i - 1] : 0)) continue;
+      const auto& v = rows[i].values;
+      const PoseCovariance& covariance = ofPoses.at(path.updates[i] - 1);
+      EXPECT_NEAR(covariance(0, 0), v[1], 1e-5 * v[1]) << method << ", row " << i;
+      EXPECT_NEAR(covariance(1, 1), v[3], 1e-5 * v[3]) << method << ", row " << i;
+      EXPECT_NEAR(covariance(2, 2), v[6], 1e-5 * v[6]) << method << ", row " << i;
+    }
+  }
+}
+
+TEST_F(FinishedRun, FilesThatDoNotBelongTogether) {
+  const std::string results = map("hybrid");
+  const std::string other = test::writeGzipped(folder.path("other.rawlog"), test::laps(20));
+  EXPECT_EQ(test::errorOf([&] { readFinishedPath(results, other); }),
+            "the log is not that of the run: " + other + "; expected a scan at each time of " + results +
+                "/trajectory.tum");
+  EXPECT_THAT(test::errorOf([&] { readFinishedPath(folder.path("none"), log); }),
+              testing::HasSubstr(folder.path("none") + "/config.ini"));
+  folder.write("hybrid/steps.csv", "timestamp,particles\n1000,2\n7,2\n");
+  EXPECT_EQ(test::errorOf([&] { readFinishedPath(results, log); }),
+            "the updates are not those of the trajectory: " + results +
+                "/steps.csv; expected the files of one run");
+  folder.write("hybrid/steps.csv", "timestamp,particles\nnow,2\n");
+  EXPECT_EQ(test::errorOf([&] { readFinishedPath(results, log); }),
+            "broken line: file `" + results + "/steps.csv`, line 2; expected a row of steps.csv");
+  std::filesystem::remove(results + "/steps.csv");
+  EXPECT_THAT(test::errorOf([&] { readFinishedPath(results, log); }), testing::HasSubstr("steps.csv"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run
