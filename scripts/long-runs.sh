@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Measures what grows with laps, days and kilometres in long runs: the tables of doc/reliability.md.
-#   scripts/long-runs.sh [laps | day | drive ...]      default: all three
-# HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps`. The results and logs go to
+#   scripts/long-runs.sh [laps | refinement | day | drive ...]      default: all four
+# HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps` and `refinement`. The results and logs go to
 # OUT (out/long-runs; 5 GB). HOURS (24) and RATE (3000 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
 # with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
 source "$(dirname "$0")/lib.sh"
-[[ $# -gt 0 ]] || set -- laps day drive
+[[ $# -gt 0 ]] || set -- laps refinement day drive
 install_packages "${packages[@]}"
 build release hybrid-slam hybrid-slam-live hybrid-slam-laps observation-server log2rawlog simul-floorplan >&2
 bin=$PWD/build/release/bin
@@ -18,18 +18,42 @@ out=$(cd "$out" && pwd)
 metric() { awk -F'[:,]' -v key="\"$1\"" '$1 ~ key { print $2; exit }' "$2/metrics.json"; }
 megabytes() { awk '{ s += $1 } END { printf "%.1f", s / 1e6 }' < <(stat -Lc %s "$@" 2>/dev/null); }
 
-# The Intel log driven forwards and backwards in turn.
+# laps_of N: the Intel log driven forwards and backwards in turn.
+laps_of() {
+  [[ -e $out/intel.rawlog ]] ||
+    "$bin/log2rawlog" "$HYBRID_SLAM_DATASETS/intel-lab.clf.gz" "$out/intel.rawlog" >/dev/null
+  "$bin/hybrid-slam-laps" "$out/intel.rawlog" "$1" "$out/intel-$1.rawlog"
+}
+
 laps() {
-  "$bin/log2rawlog" "$HYBRID_SLAM_DATASETS/intel-lab.clf.gz" "$out/intel.rawlog" >/dev/null
   echo "| laps | scans | CPU (s) | CPU per lap (s) | peak memory (MB) | session (MB) |"
   echo "|---|---|---|---|---|---|"
   local n
   for n in 1 2 5 10; do
-    "$bin/hybrid-slam-laps" "$out/intel.rawlog" "$n" "$out/intel-$n.rawlog"
+    laps_of "$n"
     "$bin/hybrid-slam" "$config/paper.ini" "$out/intel-$n.rawlog" -q --overwrite -j 1 -o "$out/laps-$n"
     awk -v n="$n" -v scans="$(metric scans "$out/laps-$n")" -v cpu="$(metric cpu_s "$out/laps-$n")" \
       -v peak="$(metric peak_rss_mb "$out/laps-$n")" -v session="$(megabytes "$out/laps-$n/session.hslam")" \
       'BEGIN { printf "| %d | %d | %.0f | %.1f | %.0f | %s |\n", n, scans, cpu, cpu / n, peak, session }'
+  done
+}
+
+# Peak memory with and without the refinement, which holds all scans: about 600 bytes for a scan, and 9 for each of its
+# 181 beams (FilterRun::limitRefinement).
+refinement() {
+  echo "| laps | scans | not refined (MB) | refined (MB) | difference (MB) | estimate (MB) |"
+  echo "|---|---|---|---|---|---|"
+  local n refine
+  for n in 1 5 10; do
+    laps_of "$n"
+    for refine in 0 1; do
+      "$bin/hybrid-slam" "$config/paper.ini" "$out/intel-$n.rawlog" -q --overwrite -j 1 --set run.refine=$refine \
+        -o "$out/refinement-$n-$refine"
+    done
+    awk -v n="$n" -v scans="$(metric scans "$out/refinement-$n-1")" \
+      -v without="$(metric peak_rss_mb "$out/refinement-$n-0")" -v with="$(metric peak_rss_mb "$out/refinement-$n-1")" \
+      'BEGIN { printf "| %d | %d | %.0f | %.0f | %.0f | %.0f |\n", n, scans, without, with, with - without,
+               scans * (600 + 9 * 181) / 2^20 }'
   done
 }
 

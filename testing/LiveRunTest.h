@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "files/RawlogReader.h"
 #include "files/TemporaryFolder.h"
 #include "live/CycleGrouper.h"
 #include "live_run/LiveRun.h"
@@ -19,6 +20,7 @@ namespace hybrid_slam::test {
 
 class LiveRunTest : public ::testing::Test {
  protected:
+  LiveRunTest() { options.diskReserve = 0; }  // the tests' disk may be small
   run::Configuration configuration(const std::string& output, const std::string& more = "") {
     const std::string ini =
         folder.write("run.ini",
@@ -48,6 +50,14 @@ class LiveRunTest : public ::testing::Test {
   std::string recording() const {
     const auto all = filesIn(folder.path("live"), "recording-");
     return all.empty() ? "" : all.back();
+  }
+  /// Returns the number of entries of a complete rawlog.
+  static size_t entriesOf(const std::string& rawlog) {
+    files::RawlogReader reader(rawlog);
+    size_t objects = 0;
+    while (reader.next()) ++objects;
+    EXPECT_EQ(reader.defect(), "");
+    return objects;
   }
   std::string result(const std::string& name) const { return contentOf(folder.path(name)); }
   void expectSameResults() {

@@ -132,7 +132,7 @@ void scan(Walk& in, int v) {
   if (v >= 3) in.skip(kTime);
   if (v >= 4) in.skip(4);  // beamAperture
   if (v >= 5) {
-    in.text();
+    in.label();
     in.skip(8);  // deltaPitch
   }
   if (v >= 7 && in.flag()) in.skip(beams * 4);  // intensities
@@ -141,7 +141,7 @@ void scan(Walk& in, int v) {
 
 void odometry(Walk& in, int v) {
   in.object(Kind::pose2D);
-  in.text();
+  in.label();
   in.skip(kTime);
   if (v == 0) return;
   const bool hasTicks = in.flag();
@@ -165,13 +165,13 @@ void imu(Walk& in, int v) {
     in.skip(kValues * 8);
   else
     in.array(v == 0 ? 4 : 8);
-  in.text();
+  in.label();
 }
 
 void comment(Walk& in, int v) {
   in.text();
   in.skip(kTime);
-  if (v >= 1) in.text();
+  if (v >= 1) in.label();
 }
 
 void battery(Walk& in, int v) {
@@ -179,7 +179,7 @@ void battery(Walk& in, int v) {
   in.flag(), in.flag();
   in.array(8);
   in.flags();
-  if (v >= 1) in.text();
+  if (v >= 1) in.label();
   if (v >= 2) in.skip(kTime);
 }
 
@@ -190,13 +190,13 @@ void range(Walk& in, int v) {
     in.object(Kind::pose3D);
     in.skip(v >= 4 ? 2 * 4 : 4);
   }
-  if (v >= 1) in.text();
+  if (v >= 1) in.label();
   if (v >= 2) in.skip(kTime);
 }
 
 void robotPose(Walk& in, int v) {
   in.object(Kind::pdf3D);
-  in.text();
+  in.label();
   in.skip(kTime);
   if (v >= 1) in.object(Kind::pose3D);
 }

@@ -94,6 +94,13 @@ void ObjectWalk::flags() {
   for (size_t n = count(1); n > 0; --n) flag();
 }
 
+void ObjectWalk::label() {
+  const size_t n = count(1);
+  if (n > kLongestLabel)
+    throw ObjectError("a label of more than " + std::to_string(kLongestLabel) + " characters");
+  skip(n);
+}
+
 ObjectWalk::Header ObjectWalk::header() {
   Header header;
   const uint8_t first = byte();

@@ -41,6 +41,9 @@ struct ObjectCut : ObjectError {
   using ObjectError::ObjectError;
 };
 
+/// Largest number of characters of a sensor's label: labels are kept, so that they must not fill the memory.
+constexpr size_t kLongestLabel = 1000;
+
 /// A walk through one object after another, within the limits that MRPT itself does not check.
 class ObjectWalk {
  public:
@@ -72,6 +75,8 @@ class ObjectWalk {
   /// Steps over a count and that many elements of `size` bytes.
   void array(size_t size) { skip(size * count(size)); }
   void text() { array(1); }
+  /// Steps over the label of a sensor.
+  void label();
   void flags();
   /// @}
 

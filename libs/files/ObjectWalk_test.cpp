@@ -275,6 +275,21 @@ TEST(ObjectWalk, OnlyListedClassesAndTheirValues) {
   EXPECT_THAT(walked(wrong), HasSubstr("without its end"));
 }
 
+TEST(ObjectWalk, LabelsAreBoundedBecauseTheyAreKept) {
+  for (const size_t length : {kLongestLabel, kLongestLabel + 1, size_t{1} << 20}) {
+    const std::string label(length, 'x');
+    const auto odometry = test::odometry(1, {});
+    odometry->sensorLabel = label;
+    for (const CSerializable::Ptr& object :
+         {CSerializable::Ptr(test::scan(1, {}, 3, label)), CSerializable::Ptr(odometry)})
+      EXPECT_EQ(walked(bytesOf(object)),
+                length <= kLongestLabel ? "" : "a label of more than 1000 characters");
+  }
+  const auto comment = mrpt::obs::CObservationComment::Create();
+  comment->text = std::string(1 << 20, 'x');
+  EXPECT_EQ(walked(bytesOf(comment)), "") << "a text is no label";
+}
+
 TEST(ObjectWalk, AnEstimationMethodThatMrptDoesNotKnowIsAnError) {
   std::string bytes = bytesOf(test::action({1, 0, 0}));
   const std::string name = "CActionRobotMovement2D";

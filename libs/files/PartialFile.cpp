@@ -60,6 +60,11 @@ PartialFile::~PartialFile() {
 }
 
 void PartialFile::commit() {
+  if (::fsync(lock_) != 0) fail(errno);
+  keep();
+}
+
+void PartialFile::keep() {
   std::error_code error;
   fs::rename(partial_, final_, error);
   if (error) fail(error.value());

@@ -21,8 +21,11 @@ class PartialFile {
   static std::string partialName(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then
-  /// @throws InputError if the file cannot be renamed
+  /// Syncs the file to disk and renames it, so that a power cut leaves no empty file under its name.
+  /// @throws InputError if either fails
   void commit();
+  /// Renames a file that cannot be written to its end. @throws InputError if that fails
+  void keep();
   /// @param error  errno, or 0 if unknown
   /// @throws InputError: the file cannot be written
   [[noreturn]] void fail(int error) const;

@@ -51,7 +51,7 @@ void RawlogWriter::flush() {
 
 void RawlogWriter::finishCut() {
   gzip_.reset();
-  file_.commit();
+  file_.keep();
 }
 
 void RawlogWriter::finish() {

@@ -33,10 +33,10 @@ bool isRenamable(const fs::path& folder) {
          own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
 }
 
-/// Syncs a folder to disk, so that a power cut after the renaming leaves no empty files.
+/// Syncs a folder to disk, with its subfolders, so that a power cut after the renaming leaves no empty files.
 /// @throws InputError if a file cannot be synced
 void sync(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
     const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
     if (file >= 0) ::close(file);

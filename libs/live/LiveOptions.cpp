@@ -20,6 +20,9 @@ void LiveOptions::describe(OptionTable& t) {
         "motion is kept");
   t.add("recording", recording,
         "file name of the rawlog of raw observations, in the results folder; the date and time are added");
+  t.add("disk_reserve", diskReserve, 0, 1e9, "MB",
+        "the recording stops when less disk space than this is free, so that the results find space; the run "
+        "continues");
 }
 
 void ServerOptions::describe(OptionTable& t) {

@@ -18,6 +18,7 @@ struct LiveOptions : Options {
   double sensorTimeout = 5;
   int maxWaiting = 5;
   std::string recording = "recording.rawlog";
+  double diskReserve = 500;
   void describe(OptionTable& table) override;
 };
 

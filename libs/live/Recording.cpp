@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "files/DatedName.h"
 
 namespace hybrid_slam::live {
@@ -39,11 +40,22 @@ void Recording::write(const mrpt::obs::CObservation& observation) {
   if (entries_++ == 0) open();
   if (!writer_) return;
   try {
+    checkSpace();
     writer_->write(observation);
   } catch (const std::exception& e) {
     endAt(e);
   }
   if (Clock::now() - lastFlush_ >= std::chrono::seconds(5)) sync();
+}
+
+// Who sends the observations decides how many there are; the results must still find space.
+void Recording::checkSpace() const {
+  std::error_code unknown;  // then `available` is the largest number
+  const auto free = static_cast<double>(std::filesystem::space(folder_, unknown).available);
+  if (free < reserve_)
+    throw InputError("disk almost full", folder_,
+                     "expected " + fixedText(reserve_ / 1e6, 0) +
+                         " MB of free disk space for the results ([live] disk_reserve)");
 }
 
 void Recording::flush() {

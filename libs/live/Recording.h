@@ -25,7 +25,9 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  /// A full disk ends the recording, not the run, and is reported.
+  /// Sets the disk space (bytes) that the recording leaves free for the results; 500 MB by default.
+  void keepFree(double bytes) { reserve_ = bytes; }
+  /// A disk that is full, up to the reserve, ends the recording, not the run, and is reported.
   /// @throws InputError if the file cannot be opened
   void write(const mrpt::obs::CObservation& observation);
   /// Syncs everything written so far to disk, from any thread.
@@ -39,10 +41,13 @@ class Recording {
   using Clock = std::chrono::steady_clock;
   void open();
   void sync();
+  /// @throws InputError if the reserve is all that is free
+  void checkSpace() const;
   void endAt(const std::exception& fault);
 
   std::string folder_, name_, path_;
   size_t entries_ = 0;
+  double reserve_ = 5e8;  ///< bytes
   EventLog& log_;
   std::mutex mutex_;                             ///< guards the next two
   std::unique_ptr<files::RawlogWriter> writer_;  ///< null before the first observation and after the end

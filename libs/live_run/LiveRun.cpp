@@ -14,9 +14,6 @@
 namespace hybrid_slam::live {
 namespace {
 
-/// Number of early observations kept, about one second: sensors do not start at the same time.
-constexpr size_t kEarly = 5;
-
 /// The smallest value that at least a share of all values do not exceed (Hyndman & Fan's type 1); 0 without
 /// values.
 double nearestRankQuantile(std::vector<double> values, double share) {
@@ -46,6 +43,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
                  configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true)),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
+  recording_.keepFree(1e6 * options.diskReserve);
   run_.setBeforeSession([this] { recording_.flush(); });
   if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
 }
@@ -58,36 +56,25 @@ void LiveRun::take(const mrpt::obs::CSensoryFrame::Ptr& cycle) {
 }
 
 void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival) {
-  const bool requiresOdometry = configuration_.input.requireOdometry;
-  if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) {
-    if (!requiresOdometry) return;
-    if (!readings::isFinite(odometry->odometry.asTPose())) {
-      if (wrongOdometry_++ == 0) log_.report("odometry", "not a number; skipped, as are further ones");
-      return;
-    }
-    hasOdometry_ = true;
-    for (const Arrived& arrived : std::exchange(early_, {})) pass(arrived);
-  } else if (requiresOdometry && !hasOdometry_ && !readings::sweepTimeIn(*observation)) {
-    early_.emplace_back(observation, arrival);
-    if (early_.size() <= kEarly) return;
-    early_.pop_front();
-    return log_.report("odometry", "none yet; scans long before the first reading are skipped");
-  }
-  pass({observation, arrival});
-}
-
-void LiveRun::pass(const Arrived& arrived) {
-  recording_.write(*arrived.first);
-  if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(arrived.first))
+  recording_.write(*observation);
+  if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation))
     reportUse(*scan);
-  const size_t jumps = assembler_.jumps();
-  assembler_.take(arrived.first);
+  const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation);
+  if (odometry && !hasWrongOdometry_ && !readings::isFinite(odometry->odometry.asTPose())) {
+    log_.report("odometry", "not a number; skipped, as are further ones");
+    hasWrongOdometry_ = true;
+  }
+  const size_t jumps = assembler_.jumps(), dropped = assembler_.dropped();
+  assembler_.take(observation);
   if (jumps == 0 && assembler_.jumps() > 0)
     log_.report(
         "odometry",
         "jumps by over 100 m or far above the robot's speed, taken as no motion, as are further ones: " +
             place());
-  while (const auto reading = assembler_.next()) queue_.push(*reading, arrived.second);
+  if (dropped == 0 && assembler_.dropped() > 0)
+    log_.report("odometry", "none yet; of the scans before it, the last " +
+                                std::to_string(readings::kMostEarly) + " are used");
+  while (const auto reading = assembler_.next()) queue_.push(*reading, arrival);
 }
 
 void LiveRun::reportUse(const mrpt::obs::CObservation2DRangeScan& scan) {
@@ -109,7 +96,7 @@ void LiveRun::filter() {
     while (const auto next = queue_.pop()) {
       if (next->skipped > 0) {
         skipped_ += next->skipped;
-        log_.report("filter", "late: " + std::to_string(skipped_) + " scans skipped so far");
+        tellSkipped();
       }
       run_.skip(next->skipped);
       const bool isUpdate = run_.process(next->reading);
@@ -123,6 +110,14 @@ void LiveRun::filter() {
     failure_ = std::current_exception();
     hasFailed_ = true;
   }
+}
+
+/// Reports twice as many skipped scans each time, so that a filter that is always late does not flood the
+/// log.
+void LiveRun::tellSkipped() {
+  if (skipped_ < 2 * toldSkipped_) return;
+  toldSkipped_ = skipped_;
+  log_.report("filter", "late: " + std::to_string(skipped_) + " scans skipped so far");
 }
 
 void LiveRun::tellNotes() {
@@ -176,7 +171,7 @@ std::string LiveRun::finish(size_t lost) {
   } catch (const InputError& e) {  // the disk was full from the start
     log_.report("results", "without those that need the recording (" + messageOf(e) + ")");
   }
-  nlohmann::ordered_json more{{"skipped_readings", recorded.skippedReadings() + wrongOdometry_},
+  nlohmann::ordered_json more{{"skipped_readings", recorded.skippedReadings()},
                               {"skipped", skipped_.load()},
                               {"lost_cycles", lost},
                               {"latency_ms",

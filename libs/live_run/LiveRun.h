@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <exception>
 #include <functional>
 #include <future>
@@ -45,8 +44,7 @@ class LiveRun {
   /// change; 10 by default. Set it before the first cycle.
   void setStateInterval(double seconds) { stateInterval_ = seconds; }
 
-  /// Processes one cycle. Odometry that is not finite is dropped, also from the recording. If odometry is
-  /// required, only the last few observations before the first odometry are kept.
+  /// Processes one cycle. All observations are recorded, also those that the filter does not use.
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
   /// Saves map and session to a dated subfolder after the next scan.
   void requestSave() { run_.requestSave(); }
@@ -67,14 +65,12 @@ class LiveRun {
  private:
   using Clock = std::chrono::steady_clock;
 
-  using Arrived = std::pair<mrpt::obs::CObservation::Ptr, Clock::time_point>;
-
   void takeObservation(const mrpt::obs::CObservation::Ptr& observation, Clock::time_point arrival);
-  void pass(const Arrived& arrived);
   /// Reports once for each laser whether it is used.
   void reportUse(const mrpt::obs::CObservation2DRangeScan& scan);
   void filter();
   void stopFilter();
+  void tellSkipped();
   void tellNotes();
   void tellState();
   void tellVerdict();
@@ -90,9 +86,7 @@ class LiveRun {
   std::set<std::string> used_, ignored_;  ///< labels of lasers whose scans are used, and are not
   readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
-  bool hasOdometry_ = false;
-  size_t wrongOdometry_ = 0;       ///< readings that are not numbers
-  std::deque<Arrived> early_;      ///< before the first odometry
+  bool hasWrongOdometry_ = false;  ///< a reading was not a number
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
   double stateInterval_ = 10;  ///< s
@@ -100,6 +94,7 @@ class LiveRun {
   run::Verdict verdict_;  ///< on the map so far
   std::future<run::Verdict> nextVerdict_;
   std::atomic<size_t> skipped_{0};
+  size_t toldSkipped_ = 0;
   std::atomic<bool> hasFailed_{false};
   std::exception_ptr failure_;
   std::thread thread_;

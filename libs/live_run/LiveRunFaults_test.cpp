@@ -116,6 +116,25 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
               1e-6);
 }
 
+TEST_F(LiveRunTest, TheRecordingStopsBeforeItTakesTheDiskSpaceOfTheResults) {
+  Recording recording(folder.path(""), "kept.rawlog", events.log());
+  for (int i = 0; i < 100; ++i) recording.write(*test::scan(1000 + i));
+  EXPECT_EQ(events.count("recording: "), 0u) << events.text();
+  recording.keepFree(1e18);
+  for (int i = 100; i < 200; ++i) recording.write(*test::scan(1000 + i));
+  EXPECT_EQ(events.count("recording: stopped; the run continues (disk almost full"), 1u) << events.text();
+  EXPECT_EQ(entriesOf(recording.path()), 100u) << "complete up to there, under its final name";
+}
+
+TEST_F(LiveRunTest, ADiskWithoutTheReserveCostsOnlyTheRecording) {
+  options.maxWaiting = 1000, options.diskReserve = 1e9;
+  EXPECT_THAT(runLive(test::laps(30)), HasSubstr("30 scans"));
+  EXPECT_EQ(events.count("recording: stopped; the run continues (disk almost full"), 1u) << events.text();
+  EXPECT_EQ(events.count("results: without those that need the recording"), 1u) << events.text();
+  EXPECT_FALSE(result("live/trajectory.tum").empty());
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
+}
+
 TEST_F(LiveRunTest, ADiskThatIsFullUntilTheEndCostsOnlyWhatNeedsTheRecording) {
   run::Configuration c = configuration("live");
   options.maxWaiting = 1000;

@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "base/Errors.h"
 #include "readings/SweepTimes.h"
@@ -76,6 +79,31 @@ TEST_F(LiveRunTest, TheReplayOfUnsynchronisedSensorsGivesTheSameBytes) {
   expectSameResults();
 }
 
+TEST_F(LiveRunTest, ScansBeforeTheFirstOdometryAreRecordedAndCounted) {
+  options.maxWaiting = 1000;
+  test::Log log;
+  for (int i = 0; i < 20; ++i) log.push_back(test::scan(996 + 0.2 * i));
+  const test::Log laps = test::laps(30);
+  log.insert(log.end(), laps.begin(), laps.end());
+  EXPECT_THAT(runLive(log), HasSubstr("35 scans"));
+  EXPECT_EQ(events.count("odometry: none yet; of the scans before it, the last 5 are used"), 1u)
+      << events.text();
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["skipped_readings"], 15);
+  EXPECT_EQ(entriesOf(recording()), log.size());
+  replayRecording();
+  expectSameResults();
+  EXPECT_EQ(nlohmann::json::parse(result("offline/metrics.json"))["skipped_readings"], 15);
+}
+
+TEST_F(LiveRunTest, OdometryThatIsNoNumberIsRecorded) {
+  options.maxWaiting = 1000;
+  test::Log log = test::laps(10);
+  log.insert(log.begin() + 10, test::odometry(1001, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+  runLive(log);
+  EXPECT_EQ(entriesOf(recording()), log.size());
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["skipped_readings"], 1);
+}
+
 TEST_F(LiveRunTest, WithoutOdometryIfItIsNotRequired) {
   options.maxWaiting = 1000;
   test::Log log;
@@ -85,6 +113,7 @@ TEST_F(LiveRunTest, WithoutOdometryIfItIsNotRequired) {
   }
   const std::string more = "[input]\nrequire_odometry = false\n";
   EXPECT_THAT(runLive(log, more), HasSubstr("30 scans"));
+  EXPECT_EQ(entriesOf(recording()), log.size()) << "also the odometry";
   replayRecording(more);
   expectSameResults();
 }
@@ -116,6 +145,31 @@ TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
   replayRecording();
   EXPECT_EQ(nlohmann::json::parse(result("offline/metrics.json"))["scans"], kScans)
       << "the recording has all";
+}
+
+TEST_F(LiveRunTest, AFilterThatIsAlwaysLateDoesNotFloodTheLog) {
+  options.maxWaiting = 1;
+  run::Configuration c = configuration("live");
+  LiveRun run(c, options, events.log(), true);
+  std::atomic<size_t> sent{0}, filtered{0};
+  run.setWatcher([&](const FilterView&, const readings::Reading&, bool) {
+    ++filtered;
+    const size_t before = sent;
+    test::happens([&] { return sent >= std::min<size_t>(before + 3, 300); });
+  });
+  for (size_t i = 0; i < 300; ++i) {
+    const double time = 1000 + 0.2 * static_cast<double>(i);
+    const auto cycle = CSensoryFrame::Create();
+    cycle->insert(test::odometry(time, {}));
+    cycle->insert(test::scan(time));
+    run.take(cycle);
+    ++sent;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  run.finish(0);
+  EXPECT_GT(filtered, 10u) << "each late";
+  EXPECT_GE(events.count("late: "), 1u);
+  EXPECT_LE(events.count("late: "), 9u) << events.text();
 }
 
 TEST_F(LiveRunTest, TellsWhenTheMapIsLost) {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "files/ObjectWalk.h"
 #include "readings/ReadingAssembler.h"
 
 namespace hybrid_slam::readings {
@@ -31,7 +32,7 @@ mrpt::poses::CPose3D sensorPoseOf(const LaserRecord& record) {
 CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double maxRange) {
   auto observation = CObservation2DRangeScan::Create();
   observation->timestamp = mrpt::Clock::fromDouble(record.time);
-  observation->sensorLabel = record.label;
+  observation->sensorLabel = record.label.substr(0, files::kLongestLabel);  // longer ones are not read back
   observation->maxRange = static_cast<float>(std::min(maxRange, record.maxRange.value_or(maxRange)));
   observation->rightToLeft = record.angles.step >= 0;
   const size_t beams = record.ranges.size();

@@ -14,7 +14,8 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   };
   add(log.brokenLines, "broken " + log.unit + "s", "skipped");
   add(log.passedOver, "observations of classes that are not read (" + log.passedOverClasses + ")", "skipped");
-  add(log.early, "scans long before the first odometry", "skipped");
+  add(log.early, "scans before the last " + std::to_string(kMostEarly) + " that precede the first odometry",
+      "skipped");
   add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
   add(log.misplaced, "scans with a sensor pose over 100 m from the robot", "skipped");
   add(log.tilted, "scans of a tilted plane", "skipped");

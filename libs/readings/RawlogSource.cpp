@@ -157,7 +157,6 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!hasBegun) beginning.take(object);
     hasBegun = hasBegun || beginning.next();
   }
-  beginning.finish();
   summary.duration = latest - earliest;
   summary.entries = reader.entry();
   summary.defect = reader.defect();
@@ -188,7 +187,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                      "expected a horizontal plane within 5 deg, upright or upside down");
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
-  if (summary.hasOdometryReadings && beginning.dropped() > 0) {
+  if (summary.hasOdometryReadings && options.requireOdometry && beginning.dropped() > 0) {
     summary.early = {beginning.dropped(), firstScan};
     summary.scans -= beginning.dropped();
   }
@@ -198,7 +197,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : file_(file),
       reader_(file, summary.bag),
-      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings, options.maxOdometryGap,
+      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings && options.requireOdometry,
+                 options.maxOdometryGap,
                  sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings)) {}
 
 std::string RawlogSource::place() const { return placeOf(reader_, file_); }

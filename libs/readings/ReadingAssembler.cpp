@@ -88,7 +88,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
+      if (hasOdometryReadings_ && isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
@@ -103,11 +103,12 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
   }
   const size_t reading = grouper_.add(*scan);
   waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
-  const bool isFull = waiting_.size() >= std::min(kMostWaiting, kMostWaitingBeams / scan->getScanSize());
   if (hasOdometryReadings_ && !lastOdometry_) {
-    if (isFull) waiting_.pop_front();
+    if (waiting_.size() > kMostEarly) waiting_.pop_front();
+    dropped_ = waiting_.front().reading - 1;
     return;
   }
+  const bool isFull = waiting_.size() >= std::min(kMostWaiting, kMostWaitingBeams / scan->getScanSize());
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
   // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
@@ -188,7 +189,6 @@ void ReadingAssembler::complete(const Waiting& scan) {
   // Wrong odometry may move a robot far between two lasers.
   const bool isApart =
       !collected_.empty() && !((*scan.odometry - collected_.back().second).norm() <= kFarthestApart);
-  if (current_ == 0) dropped_ = scan.reading - 1;
   if (scan.reading != current_ || isApart) endReading();
   current_ = scan.reading;
   markInvalidBeams(*scan.scan);
@@ -217,6 +217,7 @@ void ReadingAssembler::endReading() {
 }
 
 void ReadingAssembler::finish() {
+  if (hasOdometryReadings_ && !lastOdometry_) return;
   finishWaiting();
   endReading();
 }

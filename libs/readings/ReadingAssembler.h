@@ -30,10 +30,14 @@ struct Reading {
   mrpt::math::TPose2D motion;  ///< m, rad
 };
 
+/// Largest number of scans that are used before the first odometry reading: sensors do not
+/// start at the same time, but a robot may have moved since an earlier scan.
+constexpr size_t kMostEarly = 5;
+
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used; the last 1000 scans before the first odometry reading use that one, and
+/// previous odometry reading is used; the last five scans before the first odometry reading use that one, and
 /// earlier ones are dropped. A jump of the odometry (OdometryJumps), or a first reading beyond 1e8 m, counts
 /// as no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one
 /// reading. Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN,
@@ -50,7 +54,8 @@ struct Reading {
 class ReadingAssembler {
  public:
   /// @param lasers               labels of the lasers to use; none: all
-  /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it
+  /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it; else such
+  ///                             observations are ignored
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
   /// @param sweeps               durations of the scans; default: as the log states
   ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
@@ -62,9 +67,10 @@ class ReadingAssembler {
     return grouper_.useOf(scan);
   }
   size_t jumps() const { return jumps_; }  ///< of the odometry so far
-  /// Readings before the first odometry that were dropped, known once there is a reading.
+  /// Readings before the first odometry that were dropped so far.
   size_t dropped() const { return dropped_; }
-  /// End of input: scans that still wait for odometry take the last odometry reading.
+  /// End of input: scans that still wait for odometry take the last odometry reading. Without any, there are
+  /// no readings.
   void finish();
   /// Returns the next complete reading; empty until more objects arrive.
   std::optional<Reading> next();

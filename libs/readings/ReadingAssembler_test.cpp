@@ -35,15 +35,25 @@ TPose2D endOf(const std::vector<Reading>& readings) {
   return pose;
 }
 
-TEST(ReadingAssembler, MemoryDoesNotGrowBeforeTheFirstOdometry) {
+TEST(ReadingAssembler, OnlyTheLastScansBeforeTheFirstOdometryAreUsed) {
   test::Log log;
   for (int i = 0; i < 3000; ++i) log.push_back(scan(0.1 * i));
   log.push_back(odometry(300, {7, 0, 0}));
   log.push_back(scan(300));
   const std::vector<Reading> readings = assembled(log);
-  EXPECT_LE(readings.size(), 1001u);
-  EXPECT_GE(readings.size(), 1000u);
+  ASSERT_EQ(readings.size(), 6u);
+  EXPECT_NEAR(readings[0].timestamp, 299.5, 1e-6);
   for (const Reading& reading : readings) EXPECT_EQ(reading.motion, TPose2D());
+}
+
+TEST(ReadingAssembler, OdometryThatIsNotExpectedIsIgnored) {
+  ReadingAssembler assembler({}, false, 1);
+  for (const auto& object : test::Log{scan(1, {}, 3, "front"), odometry(1, {0, 0, 0}),
+                                      odometry(1.1, {50, 0, 0}), scan(1.1, {}, 3, "rear")})
+    assembler.take(object);
+  assembler.finish();
+  for (auto reading = assembler.next(); reading; reading = assembler.next())
+    for (const auto& taken : reading->scans) EXPECT_EQ(taken->sensorPose.norm(), 0) << taken->sensorLabel;
 }
 
 /// Odometry that is wrong by steps below the limit of a jump does not place a laser far from its robot.

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/Numbers.h"
+#include "files/ObjectWalk.h"
 #include "readings/Timestamps.h"
 
 namespace hybrid_slam::readings {
@@ -31,9 +33,10 @@ std::optional<SweepTime> sweepTimeIn(const mrpt::obs::CObservation& observation)
   if (!comment || comment->text.rfind(kBeginning, 0) != 0) return std::nullopt;
   const size_t middle = comment->text.find(kMiddle, kBeginning.size());
   if (middle == std::string::npos) return std::nullopt;
+  std::string label = comment->text.substr(middle + kMiddle.size());
+  if (label.size() > files::kLongestLabel) return std::nullopt;  // no laser has it
   const auto seconds = parseFinite(comment->text.substr(kBeginning.size(), middle - kBeginning.size()));
-  return SweepTime{comment->text.substr(middle + kMiddle.size()),
-                   seconds.value_or(std::numeric_limits<double>::quiet_NaN())};
+  return SweepTime{std::move(label), seconds.value_or(std::numeric_limits<double>::quiet_NaN())};
 }
 
 double SweepTimes::of(const mrpt::obs::CObservation2DRangeScan& scan) const {

@@ -32,6 +32,7 @@ TEST(SweepTimes, OtherObservationsAreNone) {
   EXPECT_FALSE(read(""));
   EXPECT_FALSE(read("scan_time = 0.1"));
   EXPECT_FALSE(read("the scan_time = 0.1 s, laser LASER"));
+  EXPECT_FALSE(read("scan_time = 0.1 s, laser " + std::string(1001, 'x')));
   EXPECT_TRUE(std::isnan(read("scan_time = fast s, laser LASER")->seconds));
 }
 

@@ -1,5 +1,6 @@
 #include "run/FilterRun.h"
 
+#include <malloc.h>
 #include <mrpt/core/bits_math.h>
 
 #include <algorithm>
@@ -57,6 +58,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
               ownFile(configuration.run)),
       folder_(staged_.files()),
+      mostBytes_(memoryLimit() / 3),
       refinementBytes_(memoryLimit() / 4) {
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
@@ -104,7 +106,22 @@ bool FilterRun::process(const readings::Reading& reading) {
   if (planSearch_) searchPlan(moved);
   isConsistent_ = true;
   saveIfDue();
+  if (isUpdate || scans_ % 100 == 0) checkMemory();
   return isUpdate;
+}
+
+bool FilterRun::isMemoryFull() const {
+  if (configuration_.run.method == Method::stock || residentBytes() <= mostBytes_) return false;
+  ::malloc_trim(0);  // the allocator keeps what earlier particles have freed
+  return residentBytes() > mostBytes_;
+}
+
+// Scans of new ground, in a log or from a server, would end the program and the whole machine without
+// results.
+void FilterRun::checkMemory() const {
+  if (isMemoryFull())
+    throw std::runtime_error("out of memory: the map, the path and the scans take over " +
+                             fixedText(mostBytes_ / 1e9, 1) + " GB, a third of the memory");
 }
 
 bool FilterRun::filter(const readings::Reading& reading) {

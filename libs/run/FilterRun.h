@@ -43,6 +43,7 @@ class FilterRun {
   /// Passes one reading to the filter. Until the place in an earlier map or a floor plan is found, the
   /// reading is also passed to that search, and the filter maps in a separate frame.
   /// @return true for an update of the filter, false if only the odometry was accumulated
+  /// @throws std::runtime_error after the reading, if the program takes more memory than it may
   bool process(const readings::Reading& reading);
   /// Resumes a session, before the first reading. The configuration must be that of the session (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
@@ -90,6 +91,10 @@ class FilterRun {
   /// Says in one line if that is not the requested folder; else empty.
   std::string folderNote() const { return staged_.note(); }
 
+  /// Sets the memory (bytes) of the program at which a run ends, so that its results can still be written; by
+  /// default a third of `memoryLimit`, since a session is written from a copy. MRPT's filter has a limit of
+  /// its own (StockMapBuilder).
+  void limitMemory(double bytes) { mostBytes_ = bytes; }
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
@@ -116,6 +121,8 @@ class FilterRun {
   template <class State>
   void visit(State& state);
   bool filter(const readings::Reading& reading);
+  bool isMemoryFull() const;
+  void checkMemory() const;
   void searchPlace(const readings::Reading& reading);
   void searchPlan(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
@@ -168,7 +175,7 @@ class FilterRun {
   double firstSlip_ = 0;                ///< s
   double cell_ = 0;                     ///< m, of the filter
   double savedCell_ = 0;                ///< m, of the map files
-  double refinementBytes_;
+  double mostBytes_, refinementBytes_;
   Verdict verdict_;
 };
 

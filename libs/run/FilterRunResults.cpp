@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "base/Clock.h"
@@ -117,6 +118,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
     if (log.scans < uses_.size()) {
       notes_.emplace_back("map not refined: the recording ends before the run");
+    } else if (isMemoryFull()) {
+      notes_.emplace_back("map not refined: out of memory");
     } else {
       readings::RawlogSource scans(file, configuration_.input, log);
       refineResult(result, scans);
@@ -131,7 +134,11 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     writeMap(result, file, log);
   }
   savePicture(folder_, grid, trajectory, lines, verdict_.places);
-  if (hybrid_) saveSessionTo(folder_.path(kSessionName), map, path);
+  if (hybrid_) try {
+      saveSessionTo(folder_.path(kSessionName), map, path);
+    } catch (const std::bad_alloc&) {  // must not cost the other results
+      notes_.emplace_back("no session: out of memory");
+    }
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
@@ -165,9 +172,9 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   verdict_ = verdictOf(evidence);
-  const bool hasLines = configuration_.filter.useLines;
-  writeCovarianceFile(result,
-                      pathCovariances(result.path, particleCovariances_, evidence.returning, hasLines));
+  const PathCovariances covariances(result.path, particleCovariances_, evidence.returning,
+                                    configuration_.filter.useLines);
+  writeCovarianceFile(result, covariances.ofPoses());
 }
 
 void FilterRun::writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances) {

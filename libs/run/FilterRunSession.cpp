@@ -4,6 +4,7 @@
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "files/DatedName.h"
 #include "files/PartialFile.h"
 #include "run/FilterRun.h"
@@ -72,7 +73,10 @@ void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
   SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
   writeHeader(out, header);
   writeState(out);
-  saveSession(path, bytes);
+  if (bytes.size() > kMostSessionBytes)
+    notes_.push_back("no session: over " + fixedText(kMostSessionBytes / 1e9, 1) + " GB");
+  else
+    saveSession(path, bytes);
 }
 
 void FilterRun::writeState(StateWriter& out) {

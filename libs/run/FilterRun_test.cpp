@@ -90,6 +90,18 @@ TEST_F(FilterRunTest, IsNotRefinedIfTheScansNeedTooMuchMemory) {
   }
 }
 
+TEST_F(FilterRunTest, ARunThatFillsTheMemoryEndsWithResultsAndASession) {
+  Configuration c = configuration("full");
+  FilterRun run(c);
+  run.limitMemory(1e6);
+  EXPECT_THROW(process(run, c), std::runtime_error);
+  EXPECT_EQ(run.scans(), 1u);
+  finish(run, c, log);
+  EXPECT_THAT(run.takeNotes(), Contains("map not refined: out of memory"));
+  EXPECT_EQ(nlohmann::json::parse(result("full/metrics.json"))["complete"], false);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("full/session.hslam")));
+}
+
 TEST_F(FilterRunTest, AnUpdateThatFailsLeavesResultsWithoutASession) {
   Configuration c = configuration(
       "out", {"grid.resolution=0.1", "motion_model.turn_var_d=0", "motion_model.turn_mean_std=0"});

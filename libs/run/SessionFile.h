@@ -36,6 +36,9 @@ struct SessionHeader {
 /// Writes the header of a session file.
 void writeHeader(StateWriter& out, SessionHeader& header);
 
+/// Largest session that is read, before compression.
+constexpr size_t kMostSessionBytes = size_t{1} << 33;
+
 /// Writes the compressed bytes and syncs them before the file gets its name, so that a reader finds the old
 /// file or the new one.
 /// @throws InputError if the file cannot be written

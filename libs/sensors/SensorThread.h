@@ -32,7 +32,7 @@ class ObservationInbox {
 };
 
 /// Runs the mrpt::hwdrivers::CGenericSensor of an INI section as rawlog-grabber does: driver, process_rate
-/// and the driver's own keys. A driver that throws or falls silent is recreated, after pauses of 0.5 s
+/// and the driver's own keys. A driver that throws or falls silent is recreated, after pauses of 0.2 s
 /// growing to 10 s; its odometry continues from the last pose.
 ///
 /// Two keys correct a driver's observations: `time_offset` (s) is added to their timestamps, and

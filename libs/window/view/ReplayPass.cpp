@@ -1,6 +1,7 @@
 #include "window/view/ReplayPass.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -43,6 +44,9 @@ ReplayPass::ReplayPass(const run::Configuration& configuration, const std::vecto
     : file(configuration.run.rawlog), log(summary), source(file, configuration.input, log) {
   for (const Method method : methods)
     lanes.push_back(std::make_unique<Lane>(configuration, method, folder.path(nameOf(method))));
+  // The maps of MRPT's filter, which has its own limit, are in the memory of the same program.
+  if (std::count(methods.begin(), methods.end(), Method::stock) > 0)
+    for (const auto& lane : lanes) lane->run.limitMemory(std::numeric_limits<double>::infinity());
   if (from) {
     for (size_t i = 0; i < lanes.size(); ++i) {
       lanes[i]->run.restore(from->second.lanes.at(i).run);

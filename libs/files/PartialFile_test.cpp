@@ -1,0 +1,78 @@
+#include "files/PartialFile.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <iterator>
+#include <vector>
+
+#include "files/OutputFolder.h"
+#include "files/RawlogWriter.h"
+#include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
+#include "testing/TestLogs.h"
+
+namespace {
+
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
+std::vector<ino_t> synced;
+bool isBroken = false;
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
+}  // namespace
+
+/// Notes the files that are synced, or fails, in place of the function of the C library.
+extern "C" int fsync(int file) {
+  if (isBroken) return errno = EIO, -1;
+  struct stat status {};
+  ::fstat(file, &status);
+  synced.push_back(status.st_ino);
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
+
+namespace hybrid_slam::files {
+namespace {
+
+void expectSynced(const std::string& path) {
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0) << path;
+  EXPECT_EQ(synced, std::vector<ino_t>{status.st_ino}) << path;
+}
+
+TEST(PartialFile, IsOnDiskWhenItHasItsName) {
+  const TemporaryFolder root;
+  synced.clear();
+  OutputFolder(root.path("")).write("x.csv", [](std::ostream& out) { out << "1,2\n"; });
+  expectSynced(root.path("x.csv"));
+  EXPECT_EQ(test::contentOf(root.path("x.csv")), "1,2\n");
+}
+
+TEST(PartialFile, OneThatDoesNotReachTheDiskIsAnError) {
+  const TemporaryFolder root;
+  root.write("x.csv", "0\n");
+  isBroken = true;
+  EXPECT_EQ(test::errorOf([&] {
+              OutputFolder(root.path("")).write("x.csv", [](std::ostream& out) { out << "1,2\n"; });
+            }),
+            "cannot write: " + root.path("x.csv") +
+                "; expected a writable folder with free disk space: Input/output error");
+  isBroken = false;
+  EXPECT_EQ(test::contentOf(root.path("x.csv")), "0\n");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(root.path("")), {}), 1) << "nothing is left";
+}
+
+TEST(PartialFile, ARecordingIsOnDiskWhenItHasItsName) {
+  const TemporaryFolder root;
+  synced.clear();
+  RawlogWriter writer(root.path("x.rawlog"));
+  writer.write(*test::scan(1));
+  writer.finish();
+  expectSynced(root.path("x.rawlog"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::files
