@@ -29,10 +29,10 @@ struct InputFiles {
   const std::string& main() const { return config.empty() ? log : config; }
 };
 
-/// The log's formats, for --help: of the robot, and with MRPT's own.
-inline const std::string kRobotLogMeans =
-    "bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, GMapping (.gfs), DP-SLAM or "
-    "tinySLAM; plain or compressed with gzip, bzip2, zstd or LZ4";
-inline const std::string kLogMeans = "rawlog, " + kRobotLogMeans;
+/// The log's formats, for --help.
+inline const std::string kLogMeans =
+    "rawlog, bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, GMapping (.gfs), "
+    "DP-SLAM "
+    "or tinySLAM; plain or compressed with gzip, bzip2, zstd or LZ4";
 
 }  // namespace hybrid_slam
