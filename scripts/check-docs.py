@@ -38,6 +38,11 @@ first. Each must end with 0. A comment on the line before a block says otherwise
 A line outside of these blocks that is indented or fenced and calls a program (of apps/, a script, or a usual one such
 as cmake) is an error, unless it is a synopsis, with [ or `...`, or in a marked transcript.
 
+What is run: the ```sh blocks by --commands, but for those marked `not run` and those that lack what they need; the
+`checked by` commands by --run. What is only checked, in every mode but --commands: the commands of `made by` marks, of
+`not run` blocks, and those `in the text` that begin with a program of apps/ or a script of the repository. Their
+program or script, subcommand, files, options and variables must exist.
+
 `checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
 in percent of the page's number."""
 
@@ -62,6 +67,9 @@ USUAL = ("apt", "apt-get", "bash", "cmake", "ctest", "doxygen", "export", "git",
          "python3", "rawlog-edit", "RawLogViewer", "rbpf-slam", "SceneViewer3D", "sh", "snakemake", "source", "sudo")
 MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
 CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
+SPAN = re.compile(r"(?<!`)`((?:[^`\n]|\n(?!\n))+)`(?!`)")
+FENCED = re.compile(r"^(```|~~~).*?^\1|<!--.*?-->", re.MULTILINE | re.DOTALL)
+SCRIPT = re.compile(r"(?:benchmarks|cmake|scripts|tests)/[\w./-]+\.(?:sh|py)")
 DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
 PICTURE = re.compile(r"!\[[^\]]*\]\((?!https?:)|<img\b(?!.*https?:)")
 REFERENCE = {"at", "column", "file", "folder", "format", "key", "line", "option", "program"}
@@ -127,6 +135,9 @@ def command_errors(root, command):
         outside = path.startswith(("/", "~", "$", "out/"))
         if "/" in path and ":" not in path and not outside and not (root / path).exists():
             errors.append(f"no such file: {path}")
+    subcommands = re.findall(r'add_subcommand\(\s*"([\w-]+)"', text)
+    if subcommands and arguments and re.fullmatch(r"[a-z][a-z-]*", arguments[0]) and arguments[0] not in subcommands:
+        errors.append(f"{program} has no subcommand {arguments[0]}")
     usage = re.match(r'(#.*\n)*("""[\s\S]*?""")?', text)[0]
     if program.endswith((".sh", ".py")) and arguments and re.fullmatch(r"[a-z][\w-]*", arguments[0]) and \
             source_of(root, arguments[0]) is None and not re.search(rf"(?<![\w-]){arguments[0]}(?![\w-])", usage):
@@ -236,6 +247,16 @@ class Checker:
                 self.errors.append(f"{page.relative_to(self.root)}:{i + 1}: command that no test runs: "
                                    "expected a ```sh block")
 
+    def check_spans(self, page):
+        """Finds commands in the text, `so`, that cannot work."""
+        text = FENCED.sub(lambda block: "\n" * block[0].count("\n"), page.read_text())
+        for span in SPAN.finditer(text):
+            command = " ".join(span[1].split())
+            program = command[ASSIGNMENTS.match(command).end():].partition(" ")[0]
+            if SCRIPT.fullmatch(program) or re.fullmatch(r"[a-z][\w-]*", program) and source_of(self.root, program):
+                self.errors += [f"{self.place(page, text, span.start())}: {error}"
+                                for error in command_errors(self.root, command)]
+
     def check_figures(self, place, rows, check):
         """Compares a page's table with its command's; of several, with the one with the same headings."""
         command, tolerance, needed = check[1], float(check[2]), check[3]
@@ -255,6 +276,7 @@ class Checker:
         targets = {i: ("table", rows) for i, rows in tables_of(lines)}
         targets.update((i, ("picture", None)) for i, line in enumerate(lines) if PICTURE.search(line))
         targets.update((i, ("transcript", None)) for i in marks if i < len(lines) and lines[i].startswith("    "))
+        self.check_spans(page)
         self.check_blocks(page, {i for i, (kind, _) in targets.items() if kind == "transcript"})
         for i in marks.keys() - targets.keys() - {start for start, _, _ in marks.values()}:
             self.errors.append(f"{page.relative_to(self.root)}:{i}: mark without a table or picture on the next line")
