@@ -29,10 +29,10 @@ Commands to type are ```sh blocks. Those of a page run one after the other in a 
 first. Each must end with 0. A comment on the line before a block says otherwise:
 
   <!-- first: COMMANDS -->      also runs these before, in the same shell, to make the files that the page speaks of;
-                                datasets/ and config-ini/ are the installed folders, tests/ and workflow/ those of the
-                                repository, $PREFIX is the folder of the installation
+                                datasets/ and config-ini/ are the installed folders, tests/ that of the repository,
+                                $PREFIX is the folder of the installation
   <!-- needs NAME -->           skips the block if this environment variable is unset or this program is missing;
-                                `; first: COMMANDS` may follow
+                                ` (WHY)` and `; first: COMMANDS` may follow
   <!-- not run: WHY -->         for a block that needs root, hours, ...; its files and options must exist nevertheless
 
 A line outside of these blocks that is indented or fenced and calls a program (of apps/, a script, or a usual one such
@@ -60,7 +60,8 @@ from pathlib import Path
 TIME_LIMIT = 60  # s, for one command
 BLOCK_LIMIT = 120  # s, for the commands of one block
 BLOCK = re.compile(r"(?:^<!--((?:(?!-->).)*)-->\n)?^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-BLOCK_MARK = re.compile(r"\s*(?:needs ([\w-]+)\s*(?:;\s*|$))?(?:(first|not run):\s*(\S.*?))?\s*", re.DOTALL)
+BLOCK_MARK = re.compile(r"\s*(?:needs ([\w-]+)(?:\s+\([^)]*\))?\s*(?:;\s*|$))?"
+                        r"(?:(first|not run):\s*(\S.*?))?\s*", re.DOTALL)
 ASSIGNMENTS = re.compile(r"""(?:[A-Z_]+=(?:'[^']*'|"[^"]*"|\S*) +)*""")
 BUILT = re.compile(r"\bbuild/\w+/bin/([\w-]+)")
 USUAL = ("apt", "apt-get", "bash", "cmake", "ctest", "doxygen", "export", "git", "make", "mkdocs", "ninja", "pip",
@@ -215,7 +216,7 @@ class Checker:
                 self.skipped.append(f"{place}: not run: {what if how == 'not run' else needed + ' is missing'}")
                 continue
             first = re.sub(r"(?<![\w./-])(?=(?:datasets|config-ini)/)", f"{self.data}/", what or "")
-            first = re.sub(r"(?<![\w./-])(?=(?:tests|workflow)/)", f"{self.root}/", first)
+            first = re.sub(r"(?<![\w./-])(?=tests/)", f"{self.root}/", first)
             _, why = self.run(f"set -e\n{first}\n{code}", folder, BLOCK_LIMIT)
             self.outputs[place] = why
             if why:

@@ -166,6 +166,9 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: LOGS is missing"]))
         self.assertEqual(self.commands(page, LOGS="1"), (0, []))
         self.assertEqual(self.commands(page.replace("mapper", "false"), LOGS="1")[0], 1)
+        page = page.replace("needs LOGS", "needs LOGS (which are\nlarge)")
+        self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: LOGS is missing"]))
+        self.assertEqual(self.commands(page, LOGS="1"), (0, []))
         page = "<!-- needs no-such-program -->\n```sh\nfalse\n```\n"
         self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: no-such-program is missing"]))
         self.assertEqual(self.commands(page.replace("no-such-program", "mapper")),
