@@ -10,7 +10,7 @@ PATH=$PATH:$PWD/build/release/bin
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-echo "| file | scans | time (s) | odometry (m) | verdict | laser |"
+echo "| file | scans | time (s) | path (m) | verdict | laser |"
 echo "|---|---|---|---|---|---|"
 for name in demo.bag exp1.dat exp2.dat orebro_raw.log belgioioso_corrected.log test_turtlebot.bag \
   test_replay_crash.bag real_data_lidarandodom1.bag; do
