@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "base/LaserScan.h"
+#include "base/MrptVersion.h"
 #include "base/State.h"
 #include "slam/lines/LineTable.h"
 
@@ -60,13 +61,9 @@ void CHybridLineMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream&
   }
 }
 
-// A pointer in MRPT 2.5.8, a shared_ptr in 2.14.7.
-using Created = decltype(CHybridLineMap::internal_CreateFromMapDefinition(
-    std::declval<const mrpt::maps::TMetricMapInitializer&>()));
-
-Created CHybridLineMap::internal_CreateFromMapDefinition(
+CreatedMetricMap CHybridLineMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
-  return Created(new CHybridLineMap(dynamic_cast<const TMapDefinition&>(definition).options));
+  return CreatedMetricMap(new CHybridLineMap(dynamic_cast<const TMapDefinition&>(definition).options));
 }
 
 std::string CHybridLineMap::asString() const {

@@ -103,7 +103,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
-  result.map = mapOf(scans, configuration_.filter, base);
+  result.map = MapMaker(configuration_.filter)(scans, base);
   result.grid = toMrpt(result.map.grid);
   result.lines = result.map.lines.lines();
 }
