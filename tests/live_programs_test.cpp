@@ -107,7 +107,7 @@ class LivePrograms : public testing::Test {
   files::TemporaryFolder folder;
   std::string ini = folder.write("live.ini",
                                  "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = "
-                                 "0.2\n[grid]\nresolution = 0.1\n[live]\n");
+                                 "0.2\n[grid]\nresolution = 0.1\n[live]\ndisk_reserve = 0\n");
   std::string output = folder.path("out"), port;
 };
 

@@ -26,6 +26,7 @@ using mrpt::poses::CPose3D;
 namespace hybrid_slam::mrpt_maps {
 namespace {
 
+constexpr uint8_t kVersion = 1;                     // since [line_weight] radius
 constexpr uint32_t kMostBytes = uint32_t{1} << 26;  // half a million lines
 
 /// A scan that has lines of the map's plane, or null.
@@ -116,7 +117,7 @@ void CHybridLineMap::visit(State& state) {
         genericMapParams.enableObservationInsertion, options, database_);
 }
 
-uint8_t CHybridLineMap::serializeGetVersion() const { return 0; }
+uint8_t CHybridLineMap::serializeGetVersion() const { return kVersion; }
 
 void CHybridLineMap::serializeTo(mrpt::serialization::CArchive& out) const {
   std::string bytes;
@@ -128,7 +129,7 @@ void CHybridLineMap::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 void CHybridLineMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) throw StateError("a line map of an unknown version");
+  if (version != kVersion) throw StateError("a line map of an unknown version");
   uint32_t size = 0;
   in >> size;
   if (size > kMostBytes) throw StateError("a line map of more than 64 MiB");

@@ -92,9 +92,9 @@ void LogObjects::operator()(const LaserRecord& record) {
   const auto observation = observationOf(record, maxRange_);
   const double sweep = sweepSetting_.of(observation->aperture).value_or(record.sweep);
   summary.wrongSweeps += !isSweepTime(sweep);
-  const double sweepBefore = std::exchange(sweeps_[record.label], sweep);
+  const double sweepBefore = std::exchange(sweeps_[observation->sensorLabel], sweep);
   const auto comment =
-      sweepBefore == sweep ? nullptr : commentOf({record.label, sweep}, observation->timestamp);
+      sweepBefore == sweep ? nullptr : commentOf({observation->sensorLabel, sweep}, observation->timestamp);
   for (size_t i = 0; i < observation->getScanSize(); ++i)
     if (observation->getScanRangeValidity(i))
       summary.longestRange = std::max(summary.longestRange, observation->getScanRange(i));
