@@ -22,7 +22,7 @@ namespace hybrid_slam::readings {
 struct LogSummary {
   std::string format;  ///< for the user
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
-  std::vector<std::string> notes;              ///< of a bag: what was assumed; of a text log: lasers not used
+  std::vector<std::string> notes;              ///< lasers not used; of a bag: what was assumed
   std::string defect;                          ///< of a bag: why it is incomplete; empty if intact
   std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name, of 100 names
   double earliest = 0, latest = 0;             ///< s
