@@ -14,7 +14,7 @@ cat >"$folder/$name" <<'END'
 sections=""
 if [[ $1 == --help ]] && "$PROGRAM" --help | grep -q '^Subcommands:'; then
   set -- --help-all
-  sections='/^Subcommands:|^  Options:/d; s|^([a-z]+)$|Subcommand \1:|;'
+  sections='/^Subcommands:|^  Options:/d; s|^([a-z-]+)$|Subcommand \1:|;'
 fi
 "$PROGRAM" "$1" | sed -E "$sections"'s|^( +-[A-Za-z]),--|\1, --|; s|(^\|[^A-Za-z0-9_./-])(doc/[a-z0-9-]+\.md)|\1'"$PAGES"'/\2|g'
 END

@@ -69,6 +69,12 @@ for package in hybrid-slam hybrid-slam-gui; do
     [[ -e /usr/share/bash-completion/completions/$program ]] || fail "no completion of $program"
   done
 done
+subcommands=$(slam-eval --help | sed -n '/^Subcommands:/,$ s/^  \([^ ]\+\).*/\1/p')
+[[ $subcommands == *nees-relations* ]] || fail "slam-eval --help lists the subcommands '$subcommands'"
+page=$(gzip -dc /usr/share/man/man1/slam-eval.1.gz)
+for subcommand in $subcommands; do
+  grep -qE "^\.S[HS] \"Subcommand $subcommand:\"" <<<"$page" || fail "man slam-eval: no heading of $subcommand"
+done
 (cd /root && simul-floorplan -q config-ini/simul-csie-corridor.ini -o robot.rawlog)
 (cd /root && hybrid-slam -q config-ini/csie-lms100.ini robot.rawlog -o paper)
 (hybrid-slam /dev/null 2>&1 || true) | grep -q "error: " || fail "no error"
@@ -92,22 +98,38 @@ rm -r /root/trial
 pages mrpt-plugin.md own-log.md
 
 echo "== completion"
-apt_get install --no-install-recommends bash-completion
-options=$(bash -c '
-  source /usr/share/bash-completion/bash_completion
-  source /usr/share/bash-completion/completions/slam-merge
-  COMP_LINE="slam-merge --o" COMP_POINT=14 COMP_WORDS=(slam-merge --o) COMP_CWORD=1
-  _hybrid_slam slam-merge --o slam-merge
-  echo "${COMPREPLY[@]}"')
-[[ $options == *--output* ]] || fail "slam-merge --o completes to '$options'"
-apt_get install --no-install-recommends zsh
-# shellcheck disable=SC2016
-options=$(zsh -fc '
-  autoload -U _hybrid-slam
-  compadd() { print -r -- ${(P)2} }  # called as compadd -a ARRAY
-  words=(slam-merge --o) CURRENT=2 PREFIX=--o
-  _hybrid-slam')
-[[ $options == *--output* ]] || fail "slam-merge --o completes to '$options' in zsh"
+apt_get install --no-install-recommends bash-completion zsh
+# completes COMMAND EXPECTED: whether the last word of the command line completes to the word, in bash and in zsh
+completes() {
+  local words shell found
+  read -ra words <<<"$1"
+  for shell in bash zsh; do
+    found=$("${shell}_completions" "${words[@]}")
+    [[ $'\n'$found$'\n' == *$'\n'$2$'\n'* ]] || fail "$1 completes to '$found' in $shell, expected $2"
+  done
+}
+bash_completions() {
+  # shellcheck disable=SC2016
+  bash -c '
+    source /usr/share/bash-completion/bash_completion
+    source "/usr/share/bash-completion/completions/$1"
+    COMP_LINE=$* COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+    COMP_POINT=${#COMP_LINE}
+    _hybrid_slam "$1" "${@: -1}" "${@: -2:1}"
+    printf "%s\n" "${COMPREPLY[@]}"' - "$@"
+}
+zsh_completions() {
+  # shellcheck disable=SC2016
+  zsh -fc '
+    autoload -U _hybrid-slam
+    compadd() { print -rl -- ${(M)${(P)2}:#$PREFIX*} }           # called as compadd -a ARRAY
+    _describe() { print -rl -- ${(M)${${(P)2}%%:*}:#$PREFIX*} }  # called as _describe WHAT ARRAY
+    words=("$@") CURRENT=$# PREFIX=${@[-1]}
+    _hybrid-slam' - "$@"
+}
+completes "slam-merge --o" --output
+completes "slam-eval nees-" nees-relations
+completes "slam-eval nees-relations --n" --noise-deg
 
 echo "== what the pages and the window call is recommended or suggested"
 for needed in hybrid-slam:rawlog-edit:mrpt-apps hybrid-slam-gui:xdg-open:xdg-utils; do

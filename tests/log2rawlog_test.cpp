@@ -101,6 +101,35 @@ TEST_F(Log2Rawlog, ConvertsALogOfTinyslam) {
   EXPECT_NEAR(scan->getScanRange(341), 5 - 1.2 - 2.4 - 0.145, 1e-3) << "straight ahead";
 }
 
+TEST_F(Log2Rawlog, ConvertsRawlogsToTheFormThatIsAskedFor) {
+  ASSERT_EQ(convert(folder.write("in.clf", scanRow("10") + scanRow("12.5"))), 0);
+  const std::string single = folder.path("single.rawlog"), pairs = folder.path("pairs.rawlog");
+  const std::string summary = ": rawlog, 2 scans, 2 odometry readings, 2.5 s, path 2.5 m\n";
+  const auto has = [this](bool arePairs) {
+    mrpt::obs::CRawlog log;
+    ASSERT_TRUE(log.loadFromRawLogFile(rawlog));
+    ASSERT_EQ(log.size(), 4u);
+    EXPECT_EQ(log.getType(0) == mrpt::obs::CRawlog::etActionCollection, arePairs);
+    EXPECT_EQ(log.getType(3) == mrpt::obs::CRawlog::etSensoryFrame, arePairs);
+  };
+  fs::rename(rawlog, single);
+  EXPECT_EQ(convert(single, "--action-observation"), 0);
+  EXPECT_EQ(out, rawlog + summary);
+  EXPECT_THAT(err, IsEmpty());
+  has(true);
+  fs::rename(rawlog, pairs);
+  for (const std::string& log : {single, pairs}) {
+    EXPECT_EQ(convert(log), 0);
+    EXPECT_EQ(out, rawlog + summary);
+    has(false);
+    EXPECT_EQ(convert(log, "--action-observation --scan-time 0.02"), 0);
+    has(true);
+    EXPECT_THAT(readings::summarise(rawlog, {}).sweeps, ElementsAre(Pair("FLASER", 0.02)));
+    fs::remove(rawlog);
+    expectError(run("'" + log + "' '" + log + "'"), "the output is the input");
+  }
+}
+
 TEST_F(Log2Rawlog, CompressedLogsGiveTheSameBytes) {
   const std::string log = scanRow("10") + scanRow("12.5");
   EXPECT_EQ(convert(folder.write("in.clf", log)), 0);
@@ -241,11 +270,6 @@ TEST_F(Log2Rawlog, WrongInput) {
   expectError(convert(folder.write("text", "once upon\na time\n")), "not a robot log");
   expectError(convert(LOG2RAWLOG), "not a");
   expectError(convert(folder.write("odometry", "ODOM 1 2 3 0 0 0 5 host 6\n")), "no laser scan");
-  const std::string whole = folder.write("whole", scanRow("1"));
-  ASSERT_EQ(convert(whole), 0);
-  const std::string bytes = test::contentOf(rawlog);
-  fs::remove(rawlog);
-  expectError(convert(folder.write("rawlog", bytes)), "already a rawlog");
 }
 
 TEST_F(Log2Rawlog, CutCompressedLogs) {

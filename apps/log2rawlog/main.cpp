@@ -1,5 +1,5 @@
 /// @file main.cpp
-/// @brief log2rawlog: converts text logs and bags to rawlogs and keeps their timestamps.
+/// @brief log2rawlog: converts text logs, bags and rawlogs to rawlogs and keeps their timestamps.
 #include <mrpt/core/bits_math.h>
 
 #include <CLI/CLI.hpp>
@@ -31,10 +31,11 @@ CLI::Validator within(double low, double high) {
           range};
 }
 
-void printSummary(const std::string& output, const readings::LogSummary& s, bool isBag) {
-  std::printf("%s: %s%s, %zu scans, %zu odometry readings, %.1f s, path %.1f m, %zu broken %s",
-              output.c_str(), s.format.c_str(), isBag ? "" : " log", s.scans, s.odometryReadings,
-              s.latest - s.earliest, s.pathLength, s.brokenLines, isBag ? "messages" : "lines");
+void printSummary(const std::string& output, const readings::LogSummary& s) {
+  std::printf("%s: %s%s, %zu scans, %zu odometry readings, %.1f s, path %.1f m", output.c_str(),
+              s.format.c_str(), s.unit == "line" ? " log" : "", s.scans, s.odometryReadings,
+              s.latest - s.earliest, s.pathLength);
+  if (s.unit != "entry") std::printf(", %zu broken %ss", s.brokenLines, s.unit.c_str());
   const char* separator = "; skipped: ";
   for (const auto& [name, count] : s.otherRecords) {
     std::printf("%s%zu %s", separator, count, name.c_str());
@@ -61,10 +62,10 @@ void warnOfShortRange(const std::string& input, const readings::LogSummary& s, d
           numberText(maxRange) + " m: " + input + "; --max-range makes them no returns"});
 }
 
-void warnOfJumps(const std::string& input, const readings::LogSummary& s, const std::string& unit) {
+void warnOfJumps(const std::string& input, const readings::LogSummary& s) {
   const auto warnOf = [&](size_t count, const std::string& what, size_t number) {
     if (count > 0)
-      warn({std::to_string(count) + " " + what + ": first in " + input + ", " + unit + " " +
+      warn({std::to_string(count) + " " + what + ": first in " + input + ", " + s.unit + " " +
             std::to_string(number) + "; kept as logged"});
   };
   warnOf(s.odometryJumps, "odometry jumps of over 100 m or far above the robot's speed", s.firstOdometryJump);
@@ -87,9 +88,9 @@ int convert(int argc, char** argv) {
   for (const readings::LogFormat* known : readings::logFormats()) keys.push_back(known->key);
 
   TopicArguments topics;
-  CLI::App app{"Converts a robot's log into a rawlog."};
+  CLI::App app{"Converts a robot's log into a rawlog, or a rawlog into one of the other form."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
-  app.add_option("input", input, readings::robotLogs())->required()->type_name("in.clf[.gz]|in.bag|...");
+  app.add_option("input", input, logMeans())->required()->type_name("in.clf[.gz]|in.bag|...");
   app.add_option("output", output, "the rawlog to write")->type_name("out.rawlog");
   topics.add(app);
   app.add_option("--format", format, "log format (default: detected from the content)")
@@ -104,7 +105,7 @@ int convert(int argc, char** argv) {
       ->check(within(1e-6, 1e4));
   app.add_option("--max-range", options.maxRange,
                  "readings at or beyond this are no returns, m (default: " + readings::defaultMaxRanges() +
-                     "; bags: as each scan states)")
+                     "; bags, rawlogs: as each scan states)")
       ->type_name("M")
       ->check(within(0.01, 1e4));
   app.add_option("--angular-step", angularStepDeg,
@@ -120,7 +121,7 @@ int convert(int argc, char** argv) {
   CLI::Option* const scanTime =
       app.add_option("--scan-time", options.sweep.seconds,
                      "time from the first beam of a scan to the last, s, for the correction by the robot's "
-                     "motion; 0: no correction (default: as a bag states; unknown for text logs)")
+                     "motion; 0: no correction (default: as a bag or rawlog states; unknown for text logs)")
           ->type_name("S")
           ->check(within(0, readings::kLongestSweep));
   app.add_option(
@@ -131,9 +132,9 @@ int convert(int argc, char** argv) {
       ->check(within(readings::kLowestRate, readings::kHighestRate))
       ->excludes(scanTime);
   app.add_flag("--action-observation", options.actionObservation,
-               "write (action, sensory frame) pairs instead of one observation per row");
+               "write (action, sensory frame) pairs, which rbpf-slam needs, instead of single observations");
   app.add_flag("--strict", options.strict,
-               "fail at the first broken line or message, or where a bag is cut off");
+               "fail at the first broken line or message, or where a bag or rawlog is cut off");
 
   if (const auto code = parse(app, argc, argv)) return *code;
   options.format = readings::formatNamed(format);  // null: detected
@@ -148,8 +149,7 @@ int convert(int argc, char** argv) {
   if (output.empty())
     throw InputError("output is required", "command line", "expected log2rawlog LOG out.rawlog");
 
-  const bool isBag = bags::isBag(input);
-  const std::string unit = isBag ? "message" : "line";
+  const std::string unit = bags::isBag(input) ? "message" : "line";  // a rawlog has no broken entries
   // A file of another format has thousands.
   constexpr size_t kMostReports = 10;
   size_t broken = 0;
@@ -165,9 +165,9 @@ int convert(int argc, char** argv) {
     warn({summary.format + " " + summary.defect + ": " + input + "; converted up to this point"});
   warnOfNoReturns(input, summary.longestRange);
   if (options.maxRange) warnOfShortRange(input, summary, *options.maxRange);
-  warnOfJumps(input, summary, unit);
+  warnOfJumps(input, summary);
   warnOfWrongSweeps(input, summary);
-  printSummary(output, summary, isBag);
+  printSummary(output, summary);
   return 0;
 }
 

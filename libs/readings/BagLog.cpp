@@ -32,6 +32,7 @@ BagLog::BagLog(const std::string& file, BagPlan plan, const LogConversionOptions
       report_(std::move(report)),
       objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep) {
   objects_.summary.format = bag_->format();
+  objects_.summary.unit = "message";
 }
 
 mrpt::serialization::CSerializable::Ptr BagLog::next() {

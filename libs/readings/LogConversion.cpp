@@ -7,21 +7,22 @@
 #include "files/RawlogReader.h"
 #include "files/RawlogWriter.h"
 #include "readings/BagLog.h"
+#include "readings/RawlogLog.h"
 
 namespace hybrid_slam::readings {
 
 namespace {
 
-LogSummary convertBag(const std::string& file, files::RawlogWriter& writer,
-                      const LogConversionOptions& options, const BrokenLineReport& report,
-                      const BagOptions& bag) {
-  BagLog log(file, planOf(contentsOf(file), bag, file), options, report);
+/// Writes the objects of a bag or rawlog.
+template <class Log>
+LogSummary convert(Log& log, const std::string& file, const std::string& rawlog, bool isStrict) {
+  files::RawlogWriter writer(rawlog);
   while (const auto object = log.next()) writer.write(*object);
   LogSummary summary = log.summary();
-  summary.notes = log.plan().notes;
   summary.defect = log.defect();
-  if (options.strict && !summary.defect.empty())
+  if (isStrict && !summary.defect.empty())
     throw InputError(summary.format + " " + summary.defect, file, "expected a whole file");
+  writer.finish();
   return summary;
 }
 
@@ -43,14 +44,17 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
   if (bags::isBag(logPath)) {
-    files::RawlogWriter writer(rawlogPath);
-    const LogSummary summary = convertBag(logPath, writer, options, report, bag);
-    writer.finish();
+    BagLog log(logPath, planOf(contentsOf(logPath), bag, logPath), options, report);
+    LogSummary summary = convert(log, logPath, rawlogPath, options.strict);
+    summary.notes = log.plan().notes;
     return summary;
   }
-  if (isRawlog(logPath))
-    throw InputError("already a rawlog", logPath,
-                     "expected a bag or a text log; the other programs read a rawlog as it is");
+  if (isRawlog(logPath)) {
+    RawlogLog log(logPath, options);
+    LogSummary summary = convert(log, logPath, rawlogPath, options.strict);
+    summary.notes = log.notes();
+    return summary;
+  }
   TextLog log(logPath, options, report);
   files::RawlogWriter writer(rawlogPath);
   while (const auto object = log.next()) writer.write(*object);

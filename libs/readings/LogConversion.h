@@ -1,5 +1,5 @@
 /// @file LogConversion.h
-/// @brief Converts a robot's text log or bag into a rawlog.
+/// @brief Converts a robot's text log or bag, or a rawlog of either form, into a rawlog.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace hybrid_slam::readings {
 
-/// Converts `logPath` (plain or compressed) into the rawlog `rawlogPath`, whose objects are those of TextLog
-/// or BagLog. A truncated or damaged bag is converted up to its defect (LogSummary::defect), unless `strict`.
+/// Converts `logPath` (plain or compressed) into the rawlog `rawlogPath`, whose objects are those of TextLog,
+/// BagLog or RawlogLog. A truncated or damaged bag or rawlog is converted up to its defect
+/// (LogSummary::defect), unless `strict`.
 ///
-/// @throws InputError for an input that is missing, unreadable, truncated, not a log, a rawlog, or without
-///         scans, for an unwritable output, and for a broken line if `strict`; no file is left at
-///         `rawlogPath` then
+/// @throws InputError for an input that is missing, unreadable, truncated, not a log, or without scans, for
+///         an output that cannot be written or is the input, and for a broken line if `strict`; no file is
+///         left at `rawlogPath` then
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
                       const LogConversionOptions& options, const BrokenLineReport& report,
                       const BagOptions& bag = {});

@@ -1,10 +1,7 @@
 #include "readings/LogObjects.h"
 
-#include <mrpt/core/Clock.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3D.h>
 
@@ -51,6 +48,15 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
 
 }  // namespace
 
+mrpt::obs::CObservationOdometry::Ptr odometryAt(mrpt::Clock::time_point time,
+                                                const mrpt::math::TPose2D& pose) {
+  auto observation = mrpt::obs::CObservationOdometry::Create();
+  observation->timestamp = time;
+  observation->sensorLabel = "ODOMETRY";
+  observation->odometry = mrpt::poses::CPose2D(pose);
+  return observation;
+}
+
 /// A file that is not a log may have any number of names.
 void LogObjects::operator()(const OtherRecord& record) {
   constexpr size_t kMostNames = 100;
@@ -67,55 +73,63 @@ mrpt::serialization::CSerializable::Ptr LogObjects::take() {
 }
 
 void LogObjects::operator()(const OdometryRecord& record) {
-  if (jumps_.isJump(record.pose, record.time))
+  odometry(record, odometryAt(mrpt::Clock::fromDouble(record.time), record.pose));
+}
+
+void LogObjects::odometry(const OdometryRecord& record,
+                          const mrpt::obs::CObservationOdometry::Ptr& observation) {
+  if (jumps_.isJump(record.pose, std::isnan(record.time) ? std::nullopt : std::optional(record.time)))
     ++summary.odometryJumps;
   else if (last_)
     summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
   last_ = record;
   ++summary.odometryReadings;
   seenAt(record.time);
-  if (actionObservation_) return;
-  auto observation = mrpt::obs::CObservationOdometry::Create();
-  observation->timestamp = mrpt::Clock::fromDouble(record.time);
-  observation->sensorLabel = "ODOMETRY";
-  observation->odometry = mrpt::poses::CPose2D(record.pose);
-  ready_.push_back(observation);
+  if (!actionObservation_) ready_.push_back(observation);
 }
 
 void LogObjects::operator()(const LaserRecord& record) {
   if (record.odometry && !(last_ && last_->time == record.time && last_->pose == *record.odometry))
     (*this)(OdometryRecord{record.time, *record.odometry});
-  ++summary.scans;
-  seenAt(record.time);
-  for (const auto range : record.ranges)
-    if (range > 0 && std::isfinite(range)) ++summary.ranges, summary.rangesBeyond += range >= maxRange_;
-  const auto observation = observationOf(record, maxRange_);
-  const double sweep = sweepSetting_.of(observation->aperture).value_or(record.sweep);
-  summary.wrongSweeps += !isSweepTime(sweep);
-  const double sweepBefore = std::exchange(sweeps_[observation->sensorLabel], sweep);
-  const auto comment =
-      sweepBefore == sweep ? nullptr : commentOf({observation->sensorLabel, sweep}, observation->timestamp);
-  for (size_t i = 0; i < observation->getScanSize(); ++i)
-    if (observation->getScanRangeValidity(i))
-      summary.longestRange = std::max(summary.longestRange, observation->getScanRange(i));
+  scan(observationOf(record, maxRange_), record.time, record.sweep);
+}
+
+void LogObjects::scan(const CObservation2DRangeScan::Ptr& scan, double time, double sweep) {
+  const auto comment = note(*scan, time, sweep);
   if (actionObservation_) {
-    writeActionUpTo(record.time);
+    writeActionUpTo(scan->timestamp);
     auto frame = mrpt::obs::CSensoryFrame::Create();
     if (comment) frame->insert(comment);
-    frame->insert(observation);
+    frame->insert(scan);
     ready_.push_back(frame);
   } else {
     if (comment) ready_.push_back(comment);
-    ready_.push_back(observation);
+    ready_.push_back(scan);
   }
 }
 
+mrpt::obs::CObservation::Ptr LogObjects::note(const CObservation2DRangeScan& scan, double time,
+                                              double sweep) {
+  ++summary.scans;
+  seenAt(time);
+  for (size_t i = 0; i < scan.getScanSize(); ++i) {
+    const float range = scan.getScanRange(i);
+    if (range > 0 && std::isfinite(range)) ++summary.ranges, summary.rangesBeyond += range >= maxRange_;
+    if (scan.getScanRangeValidity(i)) summary.longestRange = std::max(summary.longestRange, range);
+  }
+  sweep = sweepSetting_.of(scan.aperture).value_or(sweep);
+  summary.wrongSweeps += !isSweepTime(sweep);
+  if (sweeps_.size() >= kMostLabels && sweeps_.count(scan.sensorLabel) == 0) return nullptr;
+  const double before = std::exchange(sweeps_[scan.sensorLabel], sweep);
+  return before == sweep ? nullptr : commentOf({scan.sensorLabel, sweep}, scan.timestamp);
+}
+
 /// Writes the odometry increment since the previous scan; an empty action if there is none.
-void LogObjects::writeActionUpTo(double time) {
+void LogObjects::writeActionUpTo(mrpt::Clock::time_point time) {
   auto actions = mrpt::obs::CActionCollection::Create();
   if (last_) {
     mrpt::obs::CActionRobotMovement2D movement;
-    movement.timestamp = mrpt::Clock::fromDouble(time);
+    movement.timestamp = time;
     const mrpt::poses::CPose2D now(last_->pose);
     movement.computeFromOdometry(now - atLastScan_.value_or(now), movement.motionModelConfiguration);
     actions->insert(movement);
@@ -125,12 +139,12 @@ void LogObjects::writeActionUpTo(double time) {
 }
 
 void LogObjects::seenAt(double time) {
-  const bool first = summary.scans + summary.odometryReadings == 1;
+  if (std::isnan(time)) return;
   constexpr double kDay = 86400;  // s
-  if (!first && std::abs(time - lastTime_) > kDay) ++summary.timeJumps;
+  if (lastTime_ && std::abs(time - *lastTime_) > kDay) ++summary.timeJumps;
+  summary.earliest = lastTime_ ? std::min(summary.earliest, time) : time;
+  summary.latest = lastTime_ ? std::max(summary.latest, time) : time;
   lastTime_ = time;
-  summary.earliest = first ? time : std::min(summary.earliest, time);
-  summary.latest = first ? time : std::max(summary.latest, time);
 }
 
 }  // namespace hybrid_slam::readings

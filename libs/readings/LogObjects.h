@@ -2,6 +2,9 @@
 /// @brief Converts the records of a log to the objects of a rawlog.
 #pragma once
 
+#include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/serialization/CSerializable.h>
 
@@ -20,27 +23,34 @@ namespace hybrid_slam::readings {
 
 /// What a log contains, for the user.
 struct LogSummary {
-  std::string format;  ///< for the user
+  std::string format;         ///< for the user
+  std::string unit = "line";  ///< of the log: "line", "message" or "entry"
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
-  std::vector<std::string> notes;              ///< lasers not used; of a bag: what was assumed
-  std::string defect;                          ///< of a bag: why it is incomplete; empty if intact
+  /// Lasers not used; of a bag: what was assumed; of a rawlog: observations not read.
+  std::vector<std::string> notes;
+  std::string defect;                          ///< of a bag or rawlog: why it is incomplete; empty if intact
   std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name, of 100 names
   double earliest = 0, latest = 0;             ///< s
   double pathLength = 0;                       ///< m, along the odometry in log order, without jumps
   float longestRange = 0;                      ///< m, among the valid readings
   size_t wrongSweeps = 0;                      ///< scans that state an impossible scan time
   size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
-  /// Jumps of the odometry (OdometryJumps) and rows over a day apart: number, and line of the first (text
-  /// logs).
+  /// Jumps of the odometry (OdometryJumps) and rows over a day apart: number, and line, message or entry of
+  /// the first.
   size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
 };
+
+/// Returns odometry as an observation, labelled `ODOMETRY`.
+mrpt::obs::CObservationOdometry::Ptr odometryAt(mrpt::Clock::time_point time,
+                                                const mrpt::math::TPose2D& pose);
 
 /// Turns records into rawlog objects of either form, and collects the summary. Odometry is labelled
 /// `ODOMETRY`, a scan by its record's label. If the scan time of a laser is known, a comment precedes its
 /// first scan, and each scan where it changes (SweepTimes.h).
 ///
 /// MRPT's scans are symmetric about the sensor's x axis; the offset of an asymmetric fan goes into the yaw of
-/// the sensor pose (-0.5 deg for 180 beams from -90 to +89 deg).
+/// the sensor pose (-0.5 deg for 180 beams from -90 to +89 deg). Observations of a rawlog are kept as they
+/// are.
 class LogObjects {
  public:
   /// @param maxRange           m; readings at or beyond this are no returns
@@ -54,23 +64,35 @@ class LogObjects {
   void operator()(const OdometryRecord& record);
   void operator()(const LaserRecord& record);
 
+  /// Takes odometry that is an observation already. @param record  its time is NaN if it is not known
+  void odometry(const OdometryRecord& record, const mrpt::obs::CObservationOdometry::Ptr& observation);
+  /// Takes a scan that is an observation already.
+  /// @param time   s; NaN: not known
+  /// @param sweep  s, from the first beam to the last; 0: not known
+  void scan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan, double time, double sweep);
+  /// Adds a scan to the summary alone. @return the comment to write before it; null if there is none
+  mrpt::obs::CObservation::Ptr note(const mrpt::obs::CObservation2DRangeScan& scan, double time,
+                                    double sweep);
+  /// Takes an object as it is.
+  void keep(const mrpt::serialization::CSerializable::Ptr& object) { ready_.push_back(object); }
+
   /// Returns the next object of the records so far; null if there is none.
   mrpt::serialization::CSerializable::Ptr take();
 
   LogSummary summary;
 
  private:
-  void writeActionUpTo(double time);
+  void writeActionUpTo(mrpt::Clock::time_point time);
   void seenAt(double time);
 
   std::deque<mrpt::serialization::CSerializable::Ptr> ready_;
   double maxRange_;
   bool actionObservation_;
   SweepSetting sweepSetting_;
-  std::map<std::string, double> sweeps_;  ///< s, last written for each laser
+  std::map<std::string, double> sweeps_;  ///< s, last written for each laser, of 100 labels
   std::optional<OdometryRecord> last_;
   OdometryJumps jumps_;
-  double lastTime_ = 0;                             ///< s, of the previous record
+  std::optional<double> lastTime_;                  ///< s, of the previous record
   std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry
 };
 

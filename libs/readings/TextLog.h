@@ -16,12 +16,12 @@
 
 namespace hybrid_slam::readings {
 
-/// How to convert a text log.
+/// How to convert a log.
 struct LogConversionOptions : LogParserOptions {
   const LogFormat* format = nullptr;  ///< null: detected from the content
   /// Readings at or beyond this (m) are no returns. Default: 80 m, because a SICK laser in 80 m mode reports
   /// no return as 81.83 or 81.91 m; for DP-SLAM 8.18 m, because its laser ran in 8 m mode (8.183 to 8.191 m);
-  /// for tinySLAM 5.6 m; for bags that of each scan.
+  /// for tinySLAM 5.6 m; for bags and rawlogs that of each scan.
   std::optional<double> maxRange;
   SweepSetting sweep;              ///< scan times in place of those that the log states
   bool actionObservation = false;  ///< (action, sensory frame) pairs instead of one observation per row

@@ -48,8 +48,8 @@ class FilterRun {
   /// Resumes a session, before the first reading. The configuration must be that of the session (`adopt`).
   /// @throws InputError for a session of another method, or not of this program
   void resume(SessionReader& session);
-  /// Returns the state of the run as bytes. Empty for MRPT's filter, in a fixed map, and during the search
-  /// for the start.
+  /// Returns the state of the run as bytes. Empty for `stock` and `ortho`, in a fixed map, and during the
+  /// search for the start.
   std::string state();
   /// Continues from the `state` of a run with this configuration, before the first reading.
   void restore(const std::string& state);

@@ -44,8 +44,8 @@ struct ReplayPass {
   /// Passes the next scan to all filters.
   /// @return events, one per line
   std::vector<std::string> advance();
-  /// Returns the state of all filters; empty if one cannot be saved: MRPT's, one in a fixed map, or one that
-  /// searches for its start.
+  /// Returns the state of all filters; empty if one cannot be saved: `stock`, `ortho`, one in a fixed map, or
+  /// one that searches for its start.
   std::optional<Checkpoint> checkpoint();
   std::vector<std::string> names() const;  ///< of the methods
   bool isFinished() const;

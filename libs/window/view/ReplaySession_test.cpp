@@ -179,6 +179,16 @@ TEST_F(ReplaySessionTest, GoesBackFromACheckpointToTheSameBytes) {
           << method << name;
 }
 
+TEST_F(ReplaySessionTest, GoesBackFromTheBeginningBesideAMethodWithoutCheckpoints) {
+  ReplaySession session(laps(), {Method::hybrid, Method::ortho});
+  session.seek(40);
+  ASSERT_TRUE(reaches(session, State::paused, 40));
+  EXPECT_EQ(session.snapshot()->run, 1u);
+  session.stepBack();
+  ASSERT_TRUE(reaches(session, State::paused, 39));
+  EXPECT_EQ(session.snapshot()->run, 2u);
+}
+
 TEST(Checkpoints, AreFartherApartWhenTheirMemoryIsUsedUp) {
   const FilterWatch watch{run::Configuration()};
   Checkpoints all(1000);
