@@ -14,6 +14,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       useGrid_(configuration.useGrid),
       closesLoops_(configuration.closesLoops()),
       keepsScans_(configuration.keepsScans()),
+      resolution_(configuration.grid.resolution),
       prepare_(configuration),
       makeMap_(configuration),
       particles_(configuration, &profiler()),

@@ -76,6 +76,7 @@ class HybridFilter : public Filter {
 
   UpdateInterval interval_;
   bool useGrid_, closesLoops_, keepsScans_;
+  double resolution_;  ///< m, of the grids
   ScanPreparation prepare_;
   MapMaker makeMap_;
   ParticleSet particles_;
