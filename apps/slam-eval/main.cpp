@@ -142,7 +142,7 @@ Json neesJson(const CommandLine& line) {
 }
 
 Json neesRelationsJson(const CommandLine& line) {
-  const run::FinishedPath path = run::readFinishedPath(line.run, line.rawlog);
+  const run::FinishedPath path = run::readFinishedPath(line.run, line.rawlog, warn);
   const std::vector<evaluation::Relation> relations = evaluation::loadRelations(line.relations);
   const files::Trajectory odometry =
       line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
