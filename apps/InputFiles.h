@@ -8,6 +8,7 @@
 
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
+#include "readings/LogFormats.h"
 
 namespace hybrid_slam {
 
@@ -29,10 +30,7 @@ struct InputFiles {
   const std::string& main() const { return config.empty() ? log : config; }
 };
 
-/// The log's formats, for --help: of the robot, and with MRPT's own.
-inline const std::string kRobotLogMeans =
-    "bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, GMapping (.gfs), DP-SLAM or "
-    "tinySLAM; plain or compressed with gzip, bzip2, zstd or LZ4";
-inline const std::string kLogMeans = "rawlog, " + kRobotLogMeans;
+/// The log's formats, for --help.
+inline std::string logMeans() { return "rawlog, " + readings::robotLogs(); }
 
 }  // namespace hybrid_slam

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
         "Replays logs in a window, with the hybrid filter beside another method, and maps live robot data",
         "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
-    files.add(app, hybrid_slam::kLogMeans + " (default: [run] rawlog)");
+    files.add(app, hybrid_slam::logMeans() + " (default: [run] rawlog)");
     hybrid_slam::FilterArguments filter;
     filter.addMethod(app);
     filter.addParticles(app);

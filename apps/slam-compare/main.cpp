@@ -49,7 +49,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
-  line.files.add(app, kLogMeans);
+  line.files.add(app, logMeans());
   app.add_option("-o,--output", line.output, "folder for runs, tables and report, created if missing")
       ->required()
       ->type_name("DIR");
