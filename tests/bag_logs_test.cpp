@@ -8,6 +8,7 @@
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "readings/LogReader.h"
+#include "readings/Timestamps.h"
 #include "testing/CompressedBytes.h"
 #include "testing/RosBags.h"
 

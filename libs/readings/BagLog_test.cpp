@@ -8,6 +8,7 @@
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "readings/SweepTimes.h"
+#include "readings/Timestamps.h"
 #include "testing/ErrorOf.h"
 #include "testing/TestBags.h"
 
