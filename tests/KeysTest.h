@@ -2,9 +2,9 @@
 /// @brief For the tests of the window with real keys and the mouse, under a window manager.
 #pragma once
 
-#include <wx/dnd.h>
 #include <wx/uiaction.h>
 
+#include "FileDrag.h"
 #include "GuiTest.h"
 
 namespace hybrid_slam {
@@ -73,14 +73,12 @@ class KeysTest : public GuiTest {
     };
     ASSERT_TRUE(happens([&] { return shows(0) && shows(1); }));
   }
-  /// Not dragged with the mouse: under load, GTK at times lost the press that begins the drag, or the click
-  /// after it.
+  /// Drags a file to the window and drops it there. Without the mouse: under load, GTK at times lost the
+  /// press that begins a drag, or the click after it.
   void drop(const std::string& file) {
-    wxArrayString names;
-    names.Add(file);
-    auto* const target = dynamic_cast<wxFileDropTarget*>(frame->GetDropTarget());
-    ASSERT_NE(target, nullptr);
-    EXPECT_TRUE(target->OnDropFiles(0, 0, names));
+    test::FileDrag drag(file);
+    ASSERT_TRUE(happens([&] { return drag.isOver(); })) << "the window takes no drops";
+    EXPECT_TRUE(drag.isTaken());
   }
   bool isReady() {
     return happens([this] { return frame->GetMenuBar()->IsEnabled(window::kStep); });
