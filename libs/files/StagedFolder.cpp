@@ -39,7 +39,8 @@ void syncOne(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
   if (file >= 0) ::close(file);
-  if (error && error != EINVAL)  // some file systems cannot sync a folder
+  const bool isUnknown = error == EINVAL && fs::is_directory(path);  // some file systems cannot sync folders
+  if (error && !isUnknown)
     throw InputError("cannot write", path.string(),
                      std::string("expected a writable folder with free disk space: ") + std::strerror(error));
 }

@@ -123,7 +123,7 @@ TEST_F(LiveRunTest, ARecordingThatEndsBeforeTheFirstOdometryDoesNotCount) {
   options.maxWaiting = 1000;
   LiveRun run(c, options, events.log(), true);
   test::Log early;
-  for (int i = 0; i < 1000; ++i) early.push_back(test::scan(900 + 0.1 * i));
+  for (int i = 0; i < 1000; ++i) early.push_back(test::scan(900 + 0.1 * i, {0.002 * i, 0, 0.003 * i}));
   std::optional<FullDisk> disk(10000);
   take(run, early);
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();

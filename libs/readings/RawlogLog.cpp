@@ -106,7 +106,7 @@ void RawlogLog::prepare(const CObservation::Ptr& observation) {
 }
 
 void RawlogLog::take(const CObservation::Ptr& observation, CSensoryFrame* frame) {
-  if (sweepTimeIn(*observation)) return;  // LogObjects states it anew
+  if (sweepTimeIn(*observation)) return;  // LogObjects states it again
   const double time = timeOf(*observation).value_or(kUnknown);
   if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     const double sweep = sweeps_.of(*scan);
