@@ -1,6 +1,9 @@
 /// The window driven like a user does: with real keys and the mouse, under a window manager.
 #include <wx/display.h>
 
+#include <array>
+#include <cstdio>
+
 #include "KeysTest.h"
 #include "PathTypist.h"
 #include "window/view/FilterScene.h"
@@ -60,6 +63,68 @@ TEST_F(KeysTest, BackByAKeyDoesNotReplayAll) {
   press(WXK_LEFT);
   EXPECT_TRUE(stands(State::paused, 39));
   EXPECT_EQ(now().run, 1u) << "from a checkpoint";
+}
+
+TEST_F(KeysTest, TheVerdictOfAFinishedReplayIsShown) {
+  openLog();
+  for (int i = 0; i < 5; ++i) press(WXK_UP, wxMOD_CONTROL);
+  ASSERT_TRUE(happens([this] { return frame->replay()->speed() == "fastest"; })) << frame->replay()->speed();
+  press(WXK_SPACE);
+  ASSERT_TRUE(stands(State::ended, 60));
+  for (const size_t i : {0u, 1u}) {
+    const window::MapCanvas& pane = *frame->replay()->canvas(i);
+    ASSERT_TRUE(happens([&] { return pane.shown() && pane.shown() == now().filters.at(i); }));
+    ASSERT_TRUE(pane.shown()->verdict) << "pane " << i;
+    EXPECT_EQ(captionOf(*pane.shown()).back(), "so far " + pane.shown()->verdict->name());
+    EXPECT_NE(pane.shown()->verdict->name(), "lost") << "pane " << i;
+  }
+}
+
+/// What the caption says is compared with what the screen shows: each line, blue or orange along its length.
+TEST_F(KeysTest, TheCaptionCountsTheLinesThatAreDrawnAsMatched) {
+  openAt(20);
+  press('7', wxMOD_CONTROL);  // the legend's strokes have these colours
+  const window::MapCanvas& pane = *frame->replay()->canvas(0);
+  const wxPoint corner = pane.ClientToScreen(wxPoint(0, 0));
+  const double scale = frame->GetContentScaleFactor();
+  const auto isDrawn = [&](const wxImage& screen, const LineSegment& line, const std::array<int, 3>& colour) {
+    constexpr int kSamples = 40;
+    int found = 0;
+    for (int k = 0; k <= kSamples; ++k) {
+      const auto at = line.start + (line.end - line.start) * (1. * k / kSamples);
+      const auto p = pane.view().toPicture(at.x, at.y, pane.size());
+      const int x = static_cast<int>(scale * (corner.x + p.x)),
+                y = static_cast<int>(scale * (corner.y + p.y));
+      found += std::abs(screen.GetRed(x, y) - colour[0]) < 40 &&
+                       std::abs(screen.GetGreen(x, y) - colour[1]) < 40 &&
+                       std::abs(screen.GetBlue(x, y) - colour[2]) < 40
+                   ? 1
+                   : 0;
+    }
+    return found > kSamples / 2;
+  };
+  size_t matchedInAll = 0;
+  for (size_t scan = 21; scan <= 28; ++scan) {
+    press(WXK_RIGHT);
+    ASSERT_TRUE(stands(State::paused, scan));
+    ASSERT_TRUE(happens([&] { return pane.shown() == now().filters.at(0); }));
+    size_t database = 0, matched = 0, all = 0;
+    const std::vector<std::string> caption = captionOf(*pane.shown());
+    ASSERT_TRUE(std::any_of(caption.begin(), caption.end(), [&](const std::string& line) {
+      return std::sscanf(line.c_str(), "%zu lines; of the scan: %zu of %zu match", &database, &matched,
+                         &all) == 3;
+    })) << testing::PrintToString(caption);
+    const wxImage screen = screenshot("matched-" + std::to_string(scan));
+    size_t blue = 0, orange = 0;
+    for (const window::ScanLine& line : pane.shown()->scanLines) {
+      blue += isDrawn(screen, line.segment, {0, 70, 230}) ? 1 : 0;
+      orange += isDrawn(screen, line.segment, {245, 130, 0}) ? 1 : 0;
+    }
+    EXPECT_EQ(blue, matched) << "scan " << scan;
+    EXPECT_EQ(blue + orange, all) << "scan " << scan;
+    matchedInAll += matched;
+  }
+  EXPECT_GT(matchedInAll, 0u);
 }
 
 TEST_F(KeysTest, AtFullSpeedTheSliderStandsWhereThePanesAre) {

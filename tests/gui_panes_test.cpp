@@ -123,5 +123,39 @@ TEST_F(PanesTest, TheSmallestWindowHasRoomForItsControls) {
   }
 }
 
+/// The texts of a plot stand above it or in it, those of its axis one above the other; none reaches the next.
+TEST_F(PanesTest, AWindowOf800PixelsHasRoomForTheTextsOfThePlots) {
+  openAt(40);
+  frame->SetSize(frame->FromDIP(wxSize(800, 560)));
+  ASSERT_TRUE(happens([this] { return frame->GetClientSize().x <= frame->FromDIP(800); }));
+  for (const int page : {window::kReplayPage, window::kLivePage}) {
+    menu(page);
+    screenshot(page == window::kReplayPage ? "plots-replay" : "plots-live");
+    const wxWindow* const panel =
+        page == window::kReplayPage ? static_cast<wxWindow*>(frame->replay()) : frame->live();
+    const window::PlotPanel* plots = nullptr;
+    for (const wxWindow* child : panel->GetChildren())
+      if (const auto* const found = dynamic_cast<const window::PlotPanel*>(child)) plots = found;
+    ASSERT_NE(plots, nullptr);
+    const auto widthOf = [&](const std::string& text) { return plots->GetTextExtent(text).x; };
+    const double gap = frame->FromDIP(3);
+    double end = 0;  // of the plot before
+    for (size_t i = 0; i < window::PlotPanel::kCount; ++i) {
+      const wxRect2DDouble area = plots->plotArea(i);
+      EXPECT_GE(area.GetLeft(), end + gap) << i;
+      end = area.GetRight();
+      for (const std::string& text :
+           {window::PlotPanel::titles().at(i), std::string("0.002"), std::string("100000 s")})
+        EXPECT_LE(widthOf(text) + 2 * gap, area.m_width) << text;
+      EXPECT_GE(area.m_height, 3 * plots->GetCharHeight()) << "a title and the ends of the axes";
+    }
+    const wxRect2DDouble names = plots->namesArea();
+    EXPECT_GE(names.GetLeft(), end + gap);
+    EXPECT_LE(names.GetRight(), plots->GetClientSize().x);
+    for (const char* method : {"hybrid", "general", "linemap", "ortho", "stock"})
+      EXPECT_LE(widthOf(method), names.m_width) << method;
+  }
+}
+
 }  // namespace
 }  // namespace hybrid_slam

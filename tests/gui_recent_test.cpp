@@ -1,5 +1,6 @@
 /// Recent files, and the map of an earlier run, by the keys of the menus.
 #include "KeysTest.h"
+#include "PathTypist.h"
 
 namespace hybrid_slam {
 namespace {
@@ -130,19 +131,20 @@ TEST_F(RecentFilesTest, AFolderIsOpened) {
   EXPECT_TRUE(entries()->IsEnabled());
 }
 
-/// The map of an earlier run: saved after Ctrl+Shift+S, typed into the dialog of Ctrl+M.
+/// The map of an earlier run: saved by Ctrl+Shift+S and a typed folder, typed into the dialog of Ctrl+M.
 class EarlierMapTest : public KeysTest {
  protected:
   void saveMapByKeys() {
-    std::filesystem::create_directory(folder.path("maps"));
+    const std::string maps = folder.path("maps"), title = "Folder for the maps (hybrid/ and general/ in it)";
+    std::filesystem::create_directory(maps);
     openAt(40);
+    const PathTypist typist(dialogs, title, maps);
     press('S', wxMOD_CONTROL | wxMOD_SHIFT);
-    ASSERT_TRUE(happens([&] { return !dialogs.titles.empty(); }));
-    EXPECT_THAT(dialogs.titles, testing::ElementsAre("Folder for the maps (hybrid/ and general/ in it)"));
+    ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + maps; })) << status(0);
+    EXPECT_THAT(dialogs.titles, testing::Each(title));
     dialogs.titles.clear();
-    // Not typed: GTK's own dialog for folders can take the root folder before the path is complete.
-    frame->saveReplayMapTo(folder.path("maps"));
-    ASSERT_TRUE(happens([&] { return status(0) == "map saved: " + folder.path("maps"); })) << status(0);
+    for (const char* method : {"/hybrid", "/general"})
+      EXPECT_TRUE(std::filesystem::exists(maps + method + "/session.hslam")) << method;
   }
   /// Opens the saved map at its origin, and plays.
   void playIn(Use use) {

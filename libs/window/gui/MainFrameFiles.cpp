@@ -1,6 +1,7 @@
 // What the menus do with files.
 #include <wx/dirdlg.h>
 #include <wx/filedlg.h>
+#include <wx/filefn.h>
 
 #include <filesystem>
 
@@ -22,6 +23,10 @@ std::string logFilter() {
   for (const std::string& ending : readings::logEndings()) names += (names.empty() ? "*" : ";*") + ending;
   return "Logs|" + names + "|All files|*";
 }
+
+/// Returns where a dialog for folders begins. GTK would begin in its list of recent folders, which takes only
+/// the first key of a path that is typed.
+wxString firstFolder() { return wxGetCwd(); }
 
 }  // namespace
 
@@ -99,7 +104,7 @@ void MainFrame::openLog() {
 }
 
 void MainFrame::openFolder() {
-  wxDirDialog dialog(this, "Open recording folder", "", wxDD_DEFAULT_STYLE | wxDD_DIR_MUST_EXIST);
+  wxDirDialog dialog(this, "Open recording folder", firstFolder(), wxDD_DEFAULT_STYLE | wxDD_DIR_MUST_EXIST);
   if (dialog.ShowModal() == wxID_OK) openLog(dialog.GetPath().utf8_string());
 }
 
@@ -147,7 +152,7 @@ void MainFrame::exportPictureTo(const std::string& file) const {
 
 void MainFrame::exportResults() {
   if (!replay_->session()) throw InputError("no results yet", "no log is open", "open a log and play it");
-  wxDirDialog dialog(this, "Folder for the results (hybrid/ and general/ in it)");
+  wxDirDialog dialog(this, "Folder for the results (hybrid/ and general/ in it)", firstFolder());
   if (dialog.ShowModal() == wxID_OK) exportResultsTo(dialog.GetPath().utf8_string());
 }
 
@@ -164,7 +169,7 @@ void MainFrame::saveMap() {
     return live_->session()->saveMap();
   }
   if (!replay_->session()) throw InputError("no map yet", "no log is open", "open a log and play it");
-  wxDirDialog dialog(this, "Folder for the maps (hybrid/ and general/ in it)");
+  wxDirDialog dialog(this, "Folder for the maps (hybrid/ and general/ in it)", firstFolder());
   if (dialog.ShowModal() == wxID_OK) saveReplayMapTo(dialog.GetPath().utf8_string());
 }
 

@@ -12,15 +12,14 @@ namespace hybrid_slam::window {
 namespace {
 
 struct Plot {
-  const char* title;
   double (*value)(const PlotRow&);
   double least;  ///< minimum end of the axis
 };
 
-const Plot kPlots[] = {{"std x (m)", [](const PlotRow& r) { return r.stdX; }, 0.01},
-                       {"std y (m)", [](const PlotRow& r) { return r.stdY; }, 0.01},
-                       {"std phi (deg)", [](const PlotRow& r) { return mrpt::RAD2DEG(r.stdPhi); }, 0.1},
-                       {"ESS", [](const PlotRow& r) { return r.ess; }, 1}};
+const Plot kPlots[PlotPanel::kCount] = {{[](const PlotRow& r) { return r.stdX; }, 0.01},
+                                        {[](const PlotRow& r) { return r.stdY; }, 0.01},
+                                        {[](const PlotRow& r) { return mrpt::RAD2DEG(r.stdPhi); }, 0.1},
+                                        {[](const PlotRow& r) { return r.ess; }, 1}};
 
 wxColour colourOf(size_t filter) { return filter == 0 ? wxColour(0, 90, 200) : wxColour(230, 110, 0); }
 
@@ -32,7 +31,7 @@ double roundedUp(double value) {
   return 10 * power;
 }
 
-void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const Plot& plot,
+void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const std::string& title, const Plot& plot,
               const std::vector<std::shared_ptr<const FilterSnapshot>>& filters) {
   double high = plot.least, end = 1;
   for (const auto& filter : filters)
@@ -43,7 +42,7 @@ void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const Plot& plo
   high = roundedUp(high);
   double width = 0, height = 0;
   to.GetTextExtent("0", &width, &height);
-  to.DrawText(plot.title, area.m_x, area.m_y);
+  to.DrawText(title, area.m_x, area.m_y);
   const double top = area.m_y + height + 3, bottom = area.m_y + area.m_height;
   to.SetBrush(*wxWHITE_BRUSH);
   to.SetPen(*wxGREY_PEN);
@@ -86,21 +85,35 @@ void PlotPanel::show(const std::vector<std::shared_ptr<const FilterSnapshot>>& f
   Refresh(false);
 }
 
+const std::array<std::string, PlotPanel::kCount>& PlotPanel::titles() {
+  static const std::array<std::string, kCount> all{"std x (m)", "std y (m)", "std phi (deg)", "ESS"};
+  return all;
+}
+
+wxRect2DDouble PlotPanel::plotArea(size_t i) const {
+  const double gap = FromDIP(8);
+  const wxSize size = GetClientSize();
+  const double width = (namesArea().m_x - (kCount + 1) * gap) / kCount;
+  return {gap + static_cast<double>(i) * (width + gap), 2, width, size.y - 6.0};
+}
+
+wxRect2DDouble PlotPanel::namesArea() const {
+  const double width = FromDIP(70), top = FromDIP(24);
+  const wxSize size = GetClientSize();
+  return {size.x - width, top, width, size.y - top};
+}
+
 void PlotPanel::onPaint(wxPaintEvent&) {
   wxAutoBufferedPaintDC dc(this);
   dc.SetBackground(wxBrush(GetBackgroundColour()));
   dc.Clear();
   const std::unique_ptr<wxGraphicsContext> to(wxGraphicsContext::Create(dc));
   to->SetFont(GetFont(), GetForegroundColour());
-  const double gap = FromDIP(8), legend = FromDIP(70);
-  const wxSize size = GetClientSize();
-  const double width = (size.x - legend - 5 * gap) / 4;
-  for (size_t i = 0; i < 4; ++i)
-    drawPlot(*to, {gap + static_cast<double>(i) * (width + gap), 2, width, size.y - 6.0}, kPlots[i],
-             filters_);
+  for (size_t i = 0; i < kCount; ++i) drawPlot(*to, plotArea(i), titles()[i], kPlots[i], filters_);
+  const wxRect2DDouble names = namesArea();
   for (size_t i = 0; i < filters_.size(); ++i) {
     to->SetFont(GetFont(), colourOf(i));
-    to->DrawText(filters_[i]->method, size.x - legend, FromDIP(24) + static_cast<double>(i) * FromDIP(20));
+    to->DrawText(filters_[i]->method, names.m_x, names.m_y + static_cast<double>(i) * FromDIP(20));
   }
 }
 

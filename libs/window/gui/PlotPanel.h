@@ -2,9 +2,12 @@
 /// @brief Particle spread and effective sample size over time, one curve per filter.
 #pragma once
 
+#include <wx/geometry.h>
 #include <wx/panel.h>
 
+#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "window/view/FilterSnapshot.h"
@@ -24,6 +27,12 @@ class PlotPanel : public wxPanel {
  public:
   explicit PlotPanel(wxWindow* parent);
   void show(const std::vector<std::shared_ptr<const FilterSnapshot>>& filters);
+
+  static constexpr size_t kCount = 4;                      ///< plots
+  static const std::array<std::string, kCount>& titles();  ///< above the plots, from left to right
+  /// Returns the place of a plot with its title, and that of the methods' names, in the panel.
+  wxRect2DDouble plotArea(size_t i) const;
+  wxRect2DDouble namesArea() const;
 
  private:
   void onPaint(wxPaintEvent&);
