@@ -14,7 +14,7 @@ install(EXPORT hybrid_slam NAMESPACE hybrid_slam:: FILE hybrid_slamTargets.cmake
   DESTINATION ${package} COMPONENT development)
 
 # The INI files name the data set by a relative path, so both are installed side by side.
-install(DIRECTORY config-ini DESTINATION ${hybrid_slam_data} COMPONENT programs)
+install(DIRECTORY config-ini workflow DESTINATION ${hybrid_slam_data} COMPONENT programs)
 install(DIRECTORY datasets/csie DESTINATION ${hybrid_slam_data}/datasets COMPONENT programs)
 install(FILES README.md CITATION.cff CONTRIBUTING.md DESTINATION ${hybrid_slam_pages} COMPONENT programs)
 install(DIRECTORY doc DESTINATION ${hybrid_slam_pages} COMPONENT programs)

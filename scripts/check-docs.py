@@ -29,14 +29,19 @@ Commands to type are ```sh blocks. Those of a page run one after the other in a 
 first. Each must end with 0. A comment on the line before a block says otherwise:
 
   <!-- first: COMMANDS -->      also runs these before, in the same shell, to make the files that the page speaks of;
-                                datasets/ and config-ini/ are the installed folders, tests/ and workflow/ those of the
-                                repository, $PREFIX is the folder of the installation
+                                datasets/ and config-ini/ are the installed folders, tests/ that of the repository,
+                                $PREFIX is the folder of the installation
   <!-- needs NAME -->           skips the block if this environment variable is unset or this program is missing;
-                                `; first: COMMANDS` may follow
+                                ` (WHY)` and `; first: COMMANDS` may follow
   <!-- not run: WHY -->         for a block that needs root, hours, ...; its files and options must exist nevertheless
 
 A line outside of these blocks that is indented or fenced and calls a program (of apps/, a script, or a usual one such
 as cmake) is an error, unless it is a synopsis, with [ or `...`, or in a marked transcript.
+
+What is run: the ```sh blocks by --commands, but for those marked `not run` and those that lack what they need; the
+`checked by` commands by --run. What is only checked, in every mode but --commands: the commands of `made by` marks, of
+`not run` blocks, and those `in the text` that begin with a program of apps/ or a script of the repository. Their
+program or script, subcommand, files, options and variables must exist.
 
 `checked by` compares all cells, including headings and first column: words must be equal, numbers within the tolerance
 in percent of the page's number."""
@@ -55,13 +60,17 @@ from pathlib import Path
 TIME_LIMIT = 60  # s, for one command
 BLOCK_LIMIT = 120  # s, for the commands of one block
 BLOCK = re.compile(r"(?:^<!--((?:(?!-->).)*)-->\n)?^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-BLOCK_MARK = re.compile(r"\s*(?:needs ([\w-]+)\s*(?:;\s*|$))?(?:(first|not run):\s*(\S.*?))?\s*", re.DOTALL)
+BLOCK_MARK = re.compile(r"\s*(?:needs ([\w-]+)(?:\s+\([^)]*\))?\s*(?:;\s*|$))?"
+                        r"(?:(first|not run):\s*(\S.*?))?\s*", re.DOTALL)
 ASSIGNMENTS = re.compile(r"""(?:[A-Z_]+=(?:'[^']*'|"[^"]*"|\S*) +)*""")
 BUILT = re.compile(r"\bbuild/\w+/bin/([\w-]+)")
 USUAL = ("apt", "apt-get", "bash", "cmake", "ctest", "doxygen", "export", "git", "make", "mkdocs", "ninja", "pip",
          "python3", "rawlog-edit", "RawLogViewer", "rbpf-slam", "SceneViewer3D", "sh", "snakemake", "source", "sudo")
 MARK = re.compile(r"^[ \t]*<!--\s*(made by|checked by|quoted):\s*(.*?)\s*-->[ \t]*$", re.MULTILINE | re.DOTALL)
 CHECK = re.compile(r"(.*?);\s*tolerance ([\d.]+) %(?:;\s*needs (\w+))?", re.DOTALL)
+SPAN = re.compile(r"(?<!`)`((?:[^`\n]|\n(?!\n))+)`(?!`)")
+FENCED = re.compile(r"^(```|~~~).*?^\1|<!--.*?-->", re.MULTILINE | re.DOTALL)
+SCRIPT = re.compile(r"(?:benchmarks|cmake|scripts|tests)/[\w./-]+\.(?:sh|py)")
 DELIMITER_ROW = re.compile(r"\s*\|?(\s*:?-+:?\s*\|)+(\s*:?-+:?\s*)?")
 PICTURE = re.compile(r"!\[[^\]]*\]\((?!https?:)|<img\b(?!.*https?:)")
 REFERENCE = {"at", "column", "file", "folder", "format", "key", "line", "option", "program"}
@@ -127,6 +136,9 @@ def command_errors(root, command):
         outside = path.startswith(("/", "~", "$", "out/"))
         if "/" in path and ":" not in path and not outside and not (root / path).exists():
             errors.append(f"no such file: {path}")
+    subcommands = re.findall(r'add_subcommand\(\s*"([\w-]+)"', text)
+    if subcommands and arguments and re.fullmatch(r"[a-z][a-z-]*", arguments[0]) and arguments[0] not in subcommands:
+        errors.append(f"{program} has no subcommand {arguments[0]}")
     usage = re.match(r'(#.*\n)*("""[\s\S]*?""")?', text)[0]
     if program.endswith((".sh", ".py")) and arguments and re.fullmatch(r"[a-z][\w-]*", arguments[0]) and \
             source_of(root, arguments[0]) is None and not re.search(rf"(?<![\w-]){arguments[0]}(?![\w-])", usage):
@@ -204,7 +216,7 @@ class Checker:
                 self.skipped.append(f"{place}: not run: {what if how == 'not run' else needed + ' is missing'}")
                 continue
             first = re.sub(r"(?<![\w./-])(?=(?:datasets|config-ini)/)", f"{self.data}/", what or "")
-            first = re.sub(r"(?<![\w./-])(?=(?:tests|workflow)/)", f"{self.root}/", first)
+            first = re.sub(r"(?<![\w./-])(?=tests/)", f"{self.root}/", first)
             _, why = self.run(f"set -e\n{first}\n{code}", folder, BLOCK_LIMIT)
             self.outputs[place] = why
             if why:
@@ -236,6 +248,16 @@ class Checker:
                 self.errors.append(f"{page.relative_to(self.root)}:{i + 1}: command that no test runs: "
                                    "expected a ```sh block")
 
+    def check_spans(self, page):
+        """Finds commands in the text, `so`, that cannot work."""
+        text = FENCED.sub(lambda block: "\n" * block[0].count("\n"), page.read_text())
+        for span in SPAN.finditer(text):
+            command = " ".join(span[1].split())
+            program = command[ASSIGNMENTS.match(command).end():].partition(" ")[0]
+            if SCRIPT.fullmatch(program) or re.fullmatch(r"[a-z][\w-]*", program) and source_of(self.root, program):
+                self.errors += [f"{self.place(page, text, span.start())}: {error}"
+                                for error in command_errors(self.root, command)]
+
     def check_figures(self, place, rows, check):
         """Compares a page's table with its command's; of several, with the one with the same headings."""
         command, tolerance, needed = check[1], float(check[2]), check[3]
@@ -255,6 +277,7 @@ class Checker:
         targets = {i: ("table", rows) for i, rows in tables_of(lines)}
         targets.update((i, ("picture", None)) for i, line in enumerate(lines) if PICTURE.search(line))
         targets.update((i, ("transcript", None)) for i in marks if i < len(lines) and lines[i].startswith("    "))
+        self.check_spans(page)
         self.check_blocks(page, {i for i, (kind, _) in targets.items() if kind == "transcript"})
         for i in marks.keys() - targets.keys() - {start for start, _, _ in marks.values()}:
             self.errors.append(f"{page.relative_to(self.root)}:{i}: mark without a table or picture on the next line")

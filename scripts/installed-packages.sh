@@ -92,10 +92,10 @@ for type in $(value MimeType | tr ';' ' '); do
   grep -q "^$type=.*hybrid-slam-gui.desktop" /usr/share/applications/mimeinfo.cache || fail "$type opens no window"
 done
 
-echo "== MRPT's programs: the plugin, rawlog-edit"
-apt_get install --no-install-recommends mrpt-apps
+echo "== MRPT's programs and log: README.md, slam-compare, the plugin, rawlog-edit"
+apt_get install --no-install-recommends mrpt-apps mrpt-common
 rm -r /root/trial
-pages mrpt-plugin.md own-log.md
+pages README.md slam-compare.md mrpt-plugin.md own-log.md
 
 echo "== completion"
 apt_get install --no-install-recommends bash-completion zsh

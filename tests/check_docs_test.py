@@ -166,6 +166,9 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: LOGS is missing"]))
         self.assertEqual(self.commands(page, LOGS="1"), (0, []))
         self.assertEqual(self.commands(page.replace("mapper", "false"), LOGS="1")[0], 1)
+        page = page.replace("needs LOGS", "needs LOGS (which are\nlarge)")
+        self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: LOGS is missing"]))
+        self.assertEqual(self.commands(page, LOGS="1"), (0, []))
         page = "<!-- needs no-such-program -->\n```sh\nfalse\n```\n"
         self.assertEqual(self.commands(page), (0, ["doc/page.md:1: not run: no-such-program is missing"]))
         self.assertEqual(self.commands(page.replace("no-such-program", "mapper")),
@@ -188,6 +191,19 @@ class CheckDocs(unittest.TestCase):
             self.expect_error(f"Text.\n\n    {line}\n", "doc/page.md:3: command that no test runs")
             self.expect_error(f"```\n{line}\n```\n", "doc/page.md:2: command that no test runs")
         self.expect_error("```bash\nmapper x\n```\n", "doc/page.md:2: command that no test runs")
+
+    def test_commands_in_the_text_exist(self):
+        self.write("apps/judge/main.cpp", 'add_subcommand("path", "..."); add_subcommand(\n"plan", "..."); "--at"')
+        self.expect_good("`mapper -n 5`, ``mapper -x``, `mapped`, `LOGS=1 scripts/table.sh all`, `judge plan --at`,\n"
+                         "`judge --at`, `judge LOG`, `mapper\n--particles` and `scripts/`.\n\n"
+                         "```\n`mapper --fast`\n```\n<!-- `mapper --fast` -->\n")
+        for command, text in (("mapper --fast", "mapper does not know the option --fast"),
+                              ("mapper datasets/none", "no such file: datasets/none"),
+                              ("judge plam --at", "judge has no subcommand plam"),
+                              ("scripts/none.sh", "no such script or program: scripts/none.sh"),
+                              ("LOG=1 scripts/table.sh", "scripts/table.sh does not know the variable LOG")):
+            self.expect_error(f"Text.\n\nMore, by `{command}`.\n", f"doc/page.md:3: {text}")
+        self.expect_error("By `mapper -n 5\n--fast`.\n", "doc/page.md:1: mapper does not know the option --fast")
 
 
 if __name__ == "__main__":
