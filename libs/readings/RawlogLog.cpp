@@ -42,10 +42,10 @@ void limitRange(CObservation2DRangeScan& scan, double range) {
 }  // namespace
 
 RawlogLog::RawlogLog(const std::string& file, const LogConversionOptions& options)
-    : file_(file),
-      reader_(file),
+    : objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep),
+      file_(file),
       options_(options),
-      objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep),
+      reader_(file),
       hasOdometryReadings_(hasOdometryReadings(file)) {
   objects_.summary.format = "rawlog";
   objects_.summary.unit = "entry";
