@@ -8,6 +8,7 @@
 
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
+#include "readings/LogFormats.h"
 
 namespace hybrid_slam {
 
@@ -30,9 +31,6 @@ struct InputFiles {
 };
 
 /// The log's formats, for --help.
-inline const std::string kLogMeans =
-    "rawlog, bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, GMapping (.gfs), "
-    "DP-SLAM "
-    "or tinySLAM; plain or compressed with gzip, bzip2, zstd or LZ4";
+inline std::string logMeans() { return "rawlog, " + readings::robotLogs(); }
 
 }  // namespace hybrid_slam

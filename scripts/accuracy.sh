@@ -62,7 +62,7 @@ evaluate() {
   esac
 }
 
-# run LOG VARIANT SEED: a run, its errors beside it.
+# run LOG VARIANT SEED: a run, and its errors in its folder.
 run() {
   local folder=$out/runs/$1/$2/$3 file
   [[ ! -f $folder/errors.json ]] || return 0

@@ -12,9 +12,9 @@ done
 
 run() {
   case $1 in
-    release) scripts/test.sh ;;
+    release) scripts/test.sh && scripts/demo.sh build/demo ;;
     packages) scripts/package.sh && scripts/test-packages.sh ;;
-    debian13) scripts/debian13.sh ;;
+    debian13) scripts/debian13.sh && scripts/debian13.sh scripts/demo.sh build/demo ;;
     packages13)
       scripts/debian13.sh scripts/package.sh && scripts/test-packages.sh trixie build/debian13/build/packages ;;
     *) scripts/check.sh "$1" ;;

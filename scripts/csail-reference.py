@@ -21,19 +21,11 @@ import sys
 import numpy as np
 from scipy.spatial import cKDTree
 
+from planar import between, compose
+
 MAX_RANGE = 20.0  # m
 SIGMA = 0.03  # m, width of the kernels
 KERNELS = {"Cauchy": lambda e: 1 / (1 + (e / SIGMA) ** 2), "Huber": lambda e: SIGMA / np.maximum(e, SIGMA)}
-
-
-def compose(a, b):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2]
-
-
-def between(a, b):
-    c, s, x, y = math.cos(a[2]), math.sin(a[2]), b[0] - a[0], b[1] - a[1]
-    return c * x + s * y, -s * x + c * y, b[2] - a[2]
 
 
 def distance(a, b):

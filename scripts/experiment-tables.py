@@ -126,7 +126,7 @@ set key off
 
 
 LOCAL_WEIGHTS = {"hybrid": "graded, all lines (default)", "hybrid-near": "graded, lines within 10 m",
-                 "hybrid-frames": "direction frames of all lines", "hybrid-near-frames": "direction frames within 10 m"}
+                 "hybrid-frames": "direction frames of all lines", "hybrid-near_frames": "direction frames within 10 m"}
 
 
 def frames(folder):

@@ -173,7 +173,7 @@ class Campaign:
 
     def live(self, port, folder, timeout=5, **options):
         config = self.out / "live.ini"
-        config.write_text(f"[live]\ntimeout = {timeout}\n")
+        config.write_text(f"[live]\ntimeout = {timeout}\ndisk_reserve = 0\n")
         return start(self.bin / "hybrid-slam-live", config, "--server", f"127.0.0.1:{port}", "-q", "-n", "5", "-o", folder,
                      **options)
 

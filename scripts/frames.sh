@@ -32,6 +32,6 @@ for world in "${worlds[@]}"; do group "$world" "$world" --methods hybrid,general
 for world in "${local[@]}"; do
   group "$world" "local-$world" --methods hybrid --variant hybrid/near:line_weight.radius=10 \
     --variant hybrid/frames:line_weight.method=frames \
-    --variant hybrid/near-frames:line_weight.method=frames,line_weight.radius=10
+    --variant hybrid/near_frames:line_weight.method=frames,line_weight.radius=10
 done
 scripts/experiment-tables.py frames "$out"

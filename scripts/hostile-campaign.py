@@ -273,7 +273,7 @@ class Campaign:
         thread = threading.Thread(target=serve)
         thread.start()
         config = self.out / f"{name}.ini"
-        config.write_text("[live]\n")
+        config.write_text("[live]\ndisk_reserve = 0\n")
         folder = self.out / f"{name}-out"
         self.run("servers", name, [self.binary / "hybrid-slam-live", config, "--server",
                                    f"127.0.0.1:{listener.getsockname()[1]}", "-n", "5", "-o", folder], folder, [file], 3)

@@ -19,18 +19,10 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import spsolve
 
+from planar import between, compose
+
 INTERVAL = 5.0  # s
 TOLERANCE = 0.006  # s, between a relation and a row of the odometry
-
-
-def compose(a, b):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2]
-
-
-def inverse(a):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return -c * a[0] - s * a[1], s * a[0] - c * a[1], -a[2]
 
 
 def wrapped(angle):
@@ -66,7 +58,7 @@ class Path:
             return None
 
         def motion(to):
-            return compose(inverse(self.odometry[self.rows[i]]), self.odometry[to])
+            return between(self.odometry[self.rows[i]], self.odometry[to])
 
         pose = compose(self.poses[i], motion(row))
         if i + 1 == len(self.rows) or row == self.rows[i]:
@@ -98,7 +90,7 @@ def main():
     for t1, t2, x, y, _, _, _, yaw in sorted(rows(sys.argv[2])):
         a, b = path.pose(t1), path.pose(t2)
         if a and b:
-            error = compose(inverse((x, y, yaw)), compose(inverse(a), b))
+            error = between((x, y, yaw), between(a, b))
             table.append((t1, t2, error[0], error[1], yaw))
     t1, t2, along, across, yaw = np.array(table).T
     start = min(t1.min(), t2.min())

@@ -16,6 +16,8 @@ import statistics
 import sys
 from pathlib import Path
 
+from planar import compose
+
 OVERLAP = 20  # m
 
 
@@ -67,17 +69,12 @@ def alignment(source, target):
     return tx - c * sx + s * sy, ty - s * sx - c * sy, phi
 
 
-def moved(pose, by):
-    c, s = math.cos(by[2]), math.sin(by[2])
-    return by[0] + c * pose[0] - s * pose[1], by[1] + s * pose[0] + c * pose[1], pose[2] + by[2]
-
-
 def errors(merged, uncut, of_a, of_b):
     """m and deg of each pose of B."""
     common = [t for t in merged if t in uncut]
     a = [t for t in common if t in of_a]
     by = alignment([merged[t] for t in a], [uncut[t] for t in a])
-    all_of_b = [(moved(merged[t], by), uncut[t]) for t in common if t in of_b and t not in of_a]
+    all_of_b = [(compose(by, merged[t]), uncut[t]) for t in common if t in of_b and t not in of_a]
     return ([math.dist(m[:2], u[:2]) for m, u in all_of_b],
             [abs(math.degrees(math.remainder(m[2] - u[2], 2 * math.pi))) for m, u in all_of_b])
 

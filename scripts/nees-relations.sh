@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How large the errors of the default command are on the relations of the public logs, beside the covariance between the
-# two poses of each relation (slam-eval nees-relations): table of doc/verdict.md.
+# The errors of the default command on the relations of the public logs, compared with the covariance between the two
+# poses of each relation (slam-eval nees-relations): table of doc/verdict.md.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/nees-relations.sh [OUT]     OUT defaults to out/nees-relations
 # SEEDS=3 runs of each log, with lines and without, from FIRST_SEED=321 on, JOBS at a time (all cores). LOGS and METHODS
 # select some. Resumes after an interruption. A seed takes 2 minutes of one core.
@@ -23,7 +23,7 @@ for log in "${logs[@]}"; do
   scripts/relation-noise.py "$file" | awk -F'|' 'END { print $(NF - 2), $(NF - 1) }' >"$out/relations/$log-noise"
 done
 
-# run LOG METHOD SEED: a run, its errors beside it.
+# run LOG METHOD SEED: a run, and its errors in its folder.
 run() {
   local folder=$out/runs/$1/$2/$3 odometry=() metres degrees part command
   [[ ! -f $folder/done ]] || return 0

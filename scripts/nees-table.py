@@ -18,6 +18,8 @@ import statistics
 import sys
 from pathlib import Path
 
+from planar import between
+
 BOUND_95 = 7.815  # of chi-square with 3 degrees of freedom
 LARGEST_ATE = 0.5  # m; a map with a larger error is lost
 TITLES = {"hybrid": "with lines", "general": "without"}
@@ -26,12 +28,6 @@ TITLES = {"hybrid": "with lines", "general": "without"}
 def poses(file):
     rows = (line.split() for line in file.read_text().splitlines() if not line.startswith("#"))
     return [(float(r[1]), float(r[2]), 2 * math.atan2(float(r[6]), float(r[7]))) for r in rows]
-
-
-def relative(origin, pose):
-    c, s = math.cos(origin[2]), math.sin(origin[2])
-    x, y = pose[0] - origin[0], pose[1] - origin[1]
-    return c * x + s * y, c * y - s * x, pose[2] - origin[2]
 
 
 def squared(error, row):
@@ -56,7 +52,7 @@ def nees(run):
         sys.exit(f"{run}: expected as many poses as true ones")
     values = []
     for pose, true_pose, row in zip(ours, truth, rows):
-        (x, y, phi), (true_x, true_y, true_phi) = relative(ours[0], pose), relative(truth[0], true_pose)
+        (x, y, phi), (true_x, true_y, true_phi) = between(ours[0], pose), between(truth[0], true_pose)
         values.append(squared((x - true_x, y - true_y, math.remainder(phi - true_phi, 2 * math.pi)), row))
     return values
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How large the errors of simulated runs are beside covariance.csv, with the default settings: table of doc/verdict.md.
+# The errors of simulated runs compared with covariance.csv, with the default settings: table of doc/verdict.md.
 #   scripts/nees.sh [OUT]     OUT defaults to out/nees
 # SEEDS=6 runs of each world, with lines and without, from FIRST_SEED=321 on, JOBS at a time (all cores). Each run has a
 # log with its own noise of laser and odometry, so that the errors are independent; SAME_LOG=1 gives all seeds the log of
@@ -16,7 +16,7 @@ public_worlds=()
 read -ra methods <<<"${METHODS:-hybrid general}"
 first=${FIRST_SEED:-321}
 
-# run METHOD WORLD SEED LOGS: a run, its ATE beside it.
+# run METHOD WORLD SEED LOGS: a run, and its ATE in a file next to its folder.
 run() {
   local folder=$out/$1/$2/$3 log=$out/logs-$4/$2
   [[ ! -f $folder.ate ]] || return 0

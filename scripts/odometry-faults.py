@@ -18,19 +18,16 @@ import statistics
 import subprocess
 import sys
 
+from planar import compose, inverse
+
 DATA = pathlib.Path(os.environ["HYBRID_SLAM_DATASETS"])
 BIN = pathlib.Path("build/release/bin")
 NAMES = {"intel-lab": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079", "mit-killian": "MIT Killian Court"}
 
 
 def add(a, b):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], math.remainder(a[2] + b[2], math.tau)
-
-
-def minus(a):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return -c * a[0] - s * a[1], s * a[0] - c * a[1], -a[2]
+    x, y, phi = compose(a, b)
+    return x, y, math.remainder(phi, math.tau)
 
 
 def rows(log):
@@ -61,7 +58,7 @@ class Restart:
 
     def __call__(self, pose, time, share):
         if self.origin is None and share >= self.share and time != self.last:
-            self.origin = minus(pose)
+            self.origin = inverse(pose)
         self.last = time
         return pose if self.origin is None else add(self.origin, pose)
 
@@ -77,7 +74,7 @@ class Carry:
         if share < self.last:
             return None
         if self.origin is None:
-            self.origin = add(self.before, minus(pose))
+            self.origin = add(self.before, inverse(pose))
         return add(self.origin, pose)
 
 

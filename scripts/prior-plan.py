@@ -9,13 +9,14 @@ Markdown tables.
 
 PLAN=mapped is the plan of a run of the same log with the default settings (doc/floor-plan.md), PLAN=true that of the
 simulator, without its round walls; it is turned by 40 deg and moved. `stretched`: by 2 %. `partly wrong`: every third
-wall is missing, and every fifth is 0.4 m aside; DRAWS="1 2 3" adds plans in which a third of the walls, drawn at random
-with these seeds, is missing, and a fifth aside. The runs are those of the paper's set-up (config-ini/csie-lms100.ini),
-with the place in the plan given (--start). A run closes the loop if its ATE is below 0.5 m. The second table is of one
-run of each log without --start: the scans after which the place was found, and the scale by which the plan is
-multiplied; `shrunk`: by 2.5 %; `wrong place` if the run ends over 1 m from the true pose. FOREIGN=1 adds plans of other buildings, in which it must not be found: CSIE mirrored,
-the wing, the rectangle of scripts/make-worlds.py and, with HYBRID_SLAM_DATASETS, those mapped of Intel and DP-SLAM's
-loop. The first table takes 5 minutes of one core, a row of the second up to 3 minutes if the place is not found."""
+wall is missing, and every fifth is displaced by 0.4 m; DRAWS="1 2 3" adds plans in which a third of the walls, drawn at
+random with these seeds, is missing, and a fifth displaced. The runs are those of the paper's set-up
+(config-ini/csie-lms100.ini), with the place in the plan given (--start). A run closes the loop if its ATE is below
+0.5 m. The second table is of one run of each log without --start: the scans after which the place was found, and the
+scale by which the plan is multiplied; `shrunk`: by 2.5 %; `wrong place` if the run ends over 1 m from the true pose.
+FOREIGN=1 adds plans of other buildings, in which it must not be found: CSIE mirrored, the wing, the rectangle of
+scripts/make-worlds.py and, with HYBRID_SLAM_DATASETS, those mapped of Intel and DP-SLAM's loop. The first table takes 5
+minutes of one core, a row of the second up to 3 minutes if the place is not found."""
 
 import json
 import math

@@ -8,15 +8,7 @@ of both. Errors of the times that relations name cancel out in a cycle, so s doe
 import math
 import sys
 
-
-def compose(a, b):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2]
-
-
-def inverse(a):
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return -c * a[0] - s * a[1], s * a[0] - c * a[1], -a[2]
+from planar import compose, inverse
 
 
 def load(file):

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lz4frame.h>
+#include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <sqlite3.h>
@@ -19,7 +20,6 @@
 #include <vector>
 
 #include "bags/Messages.h"
-#include "readings/Timestamps.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::test {
@@ -127,11 +127,11 @@ inline std::vector<TestMessage> messagesOf(const Log& log, Encoding encoding, fl
   std::vector<TestMessage> all;
   for (const auto& object : log) {
     if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(object)) {
-      const double time = readings::seconds(odometry->timestamp);
+      const double time = mrpt::Clock::toDouble(odometry->timestamp);
       all.push_back(
           {"/odom", "nav_msgs/Odometry", time, odometryBytes(empty, time, odometry->odometry.asTPose())});
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(object)) {
-      const double time = readings::seconds(scan->timestamp);
+      const double time = mrpt::Clock::toDouble(scan->timestamp);
       std::vector<float> ranges(scan->getScanSize());
       for (size_t i = 0; i < ranges.size(); ++i)
         ranges[i] =

@@ -106,6 +106,13 @@ inline double rms(const std::vector<TPose2D>& path, const std::vector<TPose2D>& 
   return std::sqrt(sum / static_cast<double>(path.size()));
 }
 
+/// The default configuration with a proposal.
+inline FilterConfiguration with(ParticleFilterOptions::Proposal proposal) {
+  FilterConfiguration c;
+  c.filter.proposal = proposal;
+  return c;
+}
+
 /// A configuration with 20 particles and the motion model that fits the drive's odometry.
 inline FilterConfiguration roomConfiguration() {
   FilterConfiguration c;

@@ -1,5 +1,5 @@
 /// @file TestScans.h
-/// @brief For the tests: scans of hand-made walls, points along lines, random lines.
+/// @brief For the tests: scans of hand-made walls, random poses.
 #pragma once
 
 #include <mrpt/core/bits_math.h>
@@ -13,8 +13,6 @@
 
 #include "base/LaserScan.h"
 #include "base/RandomStream.h"
-#include "slam/lines/LineSegment.h"
-#include "slam/lines/Segmentation.h"
 
 namespace hybrid_slam::test {
 
@@ -23,10 +21,6 @@ using mrpt::math::TPose2D;
 
 constexpr double kDegree = mrpt::DEG2RAD(1.0);
 using Walls = std::vector<std::pair<TPoint2D, TPoint2D>>;
-
-inline PointRange range(const std::vector<TPoint2D>& points) {
-  return {points.data(), points.data() + points.size()};
-}
 
 /// Closed polygon.
 inline Walls polygon(const std::vector<TPoint2D>& corners) {
@@ -73,49 +67,6 @@ inline double uniform(RandomStream& random, double low, double high) {
 
 inline TPose2D randomPose(RandomStream& random, double reach) {
   return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -M_PI, M_PI)};
-}
-
-inline LineSegment randomSegment(RandomStream& random, double reach) {
-  return makeSegment(TPoint2D(uniform(random, -reach, reach), uniform(random, -reach, reach)),
-                     TPoint2D(uniform(random, -reach, reach), uniform(random, -reach, reach)));
-}
-
-/// `n` points on x cos(theta) + y sin(theta) = rho, evenly from `from` to `to` m from the foot of the
-/// perpendicular, each with `noise` m (1 sigma) across the line.
-inline std::vector<TPoint2D> pointsOnLine(double rho, double theta, double from, double to, int n,
-                                          double noise, RandomStream& random) {
-  std::vector<TPoint2D> points;
-  for (int i = 0; i < n; ++i) {
-    const double along = from + (to - from) * i / (n - 1), off = rho + noise * random.gaussian();
-    points.emplace_back(off * std::cos(theta) - along * std::sin(theta),
-                        off * std::sin(theta) + along * std::cos(theta));
-  }
-  return points;
-}
-
-/// Angle between two lines, rad, in [0, pi/2].
-inline double angleBetween(double theta1, double theta2) {
-  return std::abs(std::remainder(theta1 - theta2, M_PI));
-}
-
-/// Distance between two lines, compared in the representation with agreeing normals.
-inline double lineDistance(double rho1, double theta1, double rho2, double theta2) {
-  const double sign = std::cos(theta1 - theta2) < 0 ? -1 : 1;
-  return std::max(std::abs(rho1 - sign * rho2), angleBetween(theta1, theta2));
-}
-
-struct Spread {
-  double median = 0, rms = 0;
-};
-
-inline Spread spread(std::vector<double> values) {
-  Spread result;
-  if (values.empty()) return result;
-  std::sort(values.begin(), values.end());
-  result.median = values[values.size() / 2];
-  for (const double v : values) result.rms += v * v;
-  result.rms = std::sqrt(result.rms / static_cast<double>(values.size()));
-  return result;
 }
 
 }  // namespace hybrid_slam::test

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ class ChildProgram {
   /// Waits for the exit code; -1 if a signal ended the program or it does not end.
   int wait() {
     return test::happens([this] { return hasEnded(); }) && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+  /// Waits for the signal that ends the program; none if it exits by itself or does not end.
+  std::optional<int> endedBySignal() {
+    if (!test::happens([this] { return hasEnded(); }) || !WIFSIGNALED(status_)) return {};
+    return WTERMSIG(status_);
   }
   std::string out() const { return test::contentOf(out_); }
   std::string err() const { return test::contentOf(err_); }

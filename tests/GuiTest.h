@@ -116,6 +116,10 @@ class GuiTest : public testing::Test {
     }
     return image;
   }
+  /// Takes screenshots until one meets a condition. @return whether one did within a minute
+  bool screenShows(const std::string& name, const std::function<bool(const wxImage&)>& condition) {
+    return happens([&] { return condition(screenshot(name)); });
+  }
   /// Converts to screen pixels, which are smaller than window units on a high-DPI screen.
   wxRect onScreen(const wxRect& r) const {
     const int scale = wxRound(frame->GetContentScaleFactor());

@@ -20,6 +20,19 @@ class KeysTest : public GuiTest {
     wxUIActionSimulator().Char(key, modifiers);
     wxYield();
   }
+  /// Presses a key that opens a menu. @return whether the menu is open within a minute
+  bool opensMenu(int key, int modifiers = wxMOD_NONE) {
+    bool isOpen = false;
+    const auto onOpen = [&](wxMenuEvent& event) {
+      isOpen = true;
+      event.Skip();
+    };
+    frame->Bind(wxEVT_MENU_OPEN, onOpen);
+    press(key, modifiers);
+    happens([&] { return isOpen; });
+    frame->Unbind(wxEVT_MENU_OPEN, onOpen);
+    return isOpen;
+  }
   void pointAt(wxWindow* window, const wxPoint& place) {
     wxUIActionSimulator().MouseMove(window->ClientToScreen(place));
     wxYield();

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Every library and program links exactly what its own sources include, tests aside, and of libs/ only folders below it:
-those that CMake adds before, and those in later rows of the table in doc/architecture.md. $1: the project's folder."""
+"""Every library and program links exactly what its own sources include, and of libs/ only folders below it: those that
+CMake adds before, and those in later rows of the table in doc/architecture.md. Every program of benchmarks/, tests/ and
+tests/fuzz/ links what its own sources include. All tests, with the headers of testing/, include only folders that they
+link or that these link. $1: the project's folder."""
 
 import re
 import sys
 from pathlib import Path
 
-ROOT = Path(sys.argv[1])
+ROOT = Path(sys.argv[1]).resolve()
 # The first that matches names the target.
 TARGETS = [
     (r"mrpt/version\.h", "mrpt::core"),
@@ -30,6 +32,16 @@ TARGETS = [
 ]
 # What a function of cmake/HybridSlamTargets.cmake links by itself.
 IMPLIED = {"library": set(), "app": {"CLI11::CLI11"}}
+# Name, sources and links of the program that a command of CMake makes or changes.
+COMMANDS = {
+    "add_executable": lambda name, *files: (name, files, ()),
+    "target_sources": lambda name, _, *files: (name, files, ()),
+    "target_link_libraries": lambda name, _, *links: (name, (), links),
+    "hybrid_slam_test": lambda name, *files: (f"hybrid_slam_{name}_test", files, ()),
+    "hybrid_slam_program_test":
+        lambda name, _program, _macro, *links: (f"hybrid_slam_{name}_test", (f"{name}_test.cpp",), links),
+    "hybrid_slam_fuzz": lambda name, *links: (f"fuzz_{name}", (f"{name}.cpp", "Replay.cpp"), links),
+}
 
 
 def target_of(header, folders):
@@ -43,10 +55,28 @@ def target_of(header, folders):
     return None  # the language, the system, or a header beside the source
 
 
-def included(folder, folders):
-    sources = [file for file in folder.iterdir() if re.search(r"(?<!_test)\.(cpp|h)$", file.name)]
-    headers = re.findall(r"^#include [<\"](.+)[>\"]", "\n".join(file.read_text() for file in sources), re.MULTILINE)
-    return {target_of(header, folders) for header in headers} - {None}
+def included(sources, folders, follows=lambda header: False):
+    """The targets whose headers the sources include, also through headers outside libs/ that `follows` accepts."""
+    files, targets = list(sources), set()
+    for file in files:
+        for header in re.findall(r"^#include [<\"](.+)[>\"]", file.read_text(), re.MULTILINE):
+            targets.add(target_of(header, folders))
+            beside = [path for path in (file.parent / header, ROOT / header, ROOT / "tests" / header) if path.is_file()]
+            files += [path for path in beside[:1] if path not in files and follows(path)]
+    return targets - {None}
+
+
+def programs(folder):
+    """The sources and links of the programs that the CMakeLists.txt of a folder makes or changes, by name."""
+    text = re.sub(r"#.*", "", (folder / "CMakeLists.txt").read_text()).replace("${PROJECT_SOURCE_DIR}", str(ROOT))
+    found = {}
+    for command, arguments in re.findall(r"^ *(\w+)\(([^)]+)\)", text, re.MULTILINE):
+        if command in COMMANDS and "$" not in arguments.split()[0]:
+            name, files, links = COMMANDS[command](*arguments.split())
+            sources, linked = found.setdefault(name, (set(), set()))
+            sources.update(folder / file for file in files)
+            linked.update(links)
+    return found
 
 
 def added(folder):
@@ -73,6 +103,32 @@ def order_errors(edges):
             yield f"{names}, which doc/architecture.md has in a row above"
 
 
+def test_errors(declared, folders):
+    """An error for each target that a test or benchmark includes and does not link."""
+    links_of = dict(declared.values())
+
+    def reached(links):
+        found = set(links)
+        while more := {below for target in found for below in links_of.get(target, ())} - found:
+            found |= more
+        return found
+
+    def above(who, sources, links):
+        """What the sources include of libs/, also through testing/, and neither link nor reach by links."""
+        headers = included(sources, folders, lambda header: True) & links_of.keys()
+        return [f"{who} reaches headers of {target} and does not link it"
+                for target in sorted(headers - reached(links))]
+
+    for folder in ("benchmarks", "tests", "tests/fuzz"):
+        for name, (sources, links) in sorted(programs(ROOT / folder).items()):
+            needs = included(sources, folders, lambda header: header.parent != ROOT / "testing")
+            yield from (f"{name} includes headers of {target} and does not link it" for target in sorted(needs - links))
+            yield from above(name, sources, links | needs)
+    for folder, (name, _) in sorted(declared.items()):
+        test = name.replace("::", "_") + "_test"
+        yield from above(test, folder.glob("*_test.cpp"), {name, *programs(folder).get(test, (set(), set()))[1]})
+
+
 def main():
     declared = {}
     for file in [*ROOT.glob("libs/**/CMakeLists.txt"), *ROOT.glob("apps/*/CMakeLists.txt")]:
@@ -83,7 +139,8 @@ def main():
                for folder, (name, _) in declared.items() if ROOT / "libs" in folder.parents}
     errors = []
     for folder, (name, links) in sorted(declared.items()):
-        needs = included(folder, folders) - {name}
+        sources = [file for file in folder.iterdir() if re.search(r"(?<!_test)\.(cpp|h)$", file.name)]
+        needs = included(sources, folders) - {name}
         errors += [f"{folder.relative_to(ROOT)} includes headers of {target} and does not link it"
                    for target in sorted(needs - links)]
         errors += [f"{folder.relative_to(ROOT)} links {target} and includes none of its headers"
@@ -91,6 +148,7 @@ def main():
     in_libs = {name: "libs" / Path(folder) for folder, name in folders.items()}
     errors += order_errors([(in_libs[name], in_libs[link]) for name, links in declared.values() if name in in_libs
                             for link in sorted(links & in_libs.keys())])
+    errors += test_errors(declared, folders)
     sys.exit("\n".join(errors) or 0)
 
 

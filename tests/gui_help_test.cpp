@@ -130,8 +130,7 @@ TEST_F(HelpTest, ThePagesOfTheMenuAreThere) {
 }
 
 TEST_F(HelpTest, AboutNamesTheVersion) {
-  press('H', wxMOD_ALT);
-  settle(0.3);
+  ASSERT_TRUE(opensMenu('H', wxMOD_ALT));
   press('A');
   ASSERT_TRUE(happens([this] { return dialogs.messages.size() == 1; }));
   EXPECT_THAT(dialogs.messages[0], HasSubstr("hybrid-slam-gui " HYBRID_SLAM_VERSION));

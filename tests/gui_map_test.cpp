@@ -50,16 +50,20 @@ TEST_F(GuiTest, ShowsTheSearchForTheStartInTheMapOfAnEarlierRun) {
   };
   ASSERT_TRUE(shows(1));
   EXPECT_THAT(status(1), testing::MatchesRegex("start unknown: [0-9]+ hypotheses"));
-  const wxImage searching = screenshot("searching");
+  wxImage searching;
+  EXPECT_TRUE(screenShows("searching", [&](const wxImage& screen) {
+    searching = screen;
+    return count(screen, canvas, 220, 0, 0) > 300;
+  })) << "hypotheses";
   EXPECT_EQ(count(searching, canvas, 80, 180, 255), 0u) << "no robot yet";
-  EXPECT_GT(count(searching, canvas, 220, 0, 0), 300u) << "hypotheses";
   size_t scan = 1;
   while (!canvas.shown()->place->isKnown && scan + 10 < now().total) ASSERT_TRUE(shows(scan += 10));
   ASSERT_TRUE(canvas.shown()->place->isKnown);
   ASSERT_TRUE(shows(scan += 100));
-  const wxImage found = screenshot("localised");
-  EXPECT_EQ(status(1), "localised");
-  EXPECT_GT(count(found, canvas, 80, 180, 255), 20u) << "robot";
+  EXPECT_TRUE(happens([&] { return status(1) == "localised"; })) << status(1);
+  EXPECT_TRUE(screenShows("localised", [&](const wxImage& screen) {
+    return count(screen, canvas, 80, 180, 255) > 20;
+  })) << "robot";
 }
 
 /// The window begins with a floor plan, like `--prior-plan`.

@@ -8,7 +8,8 @@ namespace {
 class PanesTest : public KeysTest {
  protected:
   const window::MapCanvas& pane() { return *frame->replay()->canvas(0); }
-  size_t strip(const std::string& name) { return count(screenshot(name), pane(), 80, 80, 80); }
+  size_t strip(const wxImage& screen) { return count(screen, pane(), 80, 80, 80); }
+  size_t ellipse(const wxImage& screen) { return count(screen, pane(), 150, 0, 180); }
   /// Pixels of the longest white run in the rows of the pane's legend.
   int longestWhiteRun(const wxImage& screen) {
     const window::LegendLayout layout = legendLayout(*pane().shown(), {}, pane().size());
@@ -44,23 +45,27 @@ class PanesTest : public KeysTest {
 
 TEST_F(PanesTest, TheLegendAndTheScaleBarCanBeHidden) {
   openAt(40);
-  const wxImage shown = screenshot("legend");
-  EXPECT_GT(count(shown, pane(), 80, 80, 80), 4000u) << "the strip";
+  wxImage shown;
+  EXPECT_TRUE(screenShows("legend", [&](const wxImage& screen) {
+    shown = screen;
+    return strip(screen) > 4000;
+  }));
   const double scale = pane().view().scale;
   EXPECT_NEAR(longestWhiteRun(shown), window::scaleBarLength(scale) * scale, 4) << "as long as it says";
   press('7', wxMOD_CONTROL);
-  EXPECT_GT(pane().view().scale, scale) << "the map takes its room";
-  EXPECT_LT(strip("no-legend"), 1000u);
+  EXPECT_TRUE(happens([&] { return pane().view().scale > scale; })) << "the map takes its room";
+  EXPECT_TRUE(screenShows("no-legend", [this](const wxImage& screen) { return strip(screen) < 1000; }));
   press('7', wxMOD_CONTROL);
-  EXPECT_GT(strip("legend-again"), 4000u);
+  EXPECT_TRUE(screenShows("legend-again", [this](const wxImage& screen) { return strip(screen) > 4000; }));
 }
 
 TEST_F(PanesTest, TheEllipseOfThePoseCanBeHidden) {
   openAt(40);
   press('7', wxMOD_CONTROL);  // else its entry would be counted
-  EXPECT_GT(count(screenshot("ellipse"), pane(), 150, 0, 180), 5u);
+  EXPECT_TRUE(screenShows(
+      "ellipse", [this](const wxImage& screen) { return strip(screen) < 1000 && ellipse(screen) > 5; }));
   press('6', wxMOD_CONTROL);
-  EXPECT_EQ(count(screenshot("no-ellipse"), pane(), 150, 0, 180), 0u);
+  EXPECT_TRUE(screenShows("no-ellipse", [this](const wxImage& screen) { return ellipse(screen) == 0; }));
 }
 
 TEST_F(PanesTest, TheStatusBarSaysWhatIsUnderTheMousePointer) {

@@ -12,9 +12,8 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
   frame->replay()->seek(60);
   ASSERT_TRUE(stands(State::ended, 60));
   ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
-  const wxImage screen = screenshot("room");
-  for (size_t i : {0, 1}) {
-    const window::MapCanvas& canvas = *frame->replay()->canvas(i);
+  wxImage screen;
+  const auto isSeen = [&](const window::MapCanvas& canvas) {
     const window::MapImage& map = canvas.shown()->map;
     size_t wall = 0, wallSeen = 0, free = 0, freeSeen = 0;
     for (int y = 0; y < map.height; ++y)
@@ -25,18 +24,24 @@ TEST_F(GuiTest, ReplayShowsBothMapsWhereTheyAre) {
         if (grey < 40) ++wall, wallSeen += seen < 110 ? 1 : 0;
         if (grey > 230) ++free, freeSeen += seen > 190 ? 1 : 0;
       }
-    EXPECT_GT(wall, 100u);
-    EXPECT_GT(free, 1000u);
-    EXPECT_GT(wallSeen, wall * 8 / 10);  // lines, path and caption cover some
-    EXPECT_GT(freeSeen, free * 8 / 10);
-    EXPECT_GT(count(screen, canvas, 220, 0, 0), 50u) << "path and particles";
-    EXPECT_GT(count(screen, canvas, 80, 180, 255), 30u) << "robot";
-  }
-  EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 70, 230), 200u) << "matched lines of the scan";
-  EXPECT_EQ(count(screen, *frame->replay()->canvas(1), 0, 70, 230), 0u) << "the general filter has none";
+    // Lines, path and caption cover some.
+    const bool isMapSeen = wall > 100 && wallSeen > wall * 8 / 10 && free > 1000 && freeSeen > free * 8 / 10;
+    return isMapSeen && count(screen, canvas, 220, 0, 0) > 50 &&  // path and particles
+           count(screen, canvas, 80, 180, 255) > 30;              // robot
+  };
+  const auto scanLines = [this](const wxImage& on, size_t pane) {
+    return count(on, *frame->replay()->canvas(pane), 0, 70, 230);
+  };
+  EXPECT_TRUE(screenShows("room", [&](const wxImage& taken) {
+    screen = taken;
+    return isSeen(*frame->replay()->canvas(0)) && isSeen(*frame->replay()->canvas(1)) &&
+           scanLines(screen, 0) > 200;
+  }));
+  EXPECT_EQ(scanLines(screen, 1), 0u) << "the general filter has none";
 
   menu(window::kScanLines);
-  EXPECT_EQ(count(screenshot("room-without-scan-lines"), *frame->replay()->canvas(0), 0, 70, 230), 0u);
+  EXPECT_TRUE(
+      screenShows("room-without-scan-lines", [&](const wxImage& taken) { return scanLines(taken, 0) == 0; }));
 }
 
 /// The settings from the log arrive with a later event of the window.
@@ -111,9 +116,10 @@ TEST_F(GuiTest, ReplayOfTheSimulatedBuilding) {
   frame->replay()->seek(target);
   ASSERT_TRUE(stands(State::paused, target));
   ASSERT_TRUE(happens([&] { return frame->replay()->canvas(1)->shown() == now().filters.at(1); }));
-  const wxImage screen = screenshot("replay");
-  EXPECT_GT(count(screen, *frame->replay()->canvas(0), 0, 150, 0), 300u) << "the line database";
-  EXPECT_GT(count(screen, *frame->replay()->canvas(1), 255, 255, 255), 3000u) << "free space";
+  EXPECT_TRUE(screenShows("replay", [this](const wxImage& screen) {
+    return count(screen, *frame->replay()->canvas(0), 0, 150, 0) > 300 &&     // the line database
+           count(screen, *frame->replay()->canvas(1), 255, 255, 255) > 3000;  // free space
+  }));
 }
 
 TEST_F(GuiTest, PlaysPausesAndGoesBackWhileTheWindowAnswers) {
@@ -217,16 +223,17 @@ TEST_F(GuiTest, LivePageFollowsAServerAndWritesItsResults) {
   ASSERT_TRUE(happens([&] { return status(0).find("map saved: ") != std::string::npos; })) << status(0);
   EXPECT_THAT(status(0), HasSubstr(folder.path("live/saved-20")));
   ASSERT_TRUE(happens([&] { return frame->live()->canvas()->shown() != nullptr; }));
-  const wxImage screen = screenshot("live");
-  const double metre = frame->live()->canvas()->view().scale;
-  EXPECT_GT(static_cast<double>(count(screen, *frame->live()->canvas(), 255, 255, 255)),
-            0.2 * test::kRoomArea * metre * metre)
-      << "what many beams have crossed";
-  EXPECT_GT(count(screen, *frame->live()->canvas(), 80, 180, 255), 30u) << "robot";
-  EXPECT_GT(count(screen, *frame->live()->canvas(), 220, 0, 0), 30u) << "path and particles";
+  const window::MapCanvas& canvas = *frame->live()->canvas();
+  EXPECT_TRUE(screenShows("live", [&](const wxImage& screen) {
+    const double metre = canvas.view().scale, crossed = 0.2 * test::kRoomArea * metre * metre;
+    return static_cast<double>(count(screen, canvas, 255, 255, 255)) > crossed &&  // by many beams
+           count(screen, canvas, 80, 180, 255) > 30 &&                             // robot
+           count(screen, canvas, 220, 0, 0) > 30;                                  // path and particles
+  }));
   menu(window::kPath);
   menu(window::kParticles);
-  EXPECT_EQ(count(screenshot("live-without-path"), *frame->live()->canvas(), 220, 0, 0), 0u);
+  EXPECT_TRUE(screenShows("live-without-path",
+                          [&](const wxImage& screen) { return count(screen, canvas, 220, 0, 0) == 0; }));
   frame->live()->connectOrStop();
   ASSERT_TRUE(happens([&] { return dialogs.messages.size() == 2; }));
   EXPECT_THAT(dialogs.messages[1], HasSubstr("recording-20"));

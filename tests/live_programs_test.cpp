@@ -107,7 +107,7 @@ class LivePrograms : public testing::Test {
   files::TemporaryFolder folder;
   std::string ini = folder.write("live.ini",
                                  "[particle_filter]\nparticles = 5\nproposal = standard\nupdate_distance = "
-                                 "0.2\n[grid]\nresolution = 0.1\n[live]\n");
+                                 "0.2\n[grid]\nresolution = 0.1\n[live]\ndisk_reserve = 0\n");
   std::string output = folder.path("out"), port;
 };
 
@@ -152,7 +152,7 @@ TEST_F(LivePrograms, AServerRestartContinuesTheSameMap) {
   const auto map = live();
   ASSERT_TRUE(isRecording()) << map->err();
   robot->signal(SIGKILL);
-  EXPECT_EQ(robot->wait(), -1);
+  EXPECT_EQ(robot->endedBySignal(), SIGKILL);
   ASSERT_TRUE(test::happens([&] { return map->err().find("trying again") != std::string::npos; }));
   robot = replaying(50, "500", port);
   EXPECT_EQ(map->wait(), 0) << map->err();
@@ -225,7 +225,7 @@ TEST_F(LivePrograms, AKilledRunLeavesItsRecording) {
   const auto map = live();
   ASSERT_TRUE(isRecording()) << map->err();
   map->signal(SIGKILL);
-  EXPECT_EQ(map->wait(), -1);
+  EXPECT_EQ(map->endedBySignal(), SIGKILL);
   const auto left = test::filesIn(output, ".partial.recording-");
   ASSERT_EQ(left.size(), 1u);
   files::RawlogReader reader(left[0]);
@@ -242,7 +242,7 @@ TEST_F(LivePrograms, AKilledRunIsResumedFromItsCheckpointAndItsRecording) {
   const auto first = test::contentOf(session);
   ASSERT_TRUE(test::happens([&] { return test::contentOf(session) != first; })) << "the next checkpoint";
   map->signal(SIGKILL);
-  EXPECT_EQ(map->wait(), -1);
+  EXPECT_EQ(map->endedBySignal(), SIGKILL);
   const auto left = test::filesIn(output, ".partial.recording-");
   ASSERT_EQ(left.size(), 1u);
 

@@ -52,6 +52,7 @@ TEST_F(Sessions, AKilledRunIsResumedToTheSameBytes) {
   RandomStream random(1, 0, 0);
   double latest = 0.1;  // s after the first checkpoint
   for (int k = 0, killed = 0; killed < 4; ++k) {
+    ASSERT_LT(k, 50) << "only " << killed << " runs were killed; the others ended before";
     const std::string part = folder.path("killed-" + std::to_string(k)), saved = part + "/session.hslam";
     {
       test::ChildProgram program(folder, "killed",

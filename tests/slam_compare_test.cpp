@@ -93,6 +93,27 @@ TEST_F(SlamCompare, AnIgnoredLaserIsAWarning) {
   EXPECT_THAT(o.err, HasSubstr("slam-compare: warning: laser `TILTED` is not used: "));
 }
 
+TEST_F(SlamCompare, SaysWhichLasersEachGroupTakes) {
+  test::Log log = test::laps(40);
+  for (size_t i = 40; i > 0; --i)
+    log.insert(log.begin() + 2 * static_cast<std::ptrdiff_t>(i),
+               test::scan(1000 + 0.2 * static_cast<double>(i - 1), test::poseOnLap(i - 1, 80), 91, "REAR"));
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const std::string call = "'" SLAM_COMPARE "' " + config + " '" + path + "' -o out -m general --seeds 1 ";
+  const std::string variant = "--variant one:input.sensor_label=LASER ";
+  const Outcome o = shell(call + variant);
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, testing::MatchesRegex("laser LASER: 181 beams [^\n]*\n"
+                                           "laser REAR: 91 beams [^\n]*\n[^\n]*report.html\n"));
+  const std::string ignored =
+      "slam-compare: warning: general-one: laser `REAR` is not used: not in [input] sensor_label\n";
+  EXPECT_THAT(o.err, HasSubstr(ignored));
+  const Outcome quiet = shell(call + "-q " + variant);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err, ignored);
+  EXPECT_THAT(shell(call + "--list").out, testing::StartsWith("general-3-1\t"));
+}
+
 TEST_F(SlamCompare, TheTruthMayBeInstalledFiles) {
   const test::InstalledProgram installed(folder, SLAM_COMPARE);
   fs::copy_file(kCsie + "csie-corridor.tum", installed.data("truth.tum"));

@@ -77,6 +77,21 @@ TEST_F(NeesOfRelations, OdometryCarriesPosesToTheirTimes) {
   EXPECT_NEAR(figures(call + "--odometry odometry").at("nees_mean"), 0.0025 / (kMatch + 0.25 * 4e-4), 1e-6);
 }
 
+TEST_F(NeesOfRelations, ALaserThatTheRunIgnoredIsAWarning) {
+  write("relations", "1000 1001 0.5 0 0 0 0 0\n");
+  write("config.ini", "[run]\nmethod = hybrid\n[input]\nsensor_label = LASER\n");
+  test::Log log;
+  for (int i = 0; i < 2; ++i) {
+    const mrpt::math::TPose2D pose(0.5 * i, 0, 0);
+    log.push_back(test::odometry(1000 + i, pose));
+    for (const char* label : {"LASER", "REAR"}) log.push_back(test::scan(1000 + i, pose, 181, label));
+  }
+  test::writeGzipped(folder.path("log.rawlog"), log);
+  const test::Outcome outcome = run(call);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "slam-eval: warning: laser `REAR` is not used: not in [input] sensor_label\n");
+}
+
 TEST_F(NeesOfRelations, WrongInput) {
   write("relations", "1000 1001 0.5 0 0 0 0 0\n");
   for (const char* option : {"--noise", "--noise-deg"})

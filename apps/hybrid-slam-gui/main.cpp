@@ -91,10 +91,10 @@ wxIMPLEMENT_APP_NO_MAIN(GuiApp);
 int main(int argc, char** argv) {
   const auto parseAndShow = [&] {
     CLI::App app{
-        "Replays logs in a window, with the hybrid filter beside another method, and maps live robot data",
+        "Replays logs in a window, with the hybrid filter next to another method, and maps live robot data",
         "hybrid-slam-gui"};
     app.set_version_flag("--version", "hybrid-slam-gui " HYBRID_SLAM_VERSION);
-    files.add(app, hybrid_slam::kLogMeans + " (default: [run] rawlog)");
+    files.add(app, hybrid_slam::logMeans() + " (default: [run] rawlog)");
     hybrid_slam::FilterArguments filter;
     filter.addMethod(app);
     filter.addParticles(app);

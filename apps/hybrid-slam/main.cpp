@@ -30,7 +30,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
-  line.files.add(app, kLogMeans + " (default: [run] rawlog)");
+  line.files.add(app, logMeans() + " (default: [run] rawlog)");
   app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
   app.add_flag("--overwrite", line.overwrites,
                "replace the results of an earlier run in DIR (default: write to a dated subfolder)");

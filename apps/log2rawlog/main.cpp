@@ -90,7 +90,7 @@ int convert(int argc, char** argv) {
   TopicArguments topics;
   CLI::App app{"Converts a robot's log into a rawlog, or a rawlog into one of the other form."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
-  app.add_option("input", input, kLogMeans)->required()->type_name("in.clf[.gz]|in.bag|...");
+  app.add_option("input", input, logMeans())->required()->type_name("in.clf[.gz]|in.bag|...");
   app.add_option("output", output, "the rawlog to write")->type_name("out.rawlog");
   topics.add(app);
   app.add_option("--format", format, "log format (default: detected from the content)")
@@ -104,8 +104,8 @@ int convert(int argc, char** argv) {
       ->type_name("S")
       ->check(within(1e-6, 1e4));
   app.add_option("--max-range", options.maxRange,
-                 "readings at or beyond this are no returns, m (default: 80, which covers the 81.83 and "
-                 "81.91 of CARMEN logs; DP-SLAM: 8.18; tinySLAM: 5.6; bags, rawlogs: as each scan states)")
+                 "readings at or beyond this are no returns, m (default: " + readings::defaultMaxRanges() +
+                     "; bags, rawlogs: as each scan states)")
       ->type_name("M")
       ->check(within(0.01, 1e4));
   app.add_option("--angular-step", angularStepDeg,

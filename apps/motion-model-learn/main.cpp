@@ -35,7 +35,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "motion-model-learn " HYBRID_SLAM_VERSION);
-  line.files.add(app, kLogMeans);
+  line.files.add(app, logMeans());
   app.add_option("-o,--output", line.output, "INI file to write, with the learnt [motion_model]")
       ->required()
       ->type_name("FILE");

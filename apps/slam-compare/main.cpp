@@ -11,6 +11,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -24,6 +25,7 @@
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
+#include "run/LogSettings.h"
 #include "run/TrajectoryRecorder.h"
 #include "study/comparison/Comparison.h"
 #include "study/comparison/Report.h"
@@ -47,7 +49,7 @@ struct CommandLine {
 
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
-  line.files.add(app, kLogMeans);
+  line.files.add(app, logMeans());
   app.add_option("-o,--output", line.output, "folder for runs, tables and report, created if missing")
       ->required()
       ->type_name("DIR");
@@ -152,6 +154,26 @@ void expectNoStop(const std::string& where) {
   if (stop) throw std::runtime_error("interrupted: " + where);
 }
 
+/// Says which lasers the groups take, and what is wrong with the log. Of groups after the first one, it says
+/// only what differs.
+class LogTeller {
+ public:
+  explicit LogTeller(const CommandLine& line) : line_(line) {}
+  void operator()(const comparison::Group& group, const readings::RawlogSummary& log,
+                  const run::LogSettings& settings) {
+    const std::string whose = told_.empty() ? "" : group.label() + ": ";
+    for (const std::string& text : readings::warningsOf(log, line_.files.log))
+      if (told_.insert(text).second) warn({whose + text});
+    for (const std::string& text : settings.lasers)
+      if (told_.insert(text).second && !line_.isQuiet && !line_.isListOnly)
+        std::cout << onOneLine(whose + text) << std::endl;
+  }
+
+ private:
+  const CommandLine& line_;
+  std::set<std::string> told_;
+};
+
 struct LogSpan {
   files::Trajectory deadReckoning;
   double duration = 0;  ///< s
@@ -162,7 +184,6 @@ LogSpan readLog(const CommandLine& line, const comparison::RunSetup& setup) {
   const readings::InputOptions input = setup.configuration().input;
   const readings::RawlogSummary summary =
       readings::summarise(line.files.log, input, [] { return stop.load(); });
-  warn(readings::warningsOf(summary, line.files.log));
   readings::RawlogSource source(line.files.log, input, summary);
   run::TrajectoryRecorder recorder;
   while (const auto reading = source.next()) {
@@ -220,7 +241,7 @@ int execute(const CommandLine& line, const std::string& command) {
   const fs::path runs = fs::path(line.output) / "runs";
   const std::vector<comparison::ComparisonRun> sweep =
       comparison::makeSweep(common, groups, comparison::makeRuns(groups.size(), line.firstSeed, line.seeds),
-                            runs, besideThisProgram("hybrid-slam"), stop);
+                            runs, besideThisProgram("hybrid-slam"), stop, LogTeller(line));
   const comparison::RunSetup setup = comparison::setupOf(common, groups[0], line.firstSeed);
   const LogSpan log = readLog(line, setup);
   truth.expectOverlap(log.deadReckoning);

@@ -142,7 +142,7 @@ Json neesJson(const CommandLine& line) {
 }
 
 Json neesRelationsJson(const CommandLine& line) {
-  const run::FinishedPath path = run::readFinishedPath(line.run, line.rawlog);
+  const run::FinishedPath path = run::readFinishedPath(line.run, line.rawlog, warn);
   const std::vector<evaluation::Relation> relations = evaluation::loadRelations(line.relations);
   const files::Trajectory odometry =
       line.odometry.empty() ? files::Trajectory() : files::loadOdometry(line.odometry);
@@ -232,8 +232,9 @@ int evaluate(int argc, char** argv) {
       app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
   auto* nees =
       app.add_subcommand("nees", "normalised estimation error squared: covariances against the truth");
-  auto* neesRelations =
-      app.add_subcommand("nees-relations", "the same against relations: covariances between two poses");
+  auto* neesRelations = app.add_subcommand(
+      "nees-relations",
+      "normalised estimation error squared against relations: covariances between two poses");
   for (CLI::App* command : {relations, ate, rpe, revisits, nees})
     command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
   for (CLI::App* command : {relations, neesRelations}) {

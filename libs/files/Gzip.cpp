@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -21,8 +22,7 @@ constexpr size_t kBlock = 1 << 16;
 
 std::string gzipped(std::string_view bytes) {
   z_stream stream{};
-  if (deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::runtime_error("zlib: out of memory");
+  if (deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, deflateEnd);
   std::string out;
   std::vector<char> block(kBlock);

@@ -33,18 +33,23 @@ bool isRenamable(const fs::path& folder) {
          own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
 }
 
+/// Syncs a file or a folder's entries to disk.
+/// @throws InputError if that fails
+void syncOne(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
+  if (file >= 0) ::close(file);
+  const bool isUnknown = error == EINVAL && fs::is_directory(path);  // some file systems cannot sync folders
+  if (error && !isUnknown)
+    throw InputError("cannot write", path.string(),
+                     std::string("expected a writable folder with free disk space: ") + std::strerror(error));
+}
+
 /// Syncs a folder to disk, with its subfolders, so that a power cut after the renaming leaves no empty files.
 /// @throws InputError if a file cannot be synced
 void sync(const fs::path& folder) {
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
-    const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
-    if (file >= 0) ::close(file);
-    if (error)
-      throw InputError(
-          "cannot write", entry.path().string(),
-          std::string("expected a writable folder with free disk space: ") + std::strerror(error));
-  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) syncOne(entry.path());
+  syncOne(folder);
 }
 
 }  // namespace

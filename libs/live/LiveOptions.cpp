@@ -21,8 +21,7 @@ void LiveOptions::describe(OptionTable& t) {
   t.add("recording", recording,
         "file name of the rawlog of raw observations, in the results folder; the date and time are added");
   t.add("disk_reserve", diskReserve, 0, 1e9, "MB",
-        "the recording stops when less disk space than this is free, so that the results find space; the run "
-        "continues");
+        "free disk space below which the recording stops, so that the results find space; the run continues");
 }
 
 void ServerOptions::describe(OptionTable& t) {

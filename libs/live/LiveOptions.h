@@ -18,7 +18,7 @@ struct LiveOptions : Options {
   double sensorTimeout = 5;
   int maxWaiting = 5;
   std::string recording = "recording.rawlog";
-  double diskReserve = 500;
+  double diskReserve = 1000;
   void describe(OptionTable& table) override;
 };
 

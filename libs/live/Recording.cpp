@@ -39,8 +39,13 @@ void Recording::write(const mrpt::obs::CObservation& observation) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (entries_++ == 0) open();
   if (!writer_) return;
+  if (isDiskAlmostFull()) {
+    log_.report("recording", "stopped; the run continues (disk almost full: " + folder_ + "; expected " +
+                                 fixedText(reserve_ / 1e6, 0) +
+                                 " MB of free disk space for the results, [live] disk_reserve)");
+    return end();
+  }
   try {
-    checkSpace();
     writer_->write(observation);
   } catch (const std::exception& e) {
     endAt(e);
@@ -49,13 +54,9 @@ void Recording::write(const mrpt::obs::CObservation& observation) {
 }
 
 // Who sends the observations decides how many there are; the results must still find space.
-void Recording::checkSpace() const {
+bool Recording::isDiskAlmostFull() const {
   std::error_code unknown;  // then `available` is the largest number
-  const auto free = static_cast<double>(std::filesystem::space(folder_, unknown).available);
-  if (free < reserve_)
-    throw InputError("disk almost full", folder_,
-                     "expected " + fixedText(reserve_ / 1e6, 0) +
-                         " MB of free disk space for the results ([live] disk_reserve)");
+  return static_cast<double>(std::filesystem::space(folder_, unknown).available) < reserve_;
 }
 
 void Recording::flush() {
@@ -75,6 +76,10 @@ void Recording::sync() {
 
 void Recording::finish() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  end();
+}
+
+void Recording::end() {
   if (!writer_) return;
   try {
     writer_->finish();

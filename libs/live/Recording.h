@@ -25,7 +25,7 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  /// Sets the disk space (bytes) that the recording leaves free for the results; 500 MB by default.
+  /// Sets the disk space (bytes) that the recording leaves free for the results; 1 GB by default.
   void keepFree(double bytes) { reserve_ = bytes; }
   /// A disk that is full, up to the reserve, ends the recording, not the run, and is reported.
   /// @throws InputError if the file cannot be opened
@@ -41,13 +41,13 @@ class Recording {
   using Clock = std::chrono::steady_clock;
   void open();
   void sync();
-  /// @throws InputError if the reserve is all that is free
-  void checkSpace() const;
+  bool isDiskAlmostFull() const;
+  void end();
   void endAt(const std::exception& fault);
 
   std::string folder_, name_, path_;
   size_t entries_ = 0;
-  double reserve_ = 5e8;  ///< bytes
+  double reserve_ = 1e9;  ///< bytes
   EventLog& log_;
   std::mutex mutex_;                             ///< guards the next two
   std::unique_ptr<files::RawlogWriter> writer_;  ///< null before the first observation and after the end

@@ -168,7 +168,10 @@ std::string LiveRun::finish(size_t lost) {
   readings::RawlogSummary recorded;
   try {
     recorded = summarise(recording_.path(), configuration_.input);
+    if (configuration_.input.requireOdometry && !recorded.hasOdometryReadings)
+      throw InputError("it ends before the first odometry", recording_.path(), "expected a longer recording");
   } catch (const InputError& e) {  // the disk was full from the start
+    recorded = {};
     log_.report("results", "without those that need the recording (" + messageOf(e) + ")");
   }
   nlohmann::ordered_json more{{"skipped_readings", recorded.skippedReadings()},

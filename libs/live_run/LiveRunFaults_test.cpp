@@ -58,6 +58,7 @@ TEST_F(LiveRunTest, AFilterThatFailsLeavesTheRecordingAndTheResultsSoFar) {
 
 TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
   Recording killed(folder.path(""), "killed.rawlog", events.log());
+  killed.keepFree(0);
   for (int i = 0; i < 100; ++i) killed.write(*test::scan(1000 + i));
   killed.flush();
   std::filesystem::copy_file(test::filesIn(folder.path(""), ".partial.killed-20").at(0),
@@ -86,8 +87,8 @@ class FullDisk {
   rlimit before_{};
 };
 
-void takeLaps(LiveRun& run) {
-  for (const auto& object : test::laps(300)) {
+void take(LiveRun& run, const test::Log& log) {
+  for (const auto& object : log) {
     const auto cycle = CSensoryFrame::Create();
     cycle->insert(std::dynamic_pointer_cast<CObservation>(object));
     run.take(cycle);
@@ -99,7 +100,7 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
   options.maxWaiting = 1000;
   LiveRun run(c, options, events.log(), true);
   std::optional<FullDisk> disk(40000);
-  takeLaps(run);
+  take(run, test::laps(300));
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   disk.reset();
   EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
@@ -116,8 +117,27 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
               1e-6);
 }
 
+// Scans without odometry are recorded, but are not readings of the run.
+TEST_F(LiveRunTest, ARecordingThatEndsBeforeTheFirstOdometryDoesNotCount) {
+  run::Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  test::Log early;
+  for (int i = 0; i < 1000; ++i) early.push_back(test::scan(900 + 0.1 * i, {0.002 * i, 0, 0.003 * i}));
+  std::optional<FullDisk> disk(10000);
+  take(run, early);
+  EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
+  take(run, test::laps(30));
+  disk.reset();
+  EXPECT_THAT(run.finish(0), HasSubstr("35 scans"));
+  EXPECT_EQ(events.count("results: without those that need the recording (it ends before"), 1u)
+      << events.text();
+  EXPECT_FALSE(std::filesystem::exists(folder.path("live/map.simplemap.gz")));
+}
+
 TEST_F(LiveRunTest, TheRecordingStopsBeforeItTakesTheDiskSpaceOfTheResults) {
   Recording recording(folder.path(""), "kept.rawlog", events.log());
+  recording.keepFree(0);
   for (int i = 0; i < 100; ++i) recording.write(*test::scan(1000 + i));
   EXPECT_EQ(events.count("recording: "), 0u) << events.text();
   recording.keepFree(1e18);
@@ -142,7 +162,7 @@ TEST_F(LiveRunTest, ADiskThatIsFullUntilTheEndCostsOnlyWhatNeedsTheRecording) {
   std::atomic<size_t> filtered{0};
   run.setWatcher([&](const FilterView&, const readings::Reading&, bool) { ++filtered; });
   std::optional<FullDisk> disk(0);
-  takeLaps(run);
+  take(run, test::laps(300));
   EXPECT_TRUE(test::happens([&] { return filtered == 300; }));
   disk.reset();
   EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));

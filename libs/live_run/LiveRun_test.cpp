@@ -164,7 +164,7 @@ TEST_F(LiveRunTest, AFilterThatIsAlwaysLateDoesNotFloodTheLog) {
     cycle->insert(test::scan(time));
     run.take(cycle);
     ++sent;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (i % 8 == 7) test::happens([&] { return filtered >= i / 8; });  // however slow the machine is
   }
   run.finish(0);
   EXPECT_GT(filtered, 10u) << "each late";

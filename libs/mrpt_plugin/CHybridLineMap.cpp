@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "base/LaserScan.h"
+#include "base/MrptVersion.h"
 #include "base/State.h"
 #include "slam/lines/LineTable.h"
 
@@ -25,6 +26,7 @@ using mrpt::poses::CPose3D;
 namespace hybrid_slam::mrpt_maps {
 namespace {
 
+constexpr uint8_t kVersion = 1;                     // since [line_weight] radius
 constexpr uint32_t kMostBytes = uint32_t{1} << 26;  // half a million lines
 
 /// A scan that has lines of the map's plane, or null.
@@ -60,13 +62,9 @@ void CHybridLineMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream&
   }
 }
 
-// A pointer in MRPT 2.5.8, a shared_ptr in 2.14.7.
-using Created = decltype(CHybridLineMap::internal_CreateFromMapDefinition(
-    std::declval<const mrpt::maps::TMetricMapInitializer&>()));
-
-Created CHybridLineMap::internal_CreateFromMapDefinition(
+CreatedMetricMap CHybridLineMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
-  return Created(new CHybridLineMap(dynamic_cast<const TMapDefinition&>(definition).options));
+  return CreatedMetricMap(new CHybridLineMap(dynamic_cast<const TMapDefinition&>(definition).options));
 }
 
 std::string CHybridLineMap::asString() const {
@@ -119,7 +117,7 @@ void CHybridLineMap::visit(State& state) {
         genericMapParams.enableObservationInsertion, options, database_);
 }
 
-uint8_t CHybridLineMap::serializeGetVersion() const { return 0; }
+uint8_t CHybridLineMap::serializeGetVersion() const { return kVersion; }
 
 void CHybridLineMap::serializeTo(mrpt::serialization::CArchive& out) const {
   std::string bytes;
@@ -131,7 +129,7 @@ void CHybridLineMap::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 void CHybridLineMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) throw StateError("a line map of an unknown version");
+  if (version != kVersion) throw StateError("a line map of an unknown version");
   uint32_t size = 0;
   in >> size;
   if (size > kMostBytes) throw StateError("a line map of more than 64 MiB");

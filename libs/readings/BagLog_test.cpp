@@ -8,6 +8,7 @@
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "readings/SweepTimes.h"
+#include "readings/Timestamps.h"
 #include "testing/ErrorOf.h"
 #include "testing/TestBags.h"
 
@@ -277,10 +278,25 @@ TEST_F(BagLogTest, SeveralLasersWithPosesAreAllUsed) {
   ASSERT_EQ(all.lasers.size(), 2u);
   EXPECT_EQ(all.lasers[1].topic, "/scan_rear");
   EXPECT_NEAR(all.lasers[1].pose.x, -0.3, 1e-12);
+  EXPECT_THAT(all.notes, IsEmpty());
+  EXPECT_THAT(plan(messages, {{"/scan_front", "/scan_rear"}, ""}).notes, IsEmpty());
   EXPECT_EQ(plan(messages, {{"/scan_rear"}, ""}).lasers.size(), 1u);
   InputOptions options;
   options.sensorLabel = "/scan_rear";
-  EXPECT_THAT(summarise(write(messages), options).lasers, ElementsAre("/scan_rear"));
+  const std::string file = write(messages);
+  const RawlogSummary summary = summarise(file, options);
+  EXPECT_THAT(summary.lasers, ElementsAre("/scan_rear"));
+  EXPECT_THAT(warningsOf(summary, file),
+              ElementsAre("laser `/scan_front` is not used: not in --topic or [input] sensor_label"));
+}
+
+TEST_F(BagLogTest, ALaserWhoseMessagesAreAllBrokenIsNotUsedAndTheUserIsTold) {
+  const std::vector<TestMessage> messages{{"/broken", "sensor_msgs/LaserScan", 0.5, "nonsense"},
+                                          scanOn("/scan", 1, "base_link"),
+                                          odometryAt(1, {})};
+  const BagPlan found = plan(messages);
+  ASSERT_EQ(found.lasers.size(), 1u);
+  EXPECT_THAT(found.notes, ElementsAre("laser `/broken` is not used: all its messages are broken"));
 }
 
 TEST_F(BagLogTest, WhatIsNotClearIsAnErrorThatListsTheTopics) {

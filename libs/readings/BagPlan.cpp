@@ -17,10 +17,12 @@ using Entry = BagContents::Entry;
 
 namespace {
 
-bool isScan(const Entry& entry) {
-  return entry.messages > entry.broken && (entry.topic.messageType == MessageType::laserScan ||
-                                           entry.topic.messageType == MessageType::multiEchoLaserScan);
+bool isLaser(const Entry& entry) {
+  return entry.topic.messageType == MessageType::laserScan ||
+         entry.topic.messageType == MessageType::multiEchoLaserScan;
 }
+
+bool isScan(const Entry& entry) { return isLaser(entry) && entry.messages > entry.broken; }
 
 bool isOdometry(const Entry& entry) {
   return entry.messages > entry.broken && entry.topic.messageType == MessageType::odometry;
@@ -78,6 +80,20 @@ std::vector<const Entry*> scansOf(const BagContents& contents, const BagOptions&
                        "--topic or [input] sensor_label: the bag has " + listOf(scans));
   }
   return wanted;
+}
+
+/// Returns a line for each laser that is not used: its topic and the reason.
+std::vector<std::string> ignoredLasers(const BagContents& contents, const BagOptions& options,
+                                       const std::vector<const Entry*>& used) {
+  std::vector<std::string> all;
+  for (const Entry* entry : select(contents, isLaser)) {
+    const char* const why = !options.topics.empty() ? "not in --topic or [input] sensor_label"
+                            : entry->messages == 0  ? "no messages"
+                                                    : "all its messages are broken";
+    if (!named(used, entry->topic.name))
+      all.push_back("laser `" + entry->topic.name + "` is not used: " + why);
+  }
+  return all;
 }
 
 /// The odometry topic to use; null: none.
@@ -220,6 +236,7 @@ BagPlan planOf(const BagContents& contents, const BagOptions& options, const std
                            " is taken to be at the robot's centre, facing ahead");
     plan.lasers.push_back(laser);
   }
+  for (const std::string& line : ignoredLasers(contents, options, scans)) plan.notes.push_back(line);
   return plan;
 }
 

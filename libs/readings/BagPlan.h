@@ -55,7 +55,7 @@ struct BagPlan {
   std::vector<Laser> lasers;
   std::string odometryTopic;         ///< of nav_msgs/Odometry; empty: from the transforms
   std::string odomFrame, baseFrame;  ///< the transform that is the odometry; empty: none
-  std::vector<std::string> notes;    ///< for the user: what was assumed
+  std::vector<std::string> notes;    ///< for the user: what was assumed; lasers not used
 };
 
 /// Applies the user's choice. By default all lasers are used, and the odometry is that of the only odometry

@@ -228,7 +228,12 @@ bool isCarmen(std::string_view name, size_t fields) {
 
 }  // namespace
 
-const LogFormat kCarmenLog{"carmen", "CARMEN", "FLASER, RLASER, LASER1-9, RAWLASER1-9, ROBOTLASER1-9",
-                           80,       isCarmen, makeParser<CarmenParser>};
+const LogFormat kCarmenLog{"carmen",
+                           "CARMEN",
+                           "FLASER, RLASER, LASER1-9, RAWLASER1-9, ROBOTLASER1-9",
+                           ".clf .log",
+                           80,
+                           isCarmen,
+                           makeParser<CarmenParser>};
 
 }  // namespace hybrid_slam::readings

@@ -54,6 +54,6 @@ bool isDpslam(std::string_view name, size_t /*fields*/) {
 
 }  // namespace
 
-const LogFormat kDpslamLog{"dpslam", "DP-SLAM", "Laser", 8.18, isDpslam, makeParser<DpslamParser>};
+const LogFormat kDpslamLog{"dpslam", "DP-SLAM", "Laser", ".log", 8.18, isDpslam, makeParser<DpslamParser>};
 
 }  // namespace hybrid_slam::readings

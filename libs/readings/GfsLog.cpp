@@ -53,6 +53,6 @@ bool isGfs(std::string_view name, size_t fields) {
 
 }  // namespace
 
-const LogFormat kGfsLog{"gfs", "GMapping .gfs", "LASER_READING", 80, isGfs, makeParser<GfsParser>};
+const LogFormat kGfsLog{"gfs", "GMapping .gfs", "LASER_READING", ".gfs", 80, isGfs, makeParser<GfsParser>};
 
 }  // namespace hybrid_slam::readings

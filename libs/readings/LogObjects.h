@@ -26,7 +26,7 @@ struct LogSummary {
   std::string format;         ///< for the user
   std::string unit = "line";  ///< of the log: "line", "message" or "entry"
   size_t scans = 0, odometryReadings = 0, brokenLines = 0;
-  /// Of a bag: what was assumed; of a text log: lasers not used; of a rawlog: observations not read.
+  /// Lasers not used; of a bag: what was assumed; of a rawlog: observations not read.
   std::vector<std::string> notes;
   std::string defect;                          ///< of a bag or rawlog: why it is incomplete; empty if intact
   std::map<std::string, size_t> otherRecords;  ///< number of skipped records by name, of 100 names

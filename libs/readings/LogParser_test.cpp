@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "testing/LogRows.h"
@@ -132,6 +133,21 @@ TEST(FormatOf, FollowsFromTheFirstSpecificRecord) {
   EXPECT_EQ(formatOf("LASER 181 1"), formatNamed("dpslam"));
   for (const char* line : {"", "# FLASER", "NEFF 20", "ODOM 1 2", "hello", "<html>"})
     EXPECT_FALSE(formatOf(line)) << line;
+}
+
+TEST(LogFormats, AreNamedInTheHelpAndTheFileDialogs) {
+  const std::string logs = robotLogs(), ranges = defaultMaxRanges();
+  const std::vector<std::string> endings = logEndings();
+  for (const LogFormat* format : logFormats()) {
+    EXPECT_THAT(logs, HasSubstr(format->name));
+    EXPECT_THAT(ranges, HasSubstr(format->name));
+  }
+  EXPECT_THAT(
+      logs, testing::StartsWith("bag of ROS 1 or 2 (.bag, .db3, .mcap or folder), or text log of CARMEN, "));
+  EXPECT_THAT(logs, testing::MatchesRegex(".*text log of .+, .+ or [^,]+; plain or compressed .*"));
+  EXPECT_THAT(ranges, HasSubstr("CARMEN, GMapping .gfs: 80; DP-SLAM: 8.18"));
+  for (const char* ending : {".rawlog", ".clf", ".log", ".gfs", ".dat", ".mcap", ".gz"})
+    EXPECT_EQ(std::count(endings.begin(), endings.end(), ending), 1) << ending;
 }
 
 TEST(InBackquotes, IsShortAndPrintable) {

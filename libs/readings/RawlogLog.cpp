@@ -42,10 +42,10 @@ void limitRange(CObservation2DRangeScan& scan, double range) {
 }  // namespace
 
 RawlogLog::RawlogLog(const std::string& file, const LogConversionOptions& options)
-    : file_(file),
-      reader_(file),
+    : objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep),
+      file_(file),
       options_(options),
-      objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep),
+      reader_(file),
       hasOdometryReadings_(hasOdometryReadings(file)) {
   objects_.summary.format = "rawlog";
   objects_.summary.unit = "entry";
@@ -106,7 +106,7 @@ void RawlogLog::prepare(const CObservation::Ptr& observation) {
 }
 
 void RawlogLog::take(const CObservation::Ptr& observation, CSensoryFrame* frame) {
-  if (sweepTimeIn(*observation)) return;  // LogObjects states it anew
+  if (sweepTimeIn(*observation)) return;  // LogObjects states it again
   const double time = timeOf(*observation).value_or(kUnknown);
   if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     const double sweep = sweeps_.of(*scan);

@@ -40,18 +40,18 @@ class RawlogLog {
  private:
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeFrame(const mrpt::obs::CSensoryFrame& frame);
-  /// Takes what a scan depends on: the scan times that are stated beside it, and the maximum range.
+  /// Takes what a scan depends on: the scan times stated with it, and the maximum range.
   void prepare(const mrpt::obs::CObservation::Ptr& observation);
   /// Takes an observation. @param frame  to keep it in; null: on its own
   void take(const mrpt::obs::CObservation::Ptr& observation, mrpt::obs::CSensoryFrame* frame);
 
-  std::string file_;
-  files::RawlogReader reader_;
-  LogConversionOptions options_;
   LogObjects objects_;
-  SweepTimes sweeps_;                             ///< as stated
-  bool hasOdometryReadings_;                      ///< the actions are not used
+  std::string file_;
   std::optional<mrpt::math::TPose2D> travelled_;  ///< sum of the actions
+  SweepTimes sweeps_;                             ///< as stated
+  LogConversionOptions options_;
+  files::RawlogReader reader_;
+  bool hasOdometryReadings_;  ///< the actions are not used
 };
 
 }  // namespace hybrid_slam::readings

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 
+#include "files/RawlogReader.h"
 #include "readings/LogConversion.h"
 #include "testing/ErrorOf.h"
 #include "testing/ReplayedLog.h"
@@ -74,7 +75,8 @@ Converted converted(const Log& log, const LogConversionOptions& options = {}) {
   out.summary = convert(test::writePlain(folder.path("in.rawlog"), log), folder.path("out.rawlog"), options);
   mrpt::obs::CRawlog rawlog;
   EXPECT_TRUE(rawlog.loadFromRawLogFile(folder.path("out.rawlog"))) << "MRPT reads it";
-  for (const auto& object : rawlog) out.log.push_back(object);
+  files::RawlogReader reader(folder.path("out.rawlog"));  // CRawlog keeps comments apart
+  while (const auto object = reader.next()) out.log.push_back(object);
   return out;
 }
 

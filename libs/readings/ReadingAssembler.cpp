@@ -104,7 +104,7 @@ void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
   const size_t reading = grouper_.add(*scan);
   waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
   if (hasOdometryReadings_ && !lastOdometry_) {
-    if (waiting_.size() > kMostEarly) waiting_.pop_front();
+    while (waiting_.back().reading - waiting_.front().reading >= kMostEarly) waiting_.pop_front();
     dropped_ = waiting_.front().reading - 1;
     return;
   }

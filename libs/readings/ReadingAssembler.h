@@ -30,16 +30,16 @@ struct Reading {
   mrpt::math::TPose2D motion;  ///< m, rad
 };
 
-/// Largest number of scans that are used before the first odometry reading: sensors do not
-/// start at the same time, but a robot may have moved since an earlier scan.
+/// Largest number of readings that are used before the first odometry reading: sensors do not start at the
+/// same time, but a robot may have moved since an earlier scan.
 constexpr size_t kMostEarly = 5;
 
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used; the last five scans before the first odometry reading use that one, and
-/// earlier ones are dropped. A jump of the odometry (OdometryJumps), or a first reading beyond 1e8 m, counts
-/// as no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one
+/// previous odometry reading is used; the last five readings before the first odometry reading use that one,
+/// and earlier ones are dropped. A jump of the odometry (OdometryJumps), or a first reading beyond 1e8 m,
+/// counts as no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one
 /// reading. Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN,
 /// infinite, not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides
 /// which scans are used and which of them form one reading.

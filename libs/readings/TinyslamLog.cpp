@@ -87,6 +87,7 @@ bool isTinyslam(std::string_view name, size_t fields) {
 }  // namespace
 
 /// The laser's nominal range is 5.6 m, but it measures up to 4.095 m.
-const LogFormat kTinyslamLog{"tinyslam", "tinySLAM", "numbers", 5.6, isTinyslam, makeParser<TinyslamParser>};
+const LogFormat kTinyslamLog{
+    "tinyslam", "tinySLAM", "numbers", ".dat", 5.6, isTinyslam, makeParser<TinyslamParser>};
 
 }  // namespace hybrid_slam::readings

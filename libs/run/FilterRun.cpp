@@ -58,7 +58,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       staged_(configuration.run.output, kResultFiles, configuration.run.overwrite,
               ownFile(configuration.run)),
       folder_(staged_.files()),
-      mostBytes_(memoryLimit() / 3),
+      mostBytes_(memoryLimit() / 4),
       refinementBytes_(memoryLimit() / 4) {
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
@@ -121,7 +121,7 @@ bool FilterRun::isMemoryFull() const {
 void FilterRun::checkMemory() const {
   if (isMemoryFull())
     throw std::runtime_error("out of memory: the map, the path and the scans take over " +
-                             fixedText(mostBytes_ / 1e9, 1) + " GB, a third of the memory");
+                             fixedText(mostBytes_ / 1e9, 1) + " GB, a quarter of the memory");
 }
 
 bool FilterRun::filter(const readings::Reading& reading) {

@@ -92,8 +92,8 @@ class FilterRun {
   std::string folderNote() const { return staged_.note(); }
 
   /// Sets the memory (bytes) of the program at which a run ends, so that its results can still be written; by
-  /// default a third of `memoryLimit`, since a session is written from a copy. MRPT's filter has a limit of
-  /// its own (StockMapBuilder).
+  /// default a quarter of `memoryLimit`, since the bytes of a session may take three times as much while they
+  /// grow. MRPT's filter has a limit of its own (StockMapBuilder).
   void limitMemory(double bytes) { mostBytes_ = bytes; }
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.

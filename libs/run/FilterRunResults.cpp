@@ -103,7 +103,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
-  result.map = mapOf(scans, configuration_.filter, base);
+  result.map = MapMaker(configuration_.filter)(scans, base);
   result.grid = toMrpt(result.map.grid);
   result.lines = result.map.lines.lines();
 }
@@ -111,6 +111,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
+  const bool hasRoom = !isMemoryFull();  // the results below are copies
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
   result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
@@ -118,7 +119,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
     if (log.scans < uses_.size()) {
       notes_.emplace_back("map not refined: the recording ends before the run");
-    } else if (isMemoryFull()) {
+    } else if (!hasRoom) {
       notes_.emplace_back("map not refined: out of memory");
     } else {
       readings::RawlogSource scans(file, configuration_.input, log);

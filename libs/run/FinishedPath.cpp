@@ -7,6 +7,7 @@
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "files/LineReader.h"
+#include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
 #include "run/VerdictCheck.h"
@@ -40,7 +41,8 @@ PathPoint FinishedPath::at(const TPose2D& pose, size_t row) const {
   return {std::max<size_t>(updates[row], 1) - 1, pose};
 }
 
-FinishedPath readFinishedPath(const std::string& folder, const std::string& log) {
+FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
+                              const readings::WarningReport& report) {
   const Configuration configuration(folder + "/config.ini", {"run.rawlog=" + log});
   const files::Trajectory trajectory = files::loadTum(folder + "/trajectory.tum");
   const std::vector<double> times = updateTimes(folder + "/steps.csv");
@@ -56,6 +58,7 @@ FinishedPath readFinishedPath(const std::string& folder, const std::string& log)
                      "expected the files of one run");
 
   const readings::RawlogSummary summary = readings::summarise(log, configuration.input);
+  if (report) report(readings::warningsOf(summary, log));
   readings::RawlogSource source(log, configuration.input, summary);
   VerdictCheck check;
   size_t row = 0;

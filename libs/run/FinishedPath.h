@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/Trajectory.h"
+#include "readings/EndPointReader.h"
 #include "run/PathCovariance.h"
 
 namespace hybrid_slam::run {
@@ -23,7 +24,9 @@ struct FinishedPath {
 /// Compares the scans with the map again, as the run did for its verdict.
 /// @param folder  results of the run (doc/results.md)
 /// @param log     that it was made from
+/// @param report  called before the scans are read
 /// @throws InputError for an unreadable file, or a log or files of another run
-FinishedPath readFinishedPath(const std::string& folder, const std::string& log);
+FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
+                              const readings::WarningReport& report = {});
 
 }  // namespace hybrid_slam::run

@@ -81,10 +81,9 @@ std::vector<LogSetting> updates(std::vector<float> steps) {
           {"improved_proposal", "update_angle_deg", isSparse ? "1" : "5", reason}};
 }
 
-std::string describe(const std::string& label, const LaserScan& scan) {
+std::string describe(const LaserScan& scan) {
   const auto degrees = [](double angle) { return numberText(std::round(mrpt::RAD2DEG(angle) * 1e3) / 1e3); };
-  std::string text =
-      (label.empty() ? "laser: " : "laser " + label + ": ") + std::to_string(scan.beams.size()) + " beams";
+  std::string text = std::to_string(scan.beams.size()) + " beams";
   if (scan.beams.size() > 1)
     text += " every " +
             degrees((scan.beams.back().angle - scan.beams.front().angle) /
@@ -120,26 +119,29 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   std::map<std::string, std::string> lasers;
   std::vector<float> ranges, steps;
   double limit = 0;  // m
-  for (const readings::Reading& reading : firstReadings(file, input, log)) {
+  const std::vector<readings::Reading> first = firstReadings(file, input, log);
+  for (const readings::Reading& reading : first) {
     if (reading.motion.norm() > 0.01 || std::abs(reading.motion.phi) > mrpt::DEG2RAD(0.5))
       steps.push_back(static_cast<float>(reading.motion.norm()));
     for (const auto& observation : reading.scans) {
       const LaserScan scan = toLaserScan(*observation, kNoLimit);
-      if (lasers.count(observation->sensorLabel) == 0)
-        lasers[observation->sensorLabel] = describe(observation->sensorLabel, scan);
+      if (lasers.count(observation->sensorLabel) == 0) lasers[observation->sensorLabel] = describe(scan);
       limit = std::max(limit, scan.maxRange);
       for (const Beam& beam : scan.beams)
         if (beam.valid) ranges.push_back(static_cast<float>(beam.range));
     }
   }
+  for (const std::string& label : log.lasers)
+    lasers.try_emplace(label, "no scan in the first " + std::to_string(first.size()) + " readings");
   LogSettings found;
   found.hasOdometry = log.hasActions || log.hasOdometryReadings;
   for (const auto& [label, text] : lasers) {
     const auto sweep = log.sweeps.find(label);
     const bool isDeskewed = log.isDeskewed && sweep != log.sweeps.end();
-    found.lasers.push_back(text + (isDeskewed ? ", corrected for motion during its scans of " +
-                                                    fixedText(1000 * sweep->second, 1) + " ms"
-                                              : ""));
+    found.lasers.push_back((label.empty() ? "laser: " : "laser " + label + ": ") + text +
+                           (isDeskewed ? ", corrected for motion during its scans of " +
+                                             fixedText(1000 * sweep->second, 1) + " ms"
+                                       : ""));
   }
   found.settings = updates(steps);
   if (!log.hasMotion)

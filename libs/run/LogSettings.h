@@ -19,7 +19,9 @@ struct LogSetting {
 /// Properties of the first 2,000 readings of a log, with ranges as measured.
 struct LogSettings {
   bool hasOdometry = false;
-  std::vector<std::string> lasers;  ///< one line each: beams, spacing, place on the robot
+  /// One line for each laser that is used: beams, spacing, place on the robot; or that it has no scan in the
+  /// first readings.
+  std::vector<std::string> lasers;
   std::vector<LogSetting> settings;
 };
 

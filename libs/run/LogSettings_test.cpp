@@ -127,6 +127,20 @@ TEST_F(LogSettingsTest, DescribesTheLaser) {
   EXPECT_THAT(moved.lasers, ElementsAre(HasSubstr("at x 0.40 m, y -0.10 m, 90 deg on the robot")));
 }
 
+/// Only the first 2,000 readings are searched for the settings.
+TEST_F(LogSettingsTest, NamesALaserThatStartsLater) {
+  test::Log log = test::laps(2001, 80, 3);
+  for (const char* label : {"FRONT", "REAR"}) log.push_back(test::scan(1400.2, {}, 3, label));
+  const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
+  const auto lasers = [&] { return readLogSettings(file, input, readings::summarise(file, input)).lasers; };
+  EXPECT_THAT(lasers(), ElementsAre("laser FRONT: no scan in the first 2000 readings",
+                                    HasSubstr("laser LASER: 3 beams"),
+                                    "laser REAR: no scan in the first 2000 readings"));
+  input.sensorLabel = "LASER, REAR";
+  EXPECT_THAT(lasers(), ElementsAre(HasSubstr("laser LASER: 3 beams"),
+                                    "laser REAR: no scan in the first 2000 readings"));
+}
+
 TEST_F(LogSettingsTest, TheIniFileAndTheCommandLineAreStronger) {
   const LogSettings log = read(laser(8));
   const std::string ini = folder.write("run.ini", "[grid]\nmax_range = 30\n");

@@ -57,7 +57,7 @@ std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::ve
     const size_t later = revisit.update;
     if (!pairs.empty() && distances[later] < distances[pairs.back().later] + kShortCuts) continue;
     double nearest = kNear;
-    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle)};
+    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle), true};
     for (size_t i = 0; distances[i] < distances[later] - kReturn; ++i)
       if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
           distance < nearest)

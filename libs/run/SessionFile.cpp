@@ -74,6 +74,8 @@ void SessionReader::readRest(const std::function<void(StateReader&)>& read) {
     read(in_);
     StateReader::check(in_.isAtEnd(), "it has more bytes than it should");
   });
+  std::string().swap(bytes_);  // up to 8 GB, of which the run that goes on needs nothing
+  header_.map = ScanMap();
 }
 
 void SessionReader::guarded(const std::function<void()>& read) {

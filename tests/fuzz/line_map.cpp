@@ -22,7 +22,7 @@ std::string framed(const std::string& content) {
   auto out = mrpt::serialization::archiveFrom(stream);
   out << static_cast<uint8_t>(name.size() | 0x80);
   out.WriteBuffer(name.data(), name.size());
-  out << uint8_t{0} << static_cast<uint32_t>(content.size());
+  out << uint8_t{1} << static_cast<uint32_t>(content.size());
   out.WriteBuffer(content.data(), content.size());
   out << uint8_t{0x88};
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};

@@ -35,8 +35,10 @@ void ParticleFilterOptions::describe(OptionTable& t) {
 
 void ImprovedProposalOptions::describe(OptionTable& t) {
   t.add("update_distance", updateDistance, 0, 100, "m",
-        "replaces [particle_filter] update_distance: scan matching needs overlapping scans");
-  t.addAngle("update_angle_deg", updateAngle, 0, 360, "replaces [particle_filter] update_angle_deg");
+        "update the filter after this distance, instead of [particle_filter] update_distance: scan matching "
+        "needs overlapping scans");
+  t.addAngle("update_angle_deg", updateAngle, 0, 360,
+             "update the filter after this rotation, instead of [particle_filter] update_angle_deg");
   t.add("samples", samples, 2, 10000, "poses sampled around the scan match to compute proposal and weight");
   t.add("exponent", exponent, 0, 1, "",
         "exponent of the scan likelihood in the particle weight; small, because beam errors are not "
@@ -44,8 +46,8 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
   t.add("min_fit", minFit, 0, 1, "",
         "minimum fit of a match; below it, sample from the motion model; a map of one scan fits 0.04");
   t.addAngle("line_sigma_deg", lineSigma, 0.05, 22.5,
-             "standard deviation of a line's direction, replaces [line_weight] sigma_deg: a matched heading "
-             "is more certain than odometry");
+             "standard deviation of a line's direction, instead of [line_weight] sigma_deg: a matched "
+             "heading is more certain than odometry");
   t.add("line_sigma_rho", lineSigmaRho, 0.001, 10, "m",
         "standard deviation of a line's distance from its wall in the database");
   t.add("slip_distance", slipDistance, 0, 5, "m",

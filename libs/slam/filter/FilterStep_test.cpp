@@ -26,12 +26,6 @@ struct Stepped {
   ParticleSet particles;
 };
 
-FilterConfiguration with(Proposal proposal) {
-  FilterConfiguration c;
-  c.filter.proposal = proposal;
-  return c;
-}
-
 TEST(FilterStep, TheDegeneracyIsThatOfTheScanInTheBestParticlesMap) {
   for (const auto proposal : {Proposal::standard, Proposal::improved}) {
     const FilterConfiguration c = with(proposal);

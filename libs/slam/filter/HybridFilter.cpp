@@ -10,11 +10,15 @@ using mrpt::math::TPose2D;
 using mrpt::system::CTimeLoggerEntry;
 
 HybridFilter::HybridFilter(const FilterConfiguration& configuration)
-    : configuration_(configuration),
-      interval_(configuration.updateInterval()),
+    : interval_(configuration.updateInterval()),
+      useGrid_(configuration.useGrid),
+      closesLoops_(configuration.closesLoops()),
+      keepsScans_(configuration.keepsScans()),
+      resolution_(configuration.grid.resolution),
       prepare_(configuration),
+      makeMap_(configuration),
       particles_(configuration, &profiler()),
-      remembersScans_(configuration.keepsScans()),
+      remembersScans_(keepsScans_),
       loopCloser_(configuration.loopClosing, configuration.grid),
       pathGrid_(configuration.grid) {
   checkMemory(configuration.grid, configuration.gridWeight);
@@ -43,7 +47,7 @@ void HybridFilter::update(const Scans& scans) {
   particles_.updateMaps(scan);  // step 4, map estimation: grids and line databases, Sec. III-C, eq. (7)-(8)
   mapping.stop();
   if (remembersScans_) updateScans_.push_back(scans);
-  if (configuration_.closesLoops()) closeLoops(scan);
+  if (closesLoops_) closeLoops(scan);
 
   odometry_ = TPose2D();
   hasMap_ = true;
@@ -70,7 +74,7 @@ void HybridFilter::closeLoops(const PreparedScan& scan) {
 void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   std::vector<PosedScans> all = known_;
   for (size_t i = 0; i < updateScans_.size(); ++i) all.push_back({updateScans_[i], path[i + 1], true});
-  const ScanMap map = mapOf(all, configuration_, base_);
+  const ScanMap map = makeMap_(all, base_);
   particles_.continueFrom(path, map.grid, map.lines, map.features);
 }
 
@@ -87,12 +91,12 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
 }
 
 void HybridFilter::expectNoMap() {
-  remembersScans_ = configuration_.keepsScans();
+  remembersScans_ = keepsScans_;
   if (!remembersScans_) updateScans_.clear();
 }
 
 void HybridFilter::reset() {
-  loopCloser_ = LoopCloser(configuration_.loopClosing, configuration_.grid);
+  loopCloser_.reset();
   base_.reset();
   known_.clear();
   updateScans_.clear();
@@ -117,7 +121,7 @@ std::vector<TPose2D> HybridFilter::bestPath() const {
 }
 
 const OccupancyGrid& HybridFilter::bestOccupancy() const {
-  return configuration_.useGrid ? particles_.best().grid : pathGrid_.of(bestPath(), updateScans_);
+  return useGrid_ ? particles_.best().grid : pathGrid_.of(bestPath(), updateScans_);
 }
 
 mrpt::maps::COccupancyGridMap2D HybridFilter::bestGrid() const { return toMrpt(bestOccupancy()); }

@@ -36,7 +36,7 @@ class HybridFilter : public Filter {
 
   /// Keeps the scans until `joinMap`, `expectNoMap` or longer.
   void expectMap() { remembersScans_ = true; }
-  /// Keeps the scans only if the configuration keepsScans().
+  /// Keeps the scans only if the settings need them (FilterConfiguration::keepsScans).
   void expectNoMap();
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that
   /// map.
@@ -46,7 +46,7 @@ class HybridFilter : public Filter {
   /// The map of `joinMap`.
   const std::optional<ScanMap>& base() const { return base_; }
 
-  /// The scans of each update if the configuration keepsScans(); else empty.
+  /// The scans of each update, if they are kept; else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }
   /// Returns whether the map consists of these scans only.
   bool isMapOfUpdates() const { return !base_ && known_.empty() && updateScans_.size() == updates_; }
@@ -74,9 +74,11 @@ class HybridFilter : public Filter {
   void closeLoops(const PreparedScan& scan);
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path);
 
-  FilterConfiguration configuration_;
   UpdateInterval interval_;
+  bool useGrid_, closesLoops_, keepsScans_;
+  double resolution_;  ///< m, of the grids
   ScanPreparation prepare_;
+  MapMaker makeMap_;
   ParticleSet particles_;
   mrpt::math::TPose2D odometry_;
   size_t updates_ = 0;

@@ -9,7 +9,8 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 void LineMapOptions::describe(OptionTable& t) {
-  t.add("min_length", minLength, 0, 100, "m", "replaces [line_database] min_length: lines are the whole map");
+  t.add("min_length", minLength, 0, 100, "m",
+        "minimum length of a new line, instead of [line_database] min_length: lines are the whole map");
   t.add("beams", beams, 0, 10000, "number of beams weighted, evenly over the wall directions; 0: all");
   t.add("sigma", sigma, 0.005, 2, "m", "standard deviation of a beam's end point relative to its line");
   t.add("in_front", inFront, 0, 0.49, "", "fraction of readings in front of the line (clutter, people)");

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

@@ -69,7 +69,7 @@ TEST(LoopClosing, TheFilterGoesOnFromTheCorrectedPathAndMap) {
 ScanMap mapAlongThePath(const Filtered& result, const FilterConfiguration& c) {
   std::vector<PosedScans> all;
   for (size_t i = 0; i < result.path.size(); ++i) all.push_back({result.scans.at(i), result.path[i], true});
-  return mapOf(all, c);
+  return MapMaker(c)(all);
 }
 
 // A grid or a database that were not rebuilt would hold walls along the path before its correction.

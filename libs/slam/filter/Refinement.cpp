@@ -3,7 +3,6 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
-#include "slam/filter/PreparedScan.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/BeamSelection.h"
 #include "slam/grid/ScanMatcher.h"
@@ -26,20 +25,24 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
 
 }  // namespace
 
-ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
-              const std::optional<ScanMap>& base) {
-  const ScanPreparation prepare(configuration);
-  const LineDatabaseOptions database = configuration.databaseOptions();
-  ScanMap map{gridOf(scans, configuration.grid, base), base ? base->lines : LineDatabase(),
+MapMaker::MapMaker(const FilterConfiguration& configuration)
+    : prepare_(configuration),
+      grid_(configuration.grid),
+      database_(configuration.databaseOptions()),
+      association_(configuration.association),
+      features_(configuration.features) {}
+
+ScanMap MapMaker::operator()(const std::vector<PosedScans>& scans, const std::optional<ScanMap>& base) const {
+  ScanMap map{gridOf(scans, grid_, base), base ? base->lines : LineDatabase(),
               base ? base->features : FeatureDatabase()};
   for (const PosedScans& posed : scans) {
     if (!posed.isMapped) continue;
-    const LaserScans scan = toLaserScans(posed.scans, configuration.grid.maxRange);
-    map.lines.update(transformed(prepare.lines(scan), posed.pose), database, configuration.association);
-    if (!configuration.features.enabled) continue;
-    std::vector<PointFeature> features = prepare.features(scan);
+    const LaserScans scan = toLaserScans(posed.scans, grid_.maxRange);
+    map.lines.update(transformed(prepare_.lines(scan), posed.pose), database_, association_);
+    if (!features_.enabled) continue;
+    std::vector<PointFeature> features = prepare_.features(scan);
     for (PointFeature& feature : features) feature = transformed(feature, posed.pose);
-    map.features.update(features, configuration.features);
+    map.features.update(features, features_);
   }
   return map;
 }

@@ -8,6 +8,7 @@
 #include "base/LaserScan.h"
 #include "slam/features/FeatureDatabase.h"
 #include "slam/filter/FilterOptions.h"
+#include "slam/filter/PreparedScan.h"
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopClosure.h"
@@ -38,10 +39,20 @@ struct ScanMap {
   }
 };
 
-/// Builds the map from scans at their poses.
-/// @param base  map to insert them into; default: an empty map
-ScanMap mapOf(const std::vector<PosedScans>& scans, const FilterConfiguration& configuration,
-              const std::optional<ScanMap>& base = {});
+/// Builds maps from scans at their poses.
+class MapMaker {
+ public:
+  explicit MapMaker(const FilterConfiguration& configuration);
+  /// @param base  map to insert the scans into; default: an empty map
+  ScanMap operator()(const std::vector<PosedScans>& scans, const std::optional<ScanMap>& base = {}) const;
+
+ private:
+  ScanPreparation prepare_;
+  GridOptions grid_;
+  LineDatabaseOptions database_;
+  AssociationOptions association_;
+  FeatureOptions features_;
+};
 
 /// Closes the loops that a finished path leaves open, from its first update to its last.
 /// @param path       a pose for each update (map frame); corrected

@@ -71,7 +71,7 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
   OccupancyGrid grid(c.grid.resolution);
   for (const PosedScans& s : scans)
     if (s.isMapped) grid.insert(ScanBeams(toLaserScans(s.scans, c.grid.maxRange)), s.pose, c.grid);
-  const ScanMap map = mapOf(scans, c);
+  const ScanMap map = MapMaker(c)(scans);
   size_t cells = 0;
   grid.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
     ASSERT_TRUE(map.grid.tiles().tileAt(tx, ty));
@@ -82,7 +82,7 @@ TEST(Refinement, TheMapIsThatOfTheMappedScans) {
   EXPECT_GE(map.lines.lines().size(), 3u);
   FilterConfiguration general = c;
   general.useLines = false;
-  EXPECT_TRUE(mapOf(scans, general).lines.lines().empty());
+  EXPECT_TRUE(MapMaker(general)(scans).lines.lines().empty());
 }
 
 /// A drive as the refinement gets it: one pose and one reading for each update.

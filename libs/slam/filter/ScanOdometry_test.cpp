@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "testing/TestLogs.h"
+#include "testing/RoomLog.h"
 
 namespace hybrid_slam {
 namespace {

@@ -88,7 +88,7 @@ TEST_P(Proposals, TracksASquareBetterThanItsOdometry) {
 
 TEST_P(Proposals, SameSeedSameRunForAnyNumberOfThreads) {
   const auto steps = test::drive(2);
-  // TBB shall start as many threads as requested, even with fewer cores.
+  // So that TBB starts as many threads as requested, even with fewer cores.
   const tbb::global_control manyThreads(tbb::global_control::max_allowed_parallelism, 4);
   FilterConfiguration c = configuration();
   const Outcome one = run(c, steps);

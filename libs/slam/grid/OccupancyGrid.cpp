@@ -143,9 +143,10 @@ bool isZero(const uint8_t* counts) {
 
 void GridOptions::describe(OptionTable& t) {
   t.add("resolution", resolution, 0.01, 1, "m", "cell size; the paper uses 5 cm");
-  t.add("max_range", maxRange, 0.5, 200, "m",
-        "readings at or beyond this are no returns: 20 m for an LMS-100; at most 10,000 cells (2,000 with "
-        "MRPT's grid weights)");
+  t.add(
+      "max_range", maxRange, 0.5, 200, "m",
+      "range from which readings count as no returns: 20 m for an LMS-100; at most 10,000 cells (2,000 with "
+      "MRPT's grid weights)");
   t.add("p_hit", pHit, 0.51, 0.99, "", "occupancy of an unknown cell after one hit");
   t.add("p_miss", pMiss, 0.01, 0.49, "",
         "occupancy of an unknown cell after one crossing beam; close to 0.5, so that the first mapping "

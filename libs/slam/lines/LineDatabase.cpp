@@ -58,11 +58,13 @@ void setDirections(std::vector<DatabaseLine>& lines, double window) {
 void LineDatabaseOptions::describe(OptionTable& table) {
   table.add("min_length", minLength, 0, 100, "m", "minimum length of a new line");
   table.add("min_count", minCount, 1, 1000,
-            "lines observed less often are pruned; most come from sensor or localisation errors");
+            "minimum number of observations of a line; others are pruned, as most come from sensor or "
+            "localisation errors");
   table.add("prune_interval", pruneInterval, 1, 10000,
             "updates between prunings, and grace period of a new line");
   table.addAngle("direction_window_deg", directionWindow, 0, 22.5,
-                 "lines whose directions agree within this, modulo 90 deg, share one dominating direction");
+                 "largest difference, modulo 90 deg, between the directions of lines that share one "
+                 "dominating direction");
 }
 
 DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

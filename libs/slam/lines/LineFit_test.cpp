@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "base/Errors.h"
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/RandomStream.h"
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

@@ -34,7 +34,7 @@ void LineWeightOptions::describe(OptionTable& table) {
                  "paper: largest deviation from parallel or perpendicular for a match");
   table.add("floor", floor, 1e-6, 1, "", "minimum weight, so that one bad scan cannot kill a particle");
   table.add("radius", radius, 0, 1000, "m",
-            "lines are compared with those of the database within this distance of the robot; 0: with all");
+            "largest distance from the robot of a database line that is compared; 0: no limit");
 }
 
 LineDatabase linesNear(const LineDatabase& database, const mrpt::math::TPoint2D& robot, double radius) {

@@ -4,7 +4,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include "base/Errors.h"
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

@@ -8,9 +8,9 @@ namespace hybrid_slam {
 using mrpt::math::TPoint2D;
 
 void SegmentationOptions::describe(OptionTable& table) {
-  table.add(
-      "gap_absolute", gapAbsolute, 0, 10, "m",
-      "a gap between neighbouring points larger than gap_absolute + gap_relative x range ends a segment");
+  table.add("gap_absolute", gapAbsolute, 0, 10, "m",
+            "constant part of the largest gap between neighbouring points of a segment, gap_absolute + "
+            "gap_relative x range");
   table.add("gap_relative", gapRelative, 0, 1, "",
             "range-dependent part of that gap (beam spacing grows with range)");
   table.add("split", split, "split segments at corners (iterative end-point fit); not in the paper");

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/lines/LineExtractor.h"
-#include "testing/TestScans.h"
+#include "testing/TestLines.h"
 
 namespace hybrid_slam {
 namespace {

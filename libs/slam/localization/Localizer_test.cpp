@@ -46,12 +46,6 @@ class Drive {
   RandomStream random_;
 };
 
-FilterConfiguration with(Proposal proposal) {
-  FilterConfiguration c;
-  c.filter.proposal = proposal;
-  return c;
-}
-
 TEST(Localizer, TracksFromAGivenStart) {
   const RoomMap map = mapOf(room());
   for (const auto proposal : {Proposal::improved, Proposal::standard})

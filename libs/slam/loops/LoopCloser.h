@@ -32,6 +32,8 @@ class LoopCloser {
  public:
   LoopCloser(const LoopClosingOptions& options, const GridOptions& grid);
 
+  /// Forgets the path.
+  void reset() { *this = LoopCloser(options_, grid_); }
   /// Adds an update: its motion by the best path, the scans after it, and their lines (robot frame; empty
   /// without lines).
   void add(const mrpt::math::TPose2D& motion, const LaserScans& scans, const std::vector<LineSegment>& lines,

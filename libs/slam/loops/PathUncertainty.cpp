@@ -66,8 +66,9 @@ Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vect
   Eigen::Matrix3d least = along(from, to, at);
   for (const KnownPair& pair : known) {
     const size_t near = from <= to ? pair.earlier : pair.later, far = from <= to ? pair.later : pair.earlier;
-    const Eigen::Matrix3d detour =
-        along(from, near, at) + movedBy(at - places_[far], pair.covariance) + along(far, to, at);
+    const Eigen::Matrix3d ofPair =
+        pair.hasLever ? movedBy(at - places_[pair.later], pair.covariance) : pair.covariance;
+    const Eigen::Matrix3d detour = along(from, near, at) + ofPair + along(far, to, at);
     if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
   }
   return least;

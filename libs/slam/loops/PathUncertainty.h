@@ -33,6 +33,9 @@ StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 struct KnownPair {
   size_t earlier = 0, later = 0;                         ///< indices of the path
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the later one, map frame
+  /// Whether its heading error displaces the poses beyond. Loop closing is tuned without: it knows a pair to
+  /// 0.5 deg at best, so that distant poses would seem uncertain by metres.
+  bool hasLever = false;
 
   template <class State>
   void visit(State& state) {

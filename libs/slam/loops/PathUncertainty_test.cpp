@@ -54,11 +54,14 @@ TEST(PathUncertainty, TheHeadingOfAKnownPairMovesWhatFollows) {
   const Eigen::Matrix3d heading = Eigen::Vector3d(0, 0, variance).asDiagonal();
   const PathUncertainty path = outAndBack();
   const Eigen::Matrix3d more =
-      path.between(5, 70, {KnownPair{10, 90, heading}}) - path.between(5, 70, {KnownPair{10, 90}});
+      path.between(5, 70, {KnownPair{10, 90, heading, true}}) - path.between(5, 70, {KnownPair{10, 90}});
   EXPECT_NEAR(more(0, 0), 0, 1e-12);
   EXPECT_NEAR(more(1, 1), 400 * variance, 1e-12);
   EXPECT_NEAR(more(1, 2), 20 * variance, 1e-12);
   EXPECT_NEAR(more(2, 2), variance, 1e-12);
+  const Eigen::Matrix3d without =
+      path.between(5, 70, {KnownPair{10, 90, heading}}) - path.between(5, 70, {KnownPair{10, 90}});
+  EXPECT_NEAR(without(1, 1), 0, 1e-12) << "as loop closing takes it";
 }
 
 TEST(PathUncertainty, ASlipIsWide) {

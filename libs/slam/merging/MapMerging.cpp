@@ -83,7 +83,7 @@ MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement&
   append(scans, newer.scans, result.newer);
   refine(scans, kPasses, configuration.grid, configuration.matcher, configuration.improved.minFit,
          configuration.filter.threads, base);
-  result.map = mapOf(scans, configuration, base);
+  result.map = MapMaker(configuration)(scans, base);
   const size_t first = scans.size() - newer.scans.size();
   for (size_t i = 0; i < scans.size(); ++i)
     (i < first ? result.older[i] : result.newer[i - first]) = scans[i].pose;

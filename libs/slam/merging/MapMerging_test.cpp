@@ -32,7 +32,7 @@ Drive mapAlong(const Walls& walls, const Corners& corners, double heading = 0, d
     drive.part.path.push_back(pose);
     drive.part.scans.push_back(scans.back().scans);
   }
-  drive.part.map = mapOf(scans, FilterConfiguration());
+  drive.part.map = MapMaker(FilterConfiguration())(scans);
   return drive;
 }
 
@@ -143,7 +143,7 @@ TEST(MapPlacement, TwoRoomsThatLookAlikeAreAmbiguous) {
   for (const auto& [walls, corners] : {std::pair(roomAt(0), tour), std::pair(roomAt(30), far)})
     for (const DrivenPose& pose : driveAlong(walls, corners, 0))
       scans.push_back({observed(pose.scans[0]), pose.truth, true});
-  const ScanMap older = mapOf(scans, FilterConfiguration());
+  const ScanMap older = MapMaker(FilterConfiguration())(scans);
   const Drive newer = mapAlong(roomAt(0), tour, 1);
   const MapPlacement placement = placementOf(newer.part.map, older, 1);
   EXPECT_TRUE(placement.hasEvidence());

@@ -4,7 +4,8 @@ namespace hybrid_slam {
 
 void OrthoOptions::describe(OptionTable& t) {
   t.addAngle("max_angle_deg", maxAngle, 0.1, 45,
-             "lines farther off the directions of the building, by the predicted heading, are left out");
+             "largest angle between a line and the building's directions, by the predicted heading; other "
+             "lines are left out");
   t.addAngle("sigma_angle_deg", sigmaAngle, 0.01, 22.5,
              "standard deviation of a scan's heading from its lines; walls are not exactly at right angles");
   t.add("sigma_offset", sigmaOffset, 0.001, 10, "m", "standard deviation of a line's distance");

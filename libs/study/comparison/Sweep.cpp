@@ -3,8 +3,6 @@
 #include <map>
 
 #include "base/Options.h"
-#include "readings/RawlogSource.h"
-#include "run/LogSettings.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -35,17 +33,19 @@ std::vector<std::string> commandOf(const std::string& program, const RunSetup& s
 
 std::vector<ComparisonRun> makeSweep(const CommonSetup& common, const std::vector<Group>& groups,
                                      const std::vector<Run>& runs, const std::filesystem::path& folder,
-                                     const std::string& program, const std::atomic<bool>& stop) {
+                                     const std::string& program, const std::atomic<bool>& stop,
+                                     const LogReport& report) {
   RunIdentity log;
   noteLog(log, common.log);
   std::map<std::string, run::LogSettings> byInput;
-  const auto ofLog = [&](const readings::InputOptions& input) -> const run::LogSettings& {
+  const auto ofLog = [&](const Group& group, const readings::InputOptions& input) -> const run::LogSettings& {
     std::string values;
     for (const Option& option : input.table()) values += option.get() + "\n";
     const auto [found, isNew] = byInput.try_emplace(values);
     if (isNew) {
       const auto summary = readings::summarise(common.log, input, [&] { return stop.load(); });
       found->second = run::readLogSettings(common.log, input, summary);
+      if (report) report(group, summary, found->second);
     }
     return found->second;
   };
@@ -54,7 +54,7 @@ std::vector<ComparisonRun> makeSweep(const CommonSetup& common, const std::vecto
     const Group& group = groups[r.group];
     const RunSetup setup = setupOf(common, group, r.seed);
     run::Configuration configuration = setup.configuration();
-    run::applyLogSettings(ofLog(configuration.input), configuration);
+    run::applyLogSettings(ofLog(group, configuration.input), configuration);
     RunIdentity identity = log;
     identity.configuration = configuration.text();
     if (group.method == "stock") identity.otherSections = otherSections(configuration);
