@@ -153,15 +153,17 @@ TEST(Messages, ScanOfCdrByHand) {
 }
 
 /// Not a recording either. Doubles are aligned to 8 bytes, counted after the four that name the byte order.
+/// In ROS's own messages the unused bytes between are not always 0.
 TEST(Messages, TransformsOfCdrByHand) {
   const unsigned char kBytes[] = {
-      0, 1, 0, 0,                                    // little-endian CDR
-      1, 0, 0, 0, 2,   0,   0,    0,    0, 0, 0, 0,  // one transform, at 2 s
-      5, 0, 0, 0, 'o', 'd', 'o',  'm',  0, 0, 0, 0,  // parent, 3 bytes unused
-      2, 0, 0, 0, 'b', 0,   0,    0,                 // child, 2 bytes unused
-      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0xc0, 0, 0, 0, 0, 0, 0, 0, 0,  // 1, -2, 0
-      0, 0, 0, 0, 0,   0,   0,    0,    0, 0, 0, 0, 0, 0, 0, 0,   // x and y of the quaternion
-      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0, 0};  // its z and w: 1, 0
+      0, 1, 0, 0,                                             // little-endian CDR
+      1, 0, 0, 0, 2,   0,   0,    0,    0, 0,    0,    0,     // one transform, at 2 s
+      5, 0, 0, 0, 'o', 'd', 'o',  'm',  0, 0x5f, 0x72, 0x6f,  // parent, 3 bytes unused
+      2, 0, 0, 0, 'b', 0,   0x36, 0x38,                       // child, 2 bytes unused
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0,    0,    0,    0, 0, 0, 0xc0,
+      0, 0, 0, 0, 0,   0,   0,    0,                                       // 1, -2, 0
+      0, 0, 0, 0, 0,   0,   0,    0,    0, 0,    0,    0,    0, 0, 0, 0,   // x and y of the quaternion
+      0, 0, 0, 0, 0,   0,   0xf0, 0x3f, 0, 0,    0,    0,    0, 0, 0, 0};  // its z and w: 1, 0
   const auto all = decode<std::vector<TransformMessage>>(
       MessageType::transforms, Encoding::cdr, {reinterpret_cast<const char*>(kBytes), sizeof kBytes});
   ASSERT_EQ(all.size(), 1u);
