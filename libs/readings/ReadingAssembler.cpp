@@ -74,7 +74,7 @@ std::optional<Reading> ReadingAssembler::next() {
 
 void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& object) {
   const auto increment = incrementOf(object);
-  if (increment && isFinite(*increment)) {
+  if (increment && !hasOdometryReadings_ && isFinite(*increment)) {
     if (isJump({}, *increment))
       ++jumps_;
     else

@@ -54,8 +54,8 @@ constexpr size_t kMostEarly = 5;
 class ReadingAssembler {
  public:
   /// @param lasers               labels of the lasers to use; none: all
-  /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it; else such
-  ///                             observations are ignored
+  /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it, and actions
+  ///                             are ignored; else such observations are ignored
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
   /// @param sweeps               durations of the scans; default: as the log states
   ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,

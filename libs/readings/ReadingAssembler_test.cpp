@@ -56,6 +56,16 @@ TEST(ReadingAssembler, OdometryThatIsNotExpectedIsIgnored) {
     for (const auto& taken : reading->scans) EXPECT_EQ(taken->sensorPose.norm(), 0) << taken->sensorLabel;
 }
 
+TEST(ReadingAssembler, ActionsDoNotAddToOdometryReadings) {
+  test::Log log;
+  for (int i = 0; i < 4; ++i) {
+    log.push_back(odometry(1 + i, {1.0 * i, 0, 0}));
+    log.push_back(test::action({i > 0 ? 1.0 : 0.0, 0, 0}));
+    log.push_back(scan(1 + i));
+  }
+  EXPECT_NEAR(endOf(assembled(log)).x, 3, 1e-9);
+}
+
 /// Odometry that is wrong by steps below the limit of a jump does not place a laser far from its robot.
 TEST(ReadingAssembler, ScansFarApartAreNoReading) {
   test::Log log{odometry(1, {0, 0, 0}), scan(1, {}, 3, "front"), scan(1, {}, 3, "rear")};
