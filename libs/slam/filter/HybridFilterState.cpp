@@ -9,8 +9,7 @@ void HybridFilter::visit(State& state) {
   state(particles_, odometry_, updates_, hasMap_, remembersScans_, loopCloser_, base_, known_, updateScans_);
   bool isWhole = !base_ || base_->grid.resolution() == resolution_;
   isWhole = isWhole && updateScans_.size() == (remembersScans_ ? updates_ : 0) &&
-            loopCloser_.updates() == (closesLoops_ ? updates_ : 0) &&
-            particles_.arePathsOf(updates_ + 1);
+            loopCloser_.updates() == (closesLoops_ ? updates_ : 0) && particles_.arePathsOf(updates_ + 1);
   for (const Scans& scans : updateScans_)
     for (const auto& scan : scans) isWhole = isWhole && scan;
   for (const PosedScans& posed : known_)
