@@ -56,12 +56,12 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   std::vector<Hypothesis> hypotheses{usual};
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
-    hypotheses = searchWindow({options_.slipDistance, options_.slipAngle}, best, expected, usual, scan);
+    hypotheses = searchNearby(odometry, best, expected, usual, scan);
     const auto isContradicted = [&] {
       return beamShares(scan.matchedBeams, hypotheses[0].match.pose, best.grid).contradicted > kContradicted;
     };
     if (isContradicted())
-      hypotheses = searchWindow({options_.slipDistance, M_PI}, best, expected, usual, scan);
+      hypotheses = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
     if (isContradicted()) {
       contradicting_.push_back({odometry, scan.matchedBeams});
       if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
@@ -105,19 +105,35 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
   return kept;
 }
 
-std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(const SearchWindow& window,
+// Around the odometry; if the scan does not fit there, around a robot that stood still (spinning wheels) and
+// one that moved backward (the odometry of some robots lacks the sign).
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchNearby(const TPose2D& odometry,
                                                                  const Particle& best,
                                                                  const MotionDistribution& expected,
                                                                  const Hypothesis& usual,
                                                                  const PreparedScan& scan) const {
+  const SearchWindow window{options_.slipDistance, options_.slipAngle};
+  std::vector<Hypothesis> found = searchWindow(expected.mean, window, best, expected, usual, scan);
+  const bool isCovered = odometry.norm() <= options_.slipDistance / 2;  // backward is 2 steps away
+  if (isCovered || found[0].match.fit >= kPoorFit * usualFit_) return found;
+  for (const double share : {0, -1}) {
+    const TPose2D motion(share * odometry.x, share * odometry.y, odometry.phi);
+    const auto more = searchWindow(best.path.back() + motion, window, best, expected, usual, scan);
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  return rivals(std::move(found));
+}
+
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(
+    const TPose2D& centre, const SearchWindow& window, const Particle& best,
+    const MotionDistribution& expected, const Hypothesis& usual, const PreparedScan& scan) const {
   const Eigen::Matrix3d information = expected.covariance.inverse();
   // ln of the density of a slip over that of the motion model at its mean.
   const double slip =
       std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
       0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
   std::vector<Hypothesis> all{usual};
-  for (const TPose2D& place :
-       correlativeSearch(scan.matchedBeams, expected.mean, best.grid, window, kPlaces)) {
+  for (const TPose2D& place : correlativeSearch(scan.matchedBeams, centre, best.grid, window, kPlaces)) {
     const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
     const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
     all.push_back({match, logWeight(match.pose, best, scan) + std::max(modelled, slip), slip > modelled});

@@ -21,10 +21,11 @@ struct StepMotion {
 };
 
 /// Once per step, the scan is matched to the best particle's map from the odometry; the result starts the
-/// other particles' matches. If it fits much worse than earlier scans, a window around it is searched, and if
-/// the scan contradicts the map at the best pose there, the window at all headings. After several such scans
-/// in succession, the robot was carried: the whole map is searched for a place that all of them fit, with
-/// lines first at the four headings that align their walls with the map's, and then at all headings.
+/// other particles' matches. If it fits much worse than earlier scans, a window around it is searched, then
+/// one around no motion and one around the opposite of the odometry; and if the scan contradicts the map at
+/// the best pose there, the first window at all headings. After several such scans in succession, the robot
+/// was carried: the whole map is searched for a place that all of them fit, with lines first at the four
+/// headings that align their walls with the map's, and then at all headings.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
@@ -52,9 +53,12 @@ class SlipRecovery {
     bool hasSlipped;
     bool isElsewhere = false;  ///< found in the whole map
   };
-  std::vector<Hypothesis> searchWindow(const SearchWindow& window, const Particle& best,
+  std::vector<Hypothesis> searchNearby(const mrpt::math::TPose2D& odometry, const Particle& best,
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
+  std::vector<Hypothesis> searchWindow(const mrpt::math::TPose2D& centre, const SearchWindow& window,
+                                       const Particle& best, const MotionDistribution& expected,
+                                       const Hypothesis& usual, const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
   /// Returns whether the contradicting scans fit the map if the newest was taken at `pose`.
   bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;

@@ -51,6 +51,22 @@ TEST(SlipRecovery, FindsTheMotionAfterASlip) {
   }
 }
 
+/// In a long step, the error of spinning wheels or of odometry without its sign is beyond the window.
+TEST(SlipRecovery, FindsARobotThatStoodStillOrMovedBackward) {
+  const TPose2D odometry(1.2, 0.1, 0.2);
+  for (const double share : {0, -1}) {
+    Particle particle = test::particleAt(test::room(), kStart);
+    SlipRecovery recovery = used(particle, test::room());
+    RandomStream random(9, 0, 0);
+    const TPose2D truth = kStart + TPose2D(share * odometry.x, share * odometry.y, odometry.phi);
+    const StepMotion motion =
+        recovery.motionsOf(particle, odometry, test::prepared(test::room(), truth, random)).front();
+    EXPECT_TRUE(motion.hasSlipped) << share;
+    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.03) << share;
+    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 0.5 * test::kDegree) << share;
+  }
+}
+
 struct Found {
   bool isTrue = false;  ///< a hypothesis was the true pose
   size_t most = 0;      ///< number of hypotheses in a step
