@@ -15,59 +15,81 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr int kStep = 2;                           // cells
+constexpr size_t kLanes = 16;                      // sums in two SIMD registers
 constexpr double kStepAngle = mrpt::DEG2RAD(1.0);  // rad
-constexpr size_t kMostBeams = 120;
+constexpr size_t kMostBeams = 120;                 // at most 257, so that sums fit into 16 bits
 
-/// A rectangle of cells with max(0, 2 p - 1) in steps of 1/255: the maximum over each cell and its
-/// neighbours.
+/// max(0, 2 p - 1) in steps of 1/255, indexed by a cell's value as an unsigned byte.
+const std::array<uint8_t, 256>& occupied() {
+  static const auto table = [] {
+    std::array<uint8_t, 256> values;
+    for (int value = -128; value < 128; ++value) {
+      const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
+      values[static_cast<uint8_t>(value)] = static_cast<uint8_t>(std::lround(255 * std::max(0.0, 2 * p - 1)));
+    }
+    return values;
+  }();
+  return table;
+}
+
+/// The occupied() of a rectangle of cells: the maximum over each cell and its neighbours. Every kStep-th cell
+/// of a row is stored side by side, so that their scores are summed kLanes at a time.
 class WidenedMap {
  public:
   WidenedMap(const OccupancyGrid& grid, const CellBox& box)
-      : minX_(box.min.x - 1),
-        minY_(box.min.y - 1),
-        width_(box.max.x - box.min.x + 3),
-        height_(box.max.y - box.min.y + 3),
-        cells_(static_cast<size_t>(width_) * static_cast<size_t>(height_)) {
-    std::array<uint8_t, 256> occupied;
-    for (int value = -128; value < 128; ++value) {
-      const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
-      occupied[static_cast<size_t>(value + 128)] =
-          static_cast<uint8_t>(std::lround(255 * std::max(0.0, 2 * p - 1)));
-    }
+      : min_(box.min),
+        width_(static_cast<size_t>((box.max.x - box.min.x) / kStep + 1)),
+        cells_(static_cast<size_t>(box.max.y - box.min.y + 1) * kStep * width_ + kLanes) {
+    std::array<std::vector<uint8_t>, 3> rows;  // widened in x: those below, at and above y
     TileReader reader(grid.tiles());
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x)
-        at(x, y) = occupied[static_cast<size_t>(reader.at(minX_ + x, minY_ + y) + 128)];
-    widen(1, width_, width_, height_);
-    widen(width_, height_, 1, width_);
-  }
-  /// Value of a cell inside the box.
-  const uint8_t* cell(int x, int y) const {
-    return &cells_[static_cast<size_t>(y - minY_) * static_cast<size_t>(width_) +
-                   static_cast<size_t>(x - minX_)];
-  }
-
- private:
-  uint8_t& at(int x, int y) {
-    return cells_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
-  }
-  /// Running maximum of three along `lines` lines of `length` cells; cells are `stride` apart, lines `next`
-  /// apart.
-  void widen(int stride, int length, int next, int lines) {
-    for (int line = 0; line < lines; ++line) {
-      uint8_t* cell = &cells_[static_cast<size_t>(line) * static_cast<size_t>(next)];
-      uint8_t before = 0;
-      for (int i = 0; i < length; ++i, cell += stride) {
-        const uint8_t own = *cell, after = i + 1 < length ? cell[stride] : uint8_t{0};
-        *cell = std::max({before, own, after});
-        before = own;
+    for (int y = min_.y - 1; y <= box.max.y + 1; ++y) {
+      std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+      rows[2] = widenedRow(reader, y);
+      if (y <= min_.y) continue;
+      for (size_t phase = 0; phase < kStep; ++phase) {
+        uint8_t* const cells = &cells_[(static_cast<size_t>(y - 1 - min_.y) * kStep + phase) * width_];
+        for (size_t i = 0; i < width_; ++i) {
+          const size_t x = i * kStep + phase;
+          cells[i] = std::max(std::max(rows[0][x], rows[1][x]), rows[2][x]);
+        }
       }
     }
   }
+  /// Cell (x, y); the next ones are kStep cells apart.
+  const uint8_t* cell(int x, int y) const {
+    const auto column = static_cast<size_t>(x - min_.x), row = static_cast<size_t>(y - min_.y);
+    return &cells_[(row * kStep + column % kStep) * width_ + column / kStep];
+  }
 
-  int minX_, minY_, width_, height_;
-  std::vector<uint8_t> cells_;
+ private:
+  std::vector<uint8_t> widenedRow(TileReader& reader, int y) const {
+    const size_t length = width_ * kStep;
+    std::vector<uint8_t> own(length + 2);  // with a neighbour at each end
+    for (int x = min_.x - 1, next; x <= min_.x + static_cast<int>(length); x = next) {
+      next = (x | (Tile::kSize - 1)) + 1;
+      const Tile* const tile = reader.tile(x >> Tile::kBits, y >> Tile::kBits);
+      if (!tile) continue;
+      const int8_t* const cell = &tile->cells()[Tile::index(x, y)];
+      uint8_t* const to = &own[static_cast<size_t>(x - min_.x + 1)];
+      const auto count =
+          std::min(static_cast<size_t>(next - x), own.size() - static_cast<size_t>(to - own.data()));
+      for (size_t i = 0; i < count; ++i) to[i] = occupied()[static_cast<uint8_t>(cell[i])];
+    }
+    std::vector<uint8_t> widened(length);
+    for (size_t i = 0; i < length; ++i) widened[i] = std::max(std::max(own[i], own[i + 1]), own[i + 2]);
+    return widened;
+  }
+
+  CellIndex min_;
+  size_t width_;
+  std::vector<uint8_t> cells_;  ///< row by row, in each row one phase (x modulo kStep) after the other
 };
+
+/// sums[i] += cells[i], i < count; count is a multiple of kLanes.
+void add(uint16_t* sums, const uint8_t* cells, size_t count) {
+  for (size_t block = 0; block < count; block += kLanes)
+    for (size_t i = block; i < block + kLanes; ++i) sums[i] = static_cast<uint16_t>(sums[i] + cells[i]);
+}
 
 }  // namespace
 
@@ -99,28 +121,26 @@ std::vector<TPose2D> correlativeSearch(const ScanBeams& scan, const TPose2D& cen
   const WidenedMap map(grid,
                        {{box.min.x - reach, box.min.y - reach}, {box.max.x + reach, box.max.y + reach}});
 
-  std::vector<uint32_t> scores(static_cast<size_t>(angles * side * side));
-  const auto score = [&](int k, int j, int i) -> uint32_t& {
-    return scores[static_cast<size_t>((k * side + j) * side + i)];
+  const size_t stride = (static_cast<size_t>(side) + kLanes - 1) / kLanes * kLanes;  // sums of a row
+  std::vector<uint16_t> scores(static_cast<size_t>(angles * side) * stride);
+  const auto score = [&](int k, int j, int i) -> uint16_t& {
+    return scores[static_cast<size_t>(k * side + j) * stride + static_cast<size_t>(i)];
   };
   for (int k = 0; k < angles; ++k)
     for (const CellIndex& end : ends[static_cast<size_t>(k)])
-      for (int j = 0; j < side; ++j) {
-        const uint8_t* row = map.cell(end.x - reach, end.y + (j - n) * kStep);
-        uint32_t* sums = &score(k, j, 0);
-        for (int i = 0; i < side; ++i) sums[i] += row[i * kStep];
-      }
+      for (int j = 0; j < side; ++j)
+        add(&score(k, j, 0), map.cell(end.x - reach, end.y + (j - n) * kStep), stride);
 
   struct Place {
-    uint32_t score;
+    int score;
     TPose2D pose;
   };
   std::vector<Place> places;
   for (int k = 0; k < angles; ++k)
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
-        const uint32_t own = score(k, j, i);
-        bool isTop = own > 0;
+        const int own = score(k, j, i);
+        bool isTop = own > (i > 0 ? score(k, j, i - 1) : 0);  // of most poses no more is looked at
         for (int dk = -1; dk <= 1 && isTop; ++dk)
           for (int dj = -1; dj <= 1 && isTop; ++dj)
             for (int di = -1; di <= 1 && isTop; ++di) {

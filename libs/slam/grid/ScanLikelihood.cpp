@@ -64,8 +64,14 @@ void ScanLikelihood::read(Patch& patch) {
     first = &tile->cells()[Tile::index(x, y)];
     stride = Tile::kSize;
   } else {
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) copied[4 * row + column] = cells_.at(x + column, y + row);
+    for (int begin = 0, end; begin < 4; begin = end) {  // the columns of one tile, then those of the next
+      end = std::min(4, ((x + begin) | (Tile::kSize - 1)) + 1 - x);
+      for (int row = 0; row < 4; ++row) {
+        const Tile* const tile = cells_.tile((x + begin) >> Tile::kBits, (y + row) >> Tile::kBits);
+        for (int column = begin; column < end; ++column)
+          copied[4 * row + column] = tile ? tile->cells()[Tile::index(x + column, y + row)] : int8_t{0};
+      }
+    }
   }
   // Free and unknown cells have m = 0: test whether any byte is positive, four at a time.
   uint32_t positive = 0;
@@ -114,15 +120,21 @@ void ScanLikelihood::forEachEnd(const TPose2D& pose, const Visit& visit) {
   }
 }
 
-LogDensity ScanLikelihood::operator()(const TPose2D& pose) {
+/// Calls visit(residual, dx, dy, dphi) for each beam: its residual, and the derivatives of -residual.
+template <class Visit>
+void ScanLikelihood::forEachResidual(const TPose2D& pose, const Visit& visit) {
   const double robotX = pose.x * perCell_, robotY = pose.y * perCell_;
-  double squares = 0, gx = 0, gy = 0, gphi = 0, xx = 0, xy = 0, xphi = 0, yy = 0, yphi = 0, phiphi = 0;
   forEachEnd<true>(pose, [&](double x, double y, const MapSample& sample) {
-    const double residual = 1 - sample.m;
-    squares += residual * residual;
     // Rotation moves the end point perpendicular to the lever arm.
-    const double dx = sample.dx * perCell_, dy = sample.dy * perCell_;
-    const double dphi = -sample.dx * (y - robotY) + sample.dy * (x - robotX);
+    visit(1 - sample.m, sample.dx * perCell_, sample.dy * perCell_,
+          -sample.dx * (y - robotY) + sample.dy * (x - robotX));
+  });
+}
+
+LogDensity ScanLikelihood::operator()(const TPose2D& pose) {
+  double squares = 0, gx = 0, gy = 0, gphi = 0, xx = 0, xy = 0, xphi = 0, yy = 0, yphi = 0, phiphi = 0;
+  forEachResidual(pose, [&](double residual, double dx, double dy, double dphi) {
+    squares += residual * residual;
     gx += residual * dx, gy += residual * dy, gphi += residual * dphi;
     xx += dx * dx, xy += dx * dy, xphi += dx * dphi;
     yy += dy * dy, yphi += dy * dphi, phiphi += dphi * dphi;
@@ -133,6 +145,14 @@ LogDensity ScanLikelihood::operator()(const TPose2D& pose) {
   density.information << xx, xy, xphi, xy, yy, yphi, xphi, yphi, phiphi;
   density.information *= weight_;
   return density;
+}
+
+Eigen::Vector3d ScanLikelihood::gradient(const TPose2D& pose) {
+  double gx = 0, gy = 0, gphi = 0;
+  forEachResidual(pose, [&](double residual, double dx, double dy, double dphi) {
+    gx += residual * dx, gy += residual * dy, gphi += residual * dphi;
+  });
+  return weight_ * Eigen::Vector3d(gx, gy, gphi);
 }
 
 double ScanLikelihood::value(const TPose2D& pose) {

@@ -25,6 +25,8 @@ class ScanLikelihood {
   ScanLikelihood(const ScanBeams& scan, const OccupancyGrid& grid, double sigma);
 
   LogDensity operator()(const mrpt::math::TPose2D& pose);
+  /// Returns the gradient alone.
+  Eigen::Vector3d gradient(const mrpt::math::TPose2D& pose);
   /// Returns the log-likelihood without its derivatives.
   double value(const mrpt::math::TPose2D& pose);
   /// Mean of m at the beam end points, in [0, 1]; 0 without beams.
@@ -42,6 +44,8 @@ class ScanLikelihood {
   void read(Patch& patch);
   template <bool kWithSlope, class Visit>
   void forEachEnd(const mrpt::math::TPose2D& pose, const Visit& visit);
+  template <class Visit>
+  void forEachResidual(const mrpt::math::TPose2D& pose, const Visit& visit);
 
   const ScanBeams& scan_;
   double resolution_, perCell_, weight_;

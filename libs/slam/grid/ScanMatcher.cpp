@@ -47,7 +47,7 @@ Eigen::Matrix3d scanInformation(ScanLikelihood& likelihood, const TPose2D& pose)
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);
     bend.col(k) =
-        (likelihood(moved(pose, -step)).gradient - likelihood(moved(pose, step)).gradient) / (2 * reach[k]);
+        (likelihood.gradient(moved(pose, -step)) - likelihood.gradient(moved(pose, step))) / (2 * reach[k]);
   }
   // Directions of positive curvature hold no information.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);

@@ -109,6 +109,7 @@ TEST(ScanMatcher, TheGradientMatchesTheValue) {
     const auto value = [&](const TPose2D& at) { return matcher().likelihood(scan, room()).value(at); };
     const LogDensity density = matcher().likelihood(scan, room())(pose);
     EXPECT_NEAR(density.value, value(pose), 1e-9 * std::abs(density.value));
+    EXPECT_EQ(matcher().likelihood(scan, room()).gradient(pose), density.gradient);
     EXPECT_LT((density.gradient - differences(value, pose)).norm(), 1e-4 * density.gradient.norm() + 1e-2);
   }
 }
