@@ -22,11 +22,7 @@ void saveRosMap(const files::OutputFolder& folder, const COccupancyGridMap2D& gr
   const MapRaster map(grid, trajectory);
   folder.write("map.pgm", [&map](std::ostream& out) {
     out << "P5\n" << map.width() << " " << map.height() << "\n255\n";
-    std::string row;
-    for (int y = 0; y < map.height(); ++y, row.clear()) {
-      for (int x = 0; x < map.width(); ++x) row += static_cast<char>(map.at(x, y));
-      out << row;
-    }
+    for (int y = 0; y < map.height(); ++y) out.write(reinterpret_cast<const char*>(map.row(y)), map.width());
   });
   // map_server takes a cell for unknown if its darkness, here 50 / 255, is between the thresholds.
   folder.write("map.yaml", [&map](std::ostream& out) {

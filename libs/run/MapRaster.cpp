@@ -1,30 +1,31 @@
 #include "run/MapRaster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hybrid_slam::run {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-MapRaster::MapRaster(const COccupancyGridMap2D& grid, const files::Trajectory& trajectory) : grid_(grid) {
-  findKnownCells();
-  includeRobot(trajectory);
+MapRaster::MapRaster(const COccupancyGridMap2D& grid, const files::Trajectory& trajectory) {
+  findKnownCells(grid);
+  includeRobot(grid, trajectory);
   const auto rounded = [](double metres) { return std::round(metres * 1e5) / 1e5; };  // MRPT uses floats
   cell_ = rounded(grid.getResolution());
   xMin_ = rounded(grid.getXMin() + window_.x0 * static_cast<double>(grid.getResolution()));
   yMin_ = rounded(grid.getYMin() + window_.y0 * static_cast<double>(grid.getResolution()));
-  isDriven_.resize(static_cast<size_t>(width()) * static_cast<size_t>(height()));
+  addCells(grid);
   addDriven(trajectory);
 }
 
 /// Finds the columns and rows with known cells, plus a margin; the whole grid if there are none.
-void MapRaster::findKnownCells() {
+void MapRaster::findKnownCells(const COccupancyGridMap2D& grid) {
   constexpr int kMargin = 10;
-  const int width = static_cast<int>(grid_.getSizeX()), height = static_cast<int>(grid_.getSizeY());
+  const int width = static_cast<int>(grid.getSizeX()), height = static_cast<int>(grid.getSizeY());
   Window known{width, height, -1, -1};
   for (int y = 0; y < height; ++y) {
-    const auto* row = grid_.getRow(y);
+    const auto* row = grid.getRow(y);
     for (int x = 0; x < width; ++x)
       if (row[x] != 0)
         known = {std::min(known.x0, x), std::min(known.y0, y), std::max(known.x1, x), std::max(known.y1, y)};
@@ -36,17 +37,38 @@ void MapRaster::findKnownCells() {
 
 /// Extends the window to the robot, which may start outside its laser's view. Ignores poses far from the map
 /// as wrong.
-void MapRaster::includeRobot(const files::Trajectory& trajectory) {
+void MapRaster::includeRobot(const COccupancyGridMap2D& grid, const files::Trajectory& trajectory) {
   constexpr double kFar = 2;  // m
-  const double cell = grid_.getResolution(), radius = kRobotRadius / cell, far = kFar / cell;
+  const double cell = grid.getResolution(), radius = kRobotRadius / cell, far = kFar / cell;
   const Window known = window_;
   for (const files::StampedPose& stamped : trajectory) {
-    const double x = (stamped.pose.x - grid_.getXMin()) / cell, y = (stamped.pose.y - grid_.getYMin()) / cell;
+    const double x = (stamped.pose.x - grid.getXMin()) / cell, y = (stamped.pose.y - grid.getYMin()) / cell;
     if (!(x > known.x0 - far && x < known.x1 + far && y > known.y0 - far && y < known.y1 + far)) continue;
     window_.x0 = std::min(window_.x0, static_cast<int>(std::floor(x - radius)));
     window_.x1 = std::max(window_.x1, static_cast<int>(std::floor(x + radius)));
     window_.y0 = std::min(window_.y0, static_cast<int>(std::floor(y - radius)));
     window_.y1 = std::max(window_.y1, static_cast<int>(std::floor(y + radius)));
+  }
+}
+
+void MapRaster::addCells(const COccupancyGridMap2D& grid) {
+  using Cell = COccupancyGridMap2D::cellType;
+  static_assert(sizeof(Cell) == 1);
+  std::array<uint8_t, 256> values;
+  for (int logOdds = -128; logOdds < 128; ++logOdds) {
+    const bool isOccupied =
+        1 - COccupancyGridMap2D::l2p(static_cast<Cell>(logOdds)) > static_cast<float>(kOccupiedThreshold);
+    // Free by the log-odds, since MRPT's table of probabilities has no exact half.
+    values[static_cast<uint8_t>(logOdds)] = isOccupied ? kOccupied : logOdds > 0 ? kFree : kUnknown;
+  }
+  cells_.assign(static_cast<size_t>(width()) * static_cast<size_t>(height()), kUnknown);
+  const int first = std::max(window_.x0, 0),
+            last = std::min(window_.x1, static_cast<int>(grid.getSizeX()) - 1);
+  for (int y = std::max(window_.y0, 0); y <= std::min(window_.y1, static_cast<int>(grid.getSizeY()) - 1);
+       ++y) {
+    const Cell* const from = grid.getRow(y);
+    uint8_t* const to = &cells_[index(0, window_.y1 - y)];
+    for (int x = first; x <= last; ++x) to[x - window_.x0] = values[static_cast<uint8_t>(from[x])];
   }
 }
 
@@ -68,11 +90,15 @@ void MapRaster::addDriven(const files::Trajectory& trajectory) {
 
 /// Returns whether no cell on a line is occupied (m, map frame).
 bool MapRaster::isClear(double x0, double y0, double x1, double y1) const {
-  const double column = (x0 - grid_.getXMin()) / cell_, row = (y0 - grid_.getYMin()) / cell_;
-  const double columns = (x1 - x0) / cell_, rows = (y1 - y0) / cell_;
+  const double column = (x0 - xMin_) / cell_, row = height() - (y0 - yMin_) / cell_;
+  const double columns = (x1 - x0) / cell_, rows = -(y1 - y0) / cell_;
   const int steps = static_cast<int>(std::ceil(4 * std::hypot(columns, rows)));
-  for (int k = 0; k <= steps; ++k)
-    if (isOccupied(column + columns * k / steps, row + rows * k / steps)) return false;
+  for (int k = 0; k <= steps; ++k) {
+    const double x = column + columns * k / steps, y = row + rows * k / steps;
+    if (x >= 0 && y >= 0 && x < width() && y < height() &&
+        at(static_cast<int>(x), static_cast<int>(y)) == kOccupied)
+      return false;
+  }
   return true;
 }
 
@@ -85,28 +111,9 @@ void MapRaster::addRobot(double x, double y) {
   };
   for (int row = within(south - radius, height()); row <= within(south + radius, height()); ++row)
     for (int column = within(east - radius, width()); column <= within(east + radius, width()); ++column)
-      if (std::hypot(column + 0.5 - east, row + 0.5 - south) <= radius)
-        isDriven_[static_cast<size_t>(row) * static_cast<size_t>(width()) + static_cast<size_t>(column)] =
-            true;
-}
-
-bool MapRaster::isInGrid(double x, double y) const {
-  return x >= 0 && y >= 0 && x < static_cast<double>(grid_.getSizeX()) &&
-         y < static_cast<double>(grid_.getSizeY());
-}
-
-bool MapRaster::isOccupied(double x, double y) const {
-  return isInGrid(x, y) &&
-         1 - grid_.getCell(static_cast<int>(x), static_cast<int>(y)) > static_cast<float>(kOccupiedThreshold);
-}
-
-uint8_t MapRaster::at(int column, int row) const {
-  const int x = window_.x0 + column, y = window_.y1 - row;
-  if (isOccupied(x, y)) return kOccupied;
-  // The log-odds, since MRPT's table of probabilities has no exact half.
-  if (isInGrid(x, y) && grid_.getRow(y)[x] > 0) return kFree;
-  const size_t i = static_cast<size_t>(row) * static_cast<size_t>(width()) + static_cast<size_t>(column);
-  return isDriven_[i] ? kFree : kUnknown;
+      if (uint8_t& cell = cells_[index(column, row)];
+          cell == kUnknown && std::hypot(column + 0.5 - east, row + 0.5 - south) <= radius)
+        cell = kFree;
 }
 
 uint8_t MapRaster::at(int column, int row, int side) const {

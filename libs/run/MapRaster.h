@@ -22,7 +22,6 @@ class MapRaster {
   /// Occupancies above this are occupied: two hits with the default `[grid] p_hit`.
   static constexpr double kOccupiedThreshold = 0.65;
 
-  /// @param grid  kept by reference
   MapRaster(const mrpt::maps::COccupancyGridMap2D& grid, const files::Trajectory& trajectory);
 
   int width() const { return window_.x1 - window_.x0 + 1; }   ///< cells
@@ -32,7 +31,9 @@ class MapRaster {
   double bottom() const { return yMin_; }                     ///< m, map frame, of the southern edge
   /// Returns the value of a cell: occupied by the threshold; free if beams crossed it more often than they
   /// hit it, or if the robot drove over it.
-  uint8_t at(int column, int row) const;
+  uint8_t at(int column, int row) const { return cells_[index(column, row)]; }
+  /// Returns the values of a row, `width()` of them.
+  const uint8_t* row(int row) const { return &cells_[index(0, row)]; }
   /// Returns the value of `side` x `side` cells: occupied if any is, else free if any is, so that thin walls
   /// remain.
   uint8_t at(int column, int row, int side) const;
@@ -41,21 +42,19 @@ class MapRaster {
   struct Window {
     int x0, y0, x1, y1;  ///< both ends included
   };
-  void findKnownCells();
-  void includeRobot(const files::Trajectory& trajectory);
+  size_t index(int column, int row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(width()) + static_cast<size_t>(column);
+  }
+  void findKnownCells(const mrpt::maps::COccupancyGridMap2D& grid);
+  void includeRobot(const mrpt::maps::COccupancyGridMap2D& grid, const files::Trajectory& trajectory);
+  void addCells(const mrpt::maps::COccupancyGridMap2D& grid);
   void addDriven(const files::Trajectory& trajectory);
   void addRobot(double x, double y);
   bool isClear(double x0, double y0, double x1, double y1) const;
-  /// @name Places in cells of the grid, from its south-western corner
-  /// @{
-  bool isInGrid(double x, double y) const;
-  bool isOccupied(double x, double y) const;
-  /// @}
 
-  const mrpt::maps::COccupancyGridMap2D& grid_;
   Window window_{};  ///< cells of the grid; partly outside of it where the robot was
   double cell_, xMin_, yMin_;
-  std::vector<bool> isDriven_;  ///< row by row from the north
+  std::vector<uint8_t> cells_;  ///< row by row from the north
 };
 
 }  // namespace hybrid_slam::run
