@@ -9,33 +9,19 @@ OUT defaults to out/odometry-faults. Runs the default command with seeds 1 to SE
 HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 25 minutes on one core.
 """
 import gzip
-import json
 import math
 import os
 import pathlib
 import random
 import statistics
-import subprocess
 import sys
 
 from planar import compose, inverse
-
-DATA = pathlib.Path(os.environ["HYBRID_SLAM_DATASETS"])
-BIN = pathlib.Path("build/release/bin")
-NAMES = {"intel-lab": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079", "mit-killian": "MIT Killian Court"}
-
+from public_logs import BOUNDS, DATA, NAMES, error, rows, run
 
 def add(a, b):
     x, y, phi = compose(a, b)
     return x, y, math.remainder(phi, math.tau)
-
-
-def rows(log):
-    """The ODOM and FLASER rows as (fields, index of the odometry pose, time)."""
-    for line in gzip.open(DATA / f"{log}.clf.gz", "rt"):
-        fields = line.split()
-        if fields and fields[0] in ("ODOM", "FLASER"):
-            yield fields, 1 if fields[0] == "ODOM" else int(fields[1]) + 5, float(fields[-3])
 
 
 def write(file, log, transform):
@@ -78,26 +64,6 @@ class Carry:
         return add(self.origin, pose)
 
 
-def run(log, out, seed):
-    if not (out / "metrics.json").exists():
-        command = [BIN / "hybrid-slam", log, "-q", "--seed", str(seed), "--overwrite", "-o", out]
-        with open(f"{out}.log", "w") as errors:
-            subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=errors)
-    return json.loads((out / "metrics.json").read_text())
-
-
-def error(log, out, chosen=None):
-    """The mean translation error (m) over the official relations, or over the chosen ones."""
-    relations = DATA / f"{log}.relations"
-    if chosen is not None:
-        relations = pathlib.Path(f"{out}.relations")
-        relations.write_text("".join(chosen))
-    command = [BIN / "slam-eval", "relations", "--trajectory", out / "trajectory.tum", "--relations", relations]
-    if (DATA / f"{log}.odom.gz").exists():
-        command += ["--odometry", DATA / f"{log}.odom.gz"]
-    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["trans_mean_m"]
-
-
 def print_row(log, fault, errors, bound, verdicts):
     good = [e < bound for e in errors]
     lost = [verdict for verdict, ok in zip(verdicts, good) if not ok]
@@ -106,7 +72,7 @@ def print_row(log, fault, errors, bound, verdicts):
 
 
 def restarts(out):
-    for log, bound in (("intel-lab", 0.1), ("csail", 0.1), ("fr079", 0.1), ("mit-killian", 0.3)):
+    for log, bound in BOUNDS.items():
         errors, verdicts = [], []
         for percent in (30, 50, 70):
             file = out / f"{log}-restart-{percent}.clf.gz"
