@@ -90,13 +90,13 @@ void MapRaster::addDriven(const files::Trajectory& trajectory) {
 
 /// Returns whether no cell on a line is occupied (m, map frame).
 bool MapRaster::isClear(double x0, double y0, double x1, double y1) const {
-  const double column = (x0 - xMin_) / cell_, row = height() - (y0 - yMin_) / cell_;
-  const double columns = (x1 - x0) / cell_, rows = -(y1 - y0) / cell_;
+  const double column = (x0 - xMin_) / cell_, row = (y0 - yMin_) / cell_;  // row: from the south
+  const double columns = (x1 - x0) / cell_, rows = (y1 - y0) / cell_;
   const int steps = static_cast<int>(std::ceil(4 * std::hypot(columns, rows)));
   for (int k = 0; k <= steps; ++k) {
     const double x = column + columns * k / steps, y = row + rows * k / steps;
     if (x >= 0 && y >= 0 && x < width() && y < height() &&
-        at(static_cast<int>(x), static_cast<int>(y)) == kOccupied)
+        at(static_cast<int>(x), height() - 1 - static_cast<int>(y)) == kOccupied)
       return false;
   }
   return true;
