@@ -19,6 +19,7 @@ import sys
 from planar import compose, inverse
 from public_logs import BOUNDS, DATA, NAMES, error, rows, run
 
+
 def add(a, b):
     x, y, phi = compose(a, b)
     return x, y, math.remainder(phi, math.tau)

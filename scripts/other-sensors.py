@@ -65,11 +65,11 @@ def write(file, odometry_file, log, kind):
 
 
 def cell(out, log, kind):
-    seeds = range(int(os.environ.get("FIRST_SEED", 1)), int(os.environ.get("FIRST_SEED", 1)) + int(os.environ.get("SEEDS", 3)))
+    first = int(os.environ.get("FIRST_SEED", 1))
     file, odometry = out / f"{log}-{kind}.clf.gz", out / f"{log}-{kind}.odometry"
     write(file, odometry, log, kind)
     errors, verdicts = [], []
-    for seed in seeds:
+    for seed in range(first, first + int(os.environ.get("SEEDS", 3))):
         folder = out / f"{log}-{kind}-{seed}"
         verdicts.append(run(file, folder, seed)["verdict"])
         errors.append(error(log, folder, odometry=odometry))
