@@ -3,8 +3,6 @@
 # keyboard; exits with 77 if these are missing, which ctest counts as skipped. SCREEN: its size, 1280x800; GDK_SCALE=2
 # doubles its pixel density.
 if command -v xvfb-run >/dev/null && command -v xauth >/dev/null && command -v openbox >/dev/null; then
-  # A thread of the graphics driver that ends during LeakSanitizer's search of its TLS crashes the search.
-  [ -z "$LSAN_OPTIONS" ] || export LSAN_OPTIONS="$LSAN_OPTIONS:use_tls=0"
   exec env NO_AT_BRIDGE=1 GTK_A11Y=none GDK_BACKEND=x11 xvfb-run -a -s "-screen 0 ${SCREEN:-1280x800}x24" \
     sh -c 'openbox >/dev/null 2>&1 & exec "$@"' sh "$@"
 fi
