@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs all experiments of doc/experiments.md, doc/line-extraction.md and doc/floor-plan.md, with the same numbers of
-# runs as on the pages:
+# Runs all experiments of doc/experiments.md, doc/beyond-the-paper.md, doc/line-extraction.md and doc/floor-plan.md, with
+# the same numbers of runs as on the pages:
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/experiments.sh [OUT]     OUT defaults to out/experiments
 # Each script writes to its own folder of OUT, and what it prints, tables included, to OUT/NAME.txt. A failure does not
 # stop the others; the exit code is then 1. After an interruption, all but floor-plan, prior-plan and true-plan resume. The

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The default with and without corners, wall ends and arcs as features: the chapter "Corners and arcs" of doc/experiments.md.
+# The default with and without corners, wall ends and arcs as features: the chapter "Corners and arcs" of
+# doc/beyond-the-paper.md.
 #   scripts/features.sh [OUT]     OUT defaults to out/features
 #   scripts/features.sh parameters [OUT]     settings of the features on simulated worlds; OUT: out/features-parameters
 # SEEDS=50 runs per group of the simulated worlds, with the standard proposal, and REAL_SEEDS=10 of the public logs, with

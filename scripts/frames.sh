@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The default line weight and no lines in buildings of several directions and without straight walls: the chapter
-# "Worlds that are not orthogonal" of doc/experiments.md.
+# "Worlds that are not orthogonal" of doc/beyond-the-paper.md.
 #   scripts/frames.sh [OUT]     OUT defaults to out/frames
 # SEEDS=30 runs per group from FIRST_SEED=1 on, JOBS=0 (one per core) at a time. WORLDS="rectangle wing" selects worlds of
 # this comparison, LOCAL="wing" those where weights of the walls near the robot and of direction frames are compared with

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The methods without grids (linemap, ortho) compared with hybrid and general: the chapter "Lines alone" of
-# doc/experiments.md.
+# doc/beyond-the-paper.md.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/line-methods.sh [OUT]     OUT defaults to out/line-methods
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/line-methods.sh settings [OUT]     other settings of linemap and ortho
 # SEEDS=10 runs per method from FIRST_SEED=1 on, one at a time; ortho is deterministic and runs once, and `settings` once
