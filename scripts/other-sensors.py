@@ -53,8 +53,8 @@ def write(file, odometry_file, log, kind):
     with gzip.open(file, "wt") as out, open(odometry_file, "w") as odometry:
         for fields, at, time in rows(log):
             pose = tuple(map(float, fields[at:at + 3]))
-            print(f"{time:.6f}", *pose, file=odometry)
             if fields[0] == "FLASER":
+                print(f"{time:.6f}", *pose, file=odometry)
                 if kind == "sparse" and not is_due(pose, last):
                     fields = ["ODOM", *fields[at:at + 3], "0", "0", "0", *fields[at + 3:]]
                 else:

@@ -29,13 +29,17 @@ def run(log, out, seed):
 
 
 def error(log, out, chosen=None, odometry=None):
-    """The mean translation error (m) over the official relations, or over the chosen ones."""
+    """The mean translation error (m) over the official relations, or over the chosen ones.
+
+    odometry: a file to interpolate with, if the log has no official one.
+    """
     relations = DATA / f"{log}.relations"
     if chosen is not None:
         relations = pathlib.Path(f"{out}.relations")
         relations.write_text("".join(chosen))
-    odometry = odometry or DATA / f"{log}.odom.gz"
+    if (DATA / f"{log}.odom.gz").exists():
+        odometry = DATA / f"{log}.odom.gz"
     command = [BIN / "slam-eval", "relations", "--trajectory", out / "trajectory.tum", "--relations", relations]
-    if odometry.exists():
+    if odometry:
         command += ["--odometry", odometry]
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["trans_mean_m"]
