@@ -23,6 +23,7 @@ constexpr size_t kCarriedScans = 4;      // in succession, before the whole map 
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
+constexpr double kWholeStep = -9.2;  // ln 1e-4: prior of no motion or the opposite one, relative to a slip
 
 const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 
@@ -118,7 +119,8 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchNearby(const TPose2D& 
   if (isCovered || found[0].match.fit >= kPoorFit * usualFit_) return found;
   for (const double share : {0, -1}) {
     const TPose2D motion(share * odometry.x, share * odometry.y, odometry.phi);
-    const auto more = searchWindow(best.path.back() + motion, window, best, expected, usual, scan);
+    auto more = searchWindow(best.path.back() + motion, window, best, expected, usual, scan);
+    for (Hypothesis& hypothesis : more) hypothesis.logPosterior += kWholeStep;
     found.insert(found.end(), more.begin(), more.end());
   }
   return rivals(std::move(found));
