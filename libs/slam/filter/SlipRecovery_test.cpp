@@ -147,9 +147,12 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
   // 1.1 cm each.
   SlipRecovery recovery = used(particle, kCorridor, 0.033);
   const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
-  EXPECT_FALSE(recovery.motionsOf(particle, kOdometry, test::prepared(open, start + kOdometry, random))
-                   .front()
-                   .hasSlipped);
+  for (const TPose2D& odometry : {kOdometry, TPose2D(1.2, 0.01, 0.05), TPose2D(2.5, 0, 0.1)}) {
+    SlipRecovery here = recovery;
+    EXPECT_FALSE(
+        here.motionsOf(particle, odometry, test::prepared(open, start + odometry, random)).front().hasSlipped)
+        << odometry.asString();
+  }
 }
 
 TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
