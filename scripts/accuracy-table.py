@@ -124,11 +124,13 @@ def particles_table(out):
         print(f"| {VARIANTS[variant]} | {len(pairs)} | {lost} | {judged} | {seconds[0]:.0f} | {cost} |")
 
 
-def ablation_table(out):
-    print("| log | " + " | ".join(VARIANTS.values()) + " |")
-    print("|---" * (len(VARIANTS) + 1) + "|")
+def ablation_table(out, variants):
+    """The variants that have been run."""
+    chosen = [variant for variant in variants if any((out / "runs").glob(f"*/{variant}/*.log"))]
+    print("| log | " + " | ".join(VARIANTS[variant] for variant in chosen) + " |")
+    print("|---" * (len(chosen) + 1) + "|")
     for log, title in LOGS.items():
-        cells = [cell(log, out / "runs" / log / variant) for variant in VARIANTS]
+        cells = [cell(log, out / "runs" / log / variant) for variant in chosen]
         if any(cells):
             print(f"| {title} | " + " | ".join(cells) + " |")
 
@@ -143,8 +145,13 @@ def peer_table(out):
 
 def main():
     out = pathlib.Path(sys.argv[1])
-    for table in (peer_table, default_table, second_runs, ablation_table, particles_table):
+    numbers = ("default", "no-adapting", "sixty")
+    parts = [variant for variant in VARIANTS if variant not in numbers[1:]]
+    for table in (peer_table, default_table, second_runs, particles_table):
         table(out)
+        print()
+    for variants in (numbers, parts):
+        ablation_table(out, variants)
         print()
 
 
