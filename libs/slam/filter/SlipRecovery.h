@@ -28,8 +28,9 @@ struct StepMotion {
 /// headings that align their walls with the map's, and then at all headings.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
-/// window. A pose far from the motion model is accepted if its posterior under this mixture is higher; poses
-/// of similar posterior are hypotheses, which are distributed among the particles until later scans decide.
+/// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
+/// motion model is accepted if its posterior under this mixture is higher; poses of similar posterior are
+/// hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
  public:
   /// @param resolution  of the particles' grids, m
