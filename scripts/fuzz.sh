@@ -20,7 +20,7 @@ export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan.supp:print_suppressions=0
 # libstdc++'s and MRPT's own allocations of claimed sizes fail as in a program with little memory.
 export ASAN_OPTIONS=allocator_may_return_null=1:quarantine_size_mb=32
 
-failed=0 TIMEFORMAT=%U
+failed=0 TIMEFORMAT='%U %S'
 echo "| target | CPU (s) | executions | edges | crashes |"
 echo "|---|---|---|---|---|"
 for target in "${targets[@]}"; do
@@ -32,7 +32,7 @@ for target in "${targets[@]}"; do
     "tests/fuzz/corpus/$target" >"$log" 2>&1; } 2>"$log.time" || crashes=1
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   edges=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 | cut -d ' ' -f 2)
-  printf '| %s | %.0f | %s | %s | %s |\n' "$target" "$(<"$log.time")" "${executions:-?}" "${edges:-?}" "$crashes"
+  printf '| %s | %.0f | %s | %s | %s |\n' "$target" "$(awk '{ print $1 + $2 }' "$log.time")" "${executions:-?}" "${edges:-?}" "$crashes"
   [[ $crashes -eq 0 ]] || { failed=1; grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log" || tail -n 3 "$log"; }
 done
 exit $failed
