@@ -251,7 +251,7 @@ int execute(const CommandLine& line, const std::string& command) {
     return 0;
   }
   if (truth.revisits || truth.plan)
-    truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input.sensorLabel));
+    truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
 

@@ -40,7 +40,8 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
       run_(configuration),
       recording_(run_.folder(), recordingName(options), log),
       assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
-                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true)),
+                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true),
+                 readings::laserPoseIn(configuration.input.laserPose)),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
   recording_.keepFree(1e6 * options.diskReserve);

@@ -5,14 +5,11 @@
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "readings/LogWarnings.h"
-#include "readings/RawlogSource.h"
 
 namespace hybrid_slam::readings {
 
-std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const std::string& sensorLabel,
-                                     double maxRange, const WarningReport& report, size_t mostKept) {
-  InputOptions options;
-  options.sensorLabel = sensorLabel;
+std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const InputOptions& options, double maxRange,
+                                     const WarningReport& report, size_t mostKept) {
   const RawlogSummary summary = summarise(rawlog, options);
   if (!summary.defect.empty())
     throw InputError("log " + summary.defect, summary.defectPlace(rawlog), "expected a whole log");

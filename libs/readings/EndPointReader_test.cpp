@@ -13,6 +13,12 @@
 namespace hybrid_slam::readings {
 namespace {
 
+InputOptions lasers(const std::string& labels) {
+  InputOptions options;
+  options.sensorLabel = labels;
+  return options;
+}
+
 struct EndPointReader : testing::Test {
   files::TemporaryFolder folder;
   std::string rawlog() const { return folder.path("l.rawlog"); }
@@ -24,7 +30,7 @@ TEST_F(EndPointReader, BeamsEndOnTheWallsAsTheRobotSeesThem) {
   scan->sensorPose = mrpt::poses::CPose3D(mrpt::poses::CPose2D(onRobot));
   scan->setScanRangeValidity(3, false);
   test::writeGzipped(rawlog(), {test::scan(5), test::scan(7, {}, 181, "OTHER"), scan});
-  const auto scans = loadEndPoints(rawlog(), "LASER");
+  const auto scans = loadEndPoints(rawlog(), lasers("LASER"));
   ASSERT_EQ(scans.size(), 2u);
   EXPECT_DOUBLE_EQ(scans[1].timestamp, 7);
   EXPECT_EQ(scans[0].points.size(), 181u);
@@ -38,12 +44,12 @@ TEST_F(EndPointReader, BeamsEndOnTheWallsAsTheRobotSeesThem) {
 
 TEST_F(EndPointReader, LaserAndRangeCanBeChosen) {
   test::writeGzipped(rawlog(), {test::scan(5), test::scan(6, {}, 91, "OTHER")});
-  const auto scans = loadEndPoints(rawlog(), "OTHER", 4);
+  const auto scans = loadEndPoints(rawlog(), lasers("OTHER"), 4);
   ASSERT_EQ(scans.size(), 1u);
   EXPECT_GT(scans[0].points.size(), 20u);
   EXPECT_LT(scans[0].points.size(), 91u);
   for (const auto& point : scans[0].points) EXPECT_LT(point.norm(), 4);
-  EXPECT_THROW(loadEndPoints(rawlog(), "NONE"), InputError);
+  EXPECT_THROW(loadEndPoints(rawlog(), lasers("NONE")), InputError);
 }
 
 TEST_F(EndPointReader, WarningsAreReported) {

@@ -41,7 +41,7 @@ void noteIgnored(RawlogSummary& summary, const Uses& lasers) {
   for (const auto& [label, uses] : lasers) {
     if (uses.count(Use::taken) > 0) continue;
     Use why = Use::empty;
-    for (const Use use : {Use::tooMany, Use::misplaced, Use::tilted, Use::unwanted})
+    for (const Use use : {Use::second, Use::tooMany, Use::misplaced, Use::tilted, Use::unwanted})
       if (uses.count(use) > 0) why = use;
     summary.ignored.push_back("laser `" + label + "` is not used: " + reasonOf(why));
   }
@@ -52,7 +52,12 @@ void noteIgnored(RawlogSummary& summary, const Uses& lasers) {
 void InputOptions::describe(OptionTable& t) {
   t.add("sensor_label", sensorLabel,
         "label of the laser to use (bag: topic), or a list `FRONT, REAR`; empty: all that are mounted "
-        "horizontally");
+        "horizontally (within 5 deg), at most " +
+            std::to_string(kMaxLasers));
+  t.add("laser_pose", laserPose,
+        "X, Y, YAW[, ROLL] (m, deg): pose of the only laser on the robot, instead of that in the log; ROLL "
+        "180: "
+        "mounted upside down; auto: as the log states");
   t.add("odometry_topic", odometryTopic,
         "bag: topic of the odometry; empty: the only one, or the transforms");
   t.add("require_odometry", requireOdometry,
@@ -72,6 +77,7 @@ void InputOptions::check() const {
   if (scanTime && scanRate)
     throw InputError("both scan_time and scan_rate are set", "section [input], keys `scan_time`, `scan_rate`",
                      "expected one of them, and `auto` for the other");
+  laserPoseIn(laserPose);
 }
 
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
@@ -88,8 +94,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
   SweepTimes sweeps(options.sweep());
-  ScanGrouper grouper(wanted, options.maxOdometryGap);
-  ReadingAssembler beginning(wanted, true, options.maxOdometryGap, SweepTimes(0));  // up to its first reading
+  const auto laserPose = laserPoseIn(options.laserPose);
+  ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
+  ReadingAssembler beginning(wanted, true, options.maxOdometryGap, SweepTimes(0),
+                             laserPose);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
   Uses uses;
@@ -199,7 +207,8 @@ RawlogSource::RawlogSource(const std::string& file, const InputOptions& options,
       reader_(file, summary.bag),
       assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings && options.requireOdometry,
                  options.maxOdometryGap,
-                 sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings)) {}
+                 sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings),
+                 laserPoseIn(options.laserPose)) {}
 
 std::string RawlogSource::place() const { return placeOf(reader_, file_); }
 

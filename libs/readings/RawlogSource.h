@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/Options.h"
+#include "readings/LaserPose.h"
 #include "readings/LogReader.h"
 #include "readings/ReadingAssembler.h"
 
@@ -19,14 +20,15 @@ struct BagPlan;
 /// Section [input].
 struct InputOptions : Options {
   std::string sensorLabel;    ///< list of labels, see labelsOf; of a bag: topics
-  std::string odometryTopic;  ///< of a bag
+  std::string laserPose = "auto";  ///< of the only laser, see laserPoseIn; auto: as the log states
+  std::string odometryTopic;       ///< of a bag
   bool requireOdometry = true;
   double maxOdometryGap = 1;
   std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
   std::optional<double> scanRate;  ///< Hz, of all lasers, instead of scanTime
   SweepSetting sweep() const { return {scanTime, scanRate}; }
   void describe(OptionTable& table) override;
-  /// @throws InputError if both scanTime and scanRate are set
+  /// @throws InputError if both scanTime and scanRate are set, or laserPose is not a pose
   void check() const;
 };
 

@@ -58,9 +58,11 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
 }
 
 ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings,
-                                   double maxOdometryGap, SweepTimes sweeps)
-    : grouper_(lasers, maxOdometryGap),
+                                   double maxOdometryGap, SweepTimes sweeps,
+                                   std::optional<mrpt::poses::CPose3D> laserPose)
+    : grouper_(lasers, maxOdometryGap, laserPose.has_value()),
       sweeps_(std::move(sweeps)),
+      laserPose_(std::move(laserPose)),
       track_(maxOdometryGap),
       hasOdometryReadings_(hasOdometryReadings),
       maxOdometryGap_(maxOdometryGap) {}
@@ -95,7 +97,11 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
 }
 
-void ReadingAssembler::takeScan(const CObservation2DRangeScan::Ptr& scan) {
+void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
+  if (laserPose_) {
+    scan = std::make_shared<CObservation2DRangeScan>(*scan);  // a recording has it as measured
+    scan->sensorPose = *laserPose_;
+  }
   if (!hasOdometryReadings_ && !isInTrack_ && isStamped(*scan)) {
     track_.add(seconds(scan->timestamp), travelled_);
     isInTrack_ = true;

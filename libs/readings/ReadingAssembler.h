@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3D.h>
 
 #include <deque>
 #include <optional>
@@ -58,8 +59,9 @@ class ReadingAssembler {
   ///                             are ignored; else such observations are ignored
   /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
   /// @param sweeps               durations of the scans; default: as the log states
+  /// @param laserPose            of the only laser on the robot; default: as the scans state
   ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
-                   SweepTimes sweeps = {});
+                   SweepTimes sweeps = {}, std::optional<mrpt::poses::CPose3D> laserPose = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   /// Returns whether a scan is used, or the reason why not.
@@ -76,7 +78,7 @@ class ReadingAssembler {
   std::optional<Reading> next();
 
  private:
-  void takeScan(const mrpt::obs::CObservation2DRangeScan::Ptr& scan);
+  void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::obs::CObservationOdometry& odometry);
@@ -98,6 +100,7 @@ class ReadingAssembler {
 
   ScanGrouper grouper_;
   SweepTimes sweeps_;
+  std::optional<mrpt::poses::CPose3D> laserPose_;
   OdometryTrack track_;
   bool isInTrack_ = false;  ///< the odometry of this pair
   bool hasOdometryReadings_;

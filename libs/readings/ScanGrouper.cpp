@@ -22,13 +22,14 @@ std::vector<std::string> labelsOf(const std::string& list) {
   return labels;
 }
 
-ScanGrouper::ScanGrouper(const std::vector<std::string>& lasers, double maxGap)
-    : wanted_(lasers), maxGap_(maxGap) {}
+ScanGrouper::ScanGrouper(const std::vector<std::string>& lasers, double maxGap, bool isPlaced)
+    : wanted_(lasers), maxGap_(maxGap), isPlaced_(isPlaced) {}
 
 ScanGrouper::Use ScanGrouper::useOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
   const bool isNamed = std::find(wanted_.begin(), wanted_.end(), scan.sensorLabel) != wanted_.end();
   if (!wanted_.empty() && !isNamed) return Use::unwanted;
   if (!hasBeams(scan)) return Use::empty;
+  if (isPlaced_) return known_.empty() || known_.count(scan.sensorLabel) > 0 ? Use::taken : Use::second;
   if (!(scan.sensorPose.norm() <= kMaxSensorDistance)) return Use::misplaced;
   if (!isHorizontal(scan)) return Use::tilted;
   if (isNamed) return Use::taken;
@@ -59,6 +60,8 @@ std::string reasonOf(ScanGrouper::Use use) {
       return "its sensor pose is over 100 m from the robot";
     case ScanGrouper::Use::tilted:
       return "its scan plane is tilted";
+    case ScanGrouper::Use::second:
+      return "[input] laser_pose is the pose of one laser";
     case ScanGrouper::Use::tooMany:
       return "more than " + std::to_string(kMaxLasers) + " lasers";
     default:

@@ -18,9 +18,11 @@ class ScanGrouper {
  public:
   /// @param lasers  labels of the lasers to use; none: the first kMaxLasers that are mounted horizontally
   /// @param maxGap  s
-  ScanGrouper(const std::vector<std::string>& lasers, double maxGap);
+  /// @param isPlaced  whether the user states the laser's pose: only one laser is used then, whatever its
+  /// pose
+  ScanGrouper(const std::vector<std::string>& lasers, double maxGap, bool isPlaced = false);
 
-  enum class Use { taken, empty, misplaced, tilted, unwanted, tooMany };
+  enum class Use { taken, empty, misplaced, tilted, unwanted, tooMany, second };
   /// Returns whether a scan is used: it has beams, and its laser is wanted, on the robot and mounted
   /// horizontally.
   Use useOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
@@ -37,6 +39,7 @@ class ScanGrouper {
  private:
   std::vector<std::string> wanted_;
   double maxGap_;
+  bool isPlaced_;
   std::set<std::string> known_, present_;  ///< in the log so far, in the current reading
   size_t readings_ = 0;
   bool isComplete_ = true;

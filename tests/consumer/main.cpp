@@ -9,7 +9,7 @@ int main(int, char** argv) {
   const readings::InputOptions input;
   readings::RawlogSource log(argv[1], input, readings::summarise(argv[1], input));
 
-  FilterConfiguration configuration;  // doc/configuration.md; 20 particles:
+  FilterConfiguration configuration;  // the defaults of doc/configuration.md
   configuration.filter.particles = 20;
   HybridFilter filter(configuration);
   while (const auto reading = log.next()) filter.process(reading->motion, reading->scans);
