@@ -16,7 +16,7 @@ macro(hybrid_slam_find_library name header)
   list(APPEND hybrid_slam_headers ${HYBRID_SLAM_${name}_HEADERS}/${header})
 endmacro()
 
-foreach(module core system serialization config comms math random poses img bayes opengl obs maps slam graphs graphslam hwdrivers io)
+foreach(module core system serialization config comms math random poses img bayes opengl obs maps slam hwdrivers io)
   hybrid_slam_find(mrpt-${module} 2.5)
 endforeach()
 hybrid_slam_find(Eigen3)

@@ -46,7 +46,7 @@ constexpr double kMaxSensorDistance = 100;
 using Scans = std::vector<std::shared_ptr<mrpt::obs::CObservation2DRangeScan>>;
 
 /// Keeps every n-th beam of a scan with more than kMostScanBeams beams, with the smallest n that suffices.
-/// @param maxRange  m; the smaller of this and the observation's own limit applies (<= 0: no limit)
+/// @param maxRange  m, above 0; the smaller of this and the observation's own limit (<= 0: none) applies
 /// @throws InputError for a scan plane tilted by more than 5 deg from the horizontal
 LaserScan toLaserScan(const mrpt::obs::CObservation2DRangeScan& observation, double maxRange);
 /// Converts each scan. @throws InputError for a tilted scan plane, and for more than kMaxLasers scans

@@ -110,6 +110,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
       note(summary.wrongOdometry, reader.entry());
   };
   std::optional<TPose2D> first;
+  bool actionsMove = false, readingsMove = false;
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
@@ -117,7 +118,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!isFinite(pose)) return;
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
-    summary.hasMotion |= pose != *first;
+    readingsMove |= pose != *first;
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
     const ScanGrouper::Use use = grouper.useOf(scan);
@@ -144,7 +145,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
     if (const auto increment = incrementOf(object)) {
       noteOdometry(*increment, summary.hasActions);
-      summary.hasMotion |= isFinite(*increment) && *increment != TPose2D();
+      actionsMove |= isFinite(*increment) && *increment != TPose2D();
       if (isFinite(*increment) && isJump({}, *increment)) note(summary.jumps, reader.entry());
     } else if (isAction(object)) {
       note(summary.noOdometry, reader.entry());
@@ -165,6 +166,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!hasBegun) beginning.take(object);
     hasBegun = hasBegun || beginning.next();
   }
+  summary.hasMotion = summary.hasOdometryReadings ? readingsMove : actionsMove;  // readings replace actions
   summary.duration = latest - earliest;
   summary.entries = reader.entry();
   summary.defect = reader.defect();

@@ -121,7 +121,9 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   // count bounds it where time stands still.
   const bool isLong = (hasOdometryReadings_ && age > maxOdometryGap_) || isFull;
   if (isLong) return finishWaiting();
-  if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
+  if (hasOdometryReadings_ && age < 0 && track_.contains(seconds(scan->timestamp)))  // after newer odometry
+    waiting_.back().odometry = track_.at(seconds(scan->timestamp));
+  else if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
     waiting_.back().odometry = travelled_;
   completeReady();
 }
@@ -133,6 +135,9 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   for (Waiting& scan : waiting_) {
     if (scan.odometry) continue;
     const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;
+    const bool isOlder =
+        isStampedOdometry && lastOdometryTime_ <= time && time < t && t - time <= maxOdometryGap_;
+    if (lastOdometry_ && isOlder) continue;  // the next reading may be newer than the scan
     if (!lastOdometry_)
       scan.odometry = pose;
     else if (lastOdometryTime_ < t && t <= time && time - lastOdometryTime_ <= maxOdometryGap_)

@@ -46,6 +46,20 @@ TEST(ReadingAssembler, OnlyTheLastScansBeforeTheFirstOdometryAreUsed) {
   for (const Reading& reading : readings) EXPECT_EQ(reading.motion, TPose2D());
 }
 
+/// At 1 m/s, whether the scan of 0.23 s comes in order, after newer odometry, or before older odometry.
+TEST(ReadingAssembler, ALogInTheOrderOfArrival) {
+  const auto at = [](double time) { return odometry(100 + time, {time, 0, 0}); };
+  const auto seen = scan(100.23);
+  const test::Log inOrder{at(0), scan(100), at(0.1), at(0.2), seen, at(0.3), at(0.4)},
+      late{at(0), scan(100), at(0.1), at(0.2), at(0.3), seen, at(0.4)},
+      early{at(0), scan(100), at(0.1), seen, at(0.2), at(0.3), at(0.4)};
+  for (const test::Log& log : {inOrder, late, early}) {
+    const std::vector<Reading> readings = assembled(log);
+    ASSERT_EQ(readings.size(), 2u);
+    EXPECT_NEAR(readings[1].motion.x, 0.23, 1e-6);
+  }
+}
+
 TEST(ReadingAssembler, OdometryThatIsNotExpectedIsIgnored) {
   ReadingAssembler assembler({}, false, 1);
   for (const auto& object : test::Log{scan(1, {}, 3, "front"), odometry(1, {0, 0, 0}),

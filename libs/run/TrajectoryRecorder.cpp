@@ -34,8 +34,17 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
       const TPose2D end = carried(to);
       error = {path[k + 1].x - end.x, path[k + 1].y - end.y, mrpt::math::wrapToPi(path[k + 1].phi - end.phi)};
     }
+    // A robot that stands makes no errors: share by motion, or by scans if the odometry says that none moved
+    // it.
+    std::vector<double> travelled(1, 0);
+    for (size_t i = from + 1; i < std::min(to + 1, scans_.size()); ++i) {
+      const TPose2D step = scans_[i].odometry - scans_[i - 1].odometry;
+      travelled.push_back(travelled.back() + step.norm() + std::abs(step.phi));  // m; 1 m for a radian
+    }
     for (size_t i = from; i < to; ++i) {
-      const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
+      const double share = travelled.back() > 0
+                               ? travelled[i - from] / travelled.back()
+                               : static_cast<double>(i - from) / static_cast<double>(to - from);
       TPose2D pose = carried(i);
       pose.x += share * error.x, pose.y += share * error.y;
       pose.phi = mrpt::math::wrapToPi(pose.phi + share * error.phi);

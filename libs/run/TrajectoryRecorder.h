@@ -18,7 +18,7 @@ class TrajectoryRecorder {
   void add(double timestamp, const mrpt::math::TPose2D& motion, size_t updates);
 
   /// Returns the pose of every scan: at an update, the filter's; between two, odometry from the previous
-  /// update, with the closing error spread evenly over the scans up to the next; before the first and after
+  /// update, with the closing error spread over the motion up to the next; before the first and after
   /// the last, odometry alone.
   /// @param path  one pose per update (map frame)
   files::Trajectory trajectory(const std::vector<mrpt::math::TPose2D>& path) const;

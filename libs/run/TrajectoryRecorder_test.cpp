@@ -40,6 +40,17 @@ TEST(TrajectoryRecorder, BetweenTwoUpdatesTheClosingErrorIsSpreadEvenly) {
               {{0, 0, 0}, {1.1, 0.2, 0.1}, {2.2, 0.4, 0.2}, {3.3, 0.6, 0.3}, {4.4, 0.8, 0.4}});
 }
 
+/// A robot stands for eight scans, then moves by 1 m, with an error of 0.4 m.
+TEST(TrajectoryRecorder, AStandingRobotDoesNotSlide) {
+  TrajectoryRecorder recorder;
+  for (int i = 0; i < 9; ++i) recorder.add(10 + i, {}, 1);
+  recorder.add(19, {0.5, 0, 0}, 1);
+  recorder.add(20, {0.5, 0, 0}, 2);
+  std::vector<TPose2D> expected(9);
+  expected.insert(expected.end(), {{0.7, 0, 0}, {1.4, 0, 0}});
+  expectPoses(recorder.trajectory({{0, 0, 0}, {1.4, 0, 0}}), expected);
+}
+
 TEST(TrajectoryRecorder, TheOdometryBetweenIsInTheFrameOfThePreviousUpdate) {
   expectPoses(straight({1, 1, 2}).trajectory({{3, 3, M_PI / 2}, {3, 5, M_PI / 2}}),
               {{3, 3, M_PI / 2}, {3, 4, M_PI / 2}, {3, 5, M_PI / 2}});

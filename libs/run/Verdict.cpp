@@ -24,6 +24,7 @@ constexpr double kJump = 0.5;      // share of a scan's beams that contradict th
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
+constexpr double kFewBeams = 30;   // wrong maps of fewer agree with themselves
 
 size_t contradictedOf(const std::vector<Revisit>& revisits) {
   return static_cast<size_t>(std::count_if(revisits.begin(), revisits.end(),
@@ -94,6 +95,14 @@ std::string Verdict::line() const {
   return line;
 }
 
+Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent) {
+  Evidence evidence;
+  evidence.returning = returning.revisits();
+  evidence.recent = recent.revisits();
+  evidence.beams = recent.meanBeams();
+  return evidence;
+}
+
 Verdict verdictOf(const Evidence& evidence) {
   Verdict verdict;
   const auto find = [&verdict](Level level, const std::string& reason) {
@@ -125,6 +134,9 @@ Verdict verdictOf(const Evidence& evidence) {
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
   if (verdict.level != Level::consistent && evidence.slips > 0)
     find(Level::doubtful, "odometry rejected in " + std::to_string(evidence.slips) + " updates");
+  if (evidence.beams < kFewBeams)
+    find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
+                              fixedText(evidence.beams, 0) + " on average");
   if (evidence.isCut)
     find(Level::doubtful, "the recording ends before the run; the scans after that were not compared");
   else if (evidence.returning.empty())

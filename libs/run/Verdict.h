@@ -2,6 +2,7 @@
 /// @brief Whether the map of a run can be trusted, judged by the scans alone.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,12 @@ struct Evidence {
   std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
   double spread = 0;               ///< m, standard deviation of the particles at the end
   size_t slips = 0;                ///< updates whose odometry was rejected
+  double beams = NAN;              ///< mean number of beams of up to 8 m in a scan, at most 90; NaN: no scan
   bool isCut = false;              ///< the scans after the end of a recording could not be compared
 };
+
+/// The evidence of the same scans compared with both maps.
+Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent);
 
 /// The rules and thresholds of doc/verdict.md.
 Verdict verdictOf(const Evidence& evidence);

@@ -61,7 +61,7 @@ Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
     returning.add(path[scan->update], beams, distance, scan->update);
     recent.add(path[scan->update], beams, distance, scan->update);
   }
-  return {returning.revisits(), recent.revisits()};
+  return evidenceOf(returning, recent);
 }
 
 void RunningVerdict::add(const FilterView& view, const Scans& scans) {

@@ -31,7 +31,7 @@ class VerdictCheck {
  public:
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
-  Evidence evidence() const { return {returning_.revisits(), recent_.revisits()}; }
+  Evidence evidence() const { return evidenceOf(returning_, recent_); }
 
  private:
   RevisitCheck returning_{kReturning}, recent_{kRecent};

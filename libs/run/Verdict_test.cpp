@@ -37,6 +37,16 @@ TEST(Verdict, NoContradictionIsConsistent) {
   EXPECT_EQ(verdict.line(), "verdict: consistent");
 }
 
+TEST(Verdict, FewBeamsCannotConfirmAMap) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.recent = scans(200);
+  evidence.beams = 31;
+  EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
+  evidence.beams = 12;
+  EXPECT_EQ(verdictOf(evidence).line(),
+            "verdict: doubtful: scans have too few beams of up to 8 m to judge the map: 12 on average");
+}
+
 TEST(Verdict, SaysThatNoPlaceWasSeenTwice) {
   EXPECT_EQ(of({}).line(), "verdict: consistent: no place was seen twice");
   EXPECT_EQ(of({}, {}).level, Level::consistent);

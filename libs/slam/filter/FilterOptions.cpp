@@ -27,7 +27,7 @@ void ParticleFilterOptions::describe(OptionTable& t) {
         "resample when the effective sample size, as a fraction of the particles, falls below this");
   t.add("update_distance", updateDistance, 0, 100, "m", "update the filter after this distance");
   t.addAngle("update_angle_deg", updateAngle, 0, 360,
-             "update the filter after this rotation, if it comes first");
+             "update the filter after this rotation, if it comes first; above 180: never");
   t.add("seed", seed, 0, 2147483647,
         "random seed; the same seed gives identical results for any number of threads");
   t.add("threads", threads, 0, 1024, "number of threads; 0: all cores");
@@ -38,7 +38,8 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
         "update the filter after this distance, instead of [particle_filter] update_distance: scan matching "
         "needs overlapping scans");
   t.addAngle("update_angle_deg", updateAngle, 0, 360,
-             "update the filter after this rotation, instead of [particle_filter] update_angle_deg");
+             "update the filter after this rotation, instead of [particle_filter] update_angle_deg; above "
+             "180: never");
   t.add("samples", samples, 2, 10000, "poses sampled around the scan match to compute proposal and weight");
   t.add("exponent", exponent, 0, 1, "",
         "exponent of the scan likelihood in the particle weight; small, because beam errors are not "

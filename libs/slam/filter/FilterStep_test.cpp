@@ -26,6 +26,12 @@ struct Stepped {
   ParticleSet particles;
 };
 
+TEST(HybridFilter, OdometryThatIsNotFiniteIsAnError) {
+  HybridFilter filter(with(Proposal::improved));
+  for (const double wrong : {NAN, INFINITY}) EXPECT_THROW(filter.process({0, 0, wrong}, {}), InputError);
+  EXPECT_EQ(filter.updates(), 0u);
+}
+
 TEST(FilterStep, TheDegeneracyIsThatOfTheScanInTheBestParticlesMap) {
   for (const auto proposal : {Proposal::standard, Proposal::improved}) {
     const FilterConfiguration c = with(proposal);

@@ -36,7 +36,7 @@ struct FilterStep {
   std::optional<bool> resampled;  ///< empty if the filter does not report it
   double stdX = 0, stdY = 0, stdPhi = 0;
   double stdAlong = 0, stdAcross = 0;   ///< along and across the best particle's heading
-  std::optional<double> gridWeight;     ///< w_grid of the best particle before tempering
+  std::optional<double> gridWeight;     ///< of the best particle: Particle.h
   std::optional<double> lineWeight;     ///< w_line of the best particle
   int linesSeen = 0, linesMatched = 0;  ///< of the best particle
   std::optional<double> matched;       ///< fraction of particles whose scan match was used; improved proposal
@@ -50,8 +50,9 @@ struct FilterStep {
   /// @{
   mrpt::math::TPose2D odometry;              ///< increment since the previous update
   std::vector<mrpt::math::TPose2D> motions;  ///< of each of `poses`, since the previous update
-  /// ln p(scan | previous scans), up to a constant of the step: log of the weighted mean of the particles'
-  /// incremental weights. Not valid for MRPT's auxiliary filters, which weight differently.
+  /// ln p(scan | previous scans), tempered as the weights are, up to a constant of the step: log of the
+  /// weighted mean of the particles' incremental weights. Not valid for MRPT's auxiliary filters, which
+  /// weight differently.
   double logLikelihood = 0;
   /// @}
 

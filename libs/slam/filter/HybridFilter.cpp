@@ -26,6 +26,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
 }
 
 void HybridFilter::process(const TPose2D& odometry, const Scans& scans) {
+  expectFinite(odometry);
   odometry_ = odometry_ + odometry;
   if (!scans.empty() && (!hasMap_ || interval_.isOver(odometry_))) update(scans);
 }

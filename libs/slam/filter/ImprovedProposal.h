@@ -11,9 +11,10 @@ namespace hybrid_slam {
 /// A pose drawn for a particle, and its incremental weight.
 struct Proposed {
   mrpt::math::TPose2D pose;
-  double logWeight = 0;   ///< ln p(scan | previous pose, odometry, grid, lines), up to a constant of the step
-  double fit = 0;         ///< of the match, in [0, 1]
-  bool isMatched = true;  ///< false: drawn from the motion model for lack of a good match
+  double logWeight = 0;  ///< ln p(scan | previous pose, odometry, grid, lines), up to a constant of the step
+  double fit = 0;        ///< of the match, in [0, 1]
+  bool isMatched =
+      true;  ///< false: drawn without a match, from the motion model or, after a slip, around the place found
   LineWeight lineWeight;
 };
 
@@ -23,9 +24,10 @@ struct Proposed {
 /// integral of p, which is the particle's incremental weight, independent of the pose drawn. In directions
 /// the scan does not constrain, as along a corridor, the motion model's uncertainty remains.
 ///
-/// If the match fits the map worse than min_fit, the pose is drawn from the motion model with weight p(scan |
-/// x, grid) p(lines | x, database). Its expectation is the same integral, so matched and unmatched particles
-/// are comparable. (ParticleSet then tempers both.)
+/// If the match fits the map worse than min_fit, the pose is drawn from the motion model (after a slip:
+/// around the place that the search found) with weight p(scan | x, grid) p(lines | x, database). Its
+/// expectation is the same integral, so matched and unmatched particles are comparable. (ParticleSet then
+/// tempers both.)
 class ImprovedProposal {
  public:
   ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,

@@ -25,7 +25,7 @@ struct Particle {
   MotionBelief motion;
 
   double logWeight = 0;   ///< after the last weighting, before resampling; the best particle is its argmax
-  double gridWeight = 1;  ///< w_grid before tempering, in [0, 1]
+  double gridWeight = 1;  ///< in [0, 1]: w_grid before tempering; with the improved proposal, the match's fit
   LineWeight lineWeight;  ///< w_line
   bool isMatched = true;  ///< improved proposal: from a scan match, not odometry alone
 

@@ -54,7 +54,8 @@ class MapMaker {
   FeatureOptions features_;
 };
 
-/// Closes the loops that a finished path leaves open, from its first update to its last.
+/// Closes the loops that a finished path leaves open, from its first update to its last. Assumes that no
+/// motion slipped.
 /// @param path       a pose for each update (map frame); corrected
 /// @param scans      of each update; those of the last ones may be missing
 /// @param direction  direction of the walls modulo 90 deg, rad; empty: unknown

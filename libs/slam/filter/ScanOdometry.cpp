@@ -19,6 +19,7 @@ constexpr SearchWindow kWindow{0.4, mrpt::DEG2RAD(30.0)};
 constexpr size_t kPlaces = 4;    // starting points of the local optimisation
 constexpr double kMinFit = 0.1;  // good matches fit 0.2 to 0.7
 constexpr size_t kKeyframes = 20;
+constexpr double kSlowing = 0.5;  // of a robot that sees nothing, per scan
 constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
 
 /// Increases the update steps: a few scans must show walls and free space as clearly as the many scans of the
@@ -38,7 +39,13 @@ TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
   const LaserScans scans = toLaserScans(observed, grid_.maxRange);
   const TPose2D before = pose_;
   const double duration = timestamp - lastTime_;
-  pose_ = before + predicted(duration);
+  const TPose2D expected = predicted(duration);
+  pose_ = before + expected;
+  if (ScanBeams(scans).rays.empty()) {  // without returns: keep the map, and slow down
+    lastMotion_ = {kSlowing * expected.x, kSlowing * expected.y, kSlowing * expected.phi};
+    lastDuration_ = duration, lastTime_ = timestamp;
+    return expected;
+  }
   const ScanMatch found = match(ScanBeams(scans, BeamSelection(scans).take(matchedBeams_)), pose_);
   const bool fits = found.fit >= kMinFit;
   if (fits)

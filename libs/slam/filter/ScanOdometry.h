@@ -14,7 +14,8 @@ namespace hybrid_slam {
 /// predicts. In directions that the scan does not constrain, as along a corridor, the prediction remains.
 ///
 /// The map holds the last few keyframes, so that a robot that stands still does not drift. A scan that does
-/// not fit starts a new map; the filter's slip recovery then has to find this step.
+/// not fit starts a new map; the filter's slip recovery then has to find this step. After a scan without
+/// returns the robot is assumed to move on, by half as much after each further one.
 class ScanOdometry {
  public:
   ScanOdometry(const GridOptions& grid, const ScanMatcherOptions& matcher);

@@ -39,9 +39,11 @@ SlipRecovery::SlipRecovery(const ImprovedProposalOptions& options, const MotionM
       gridWeight_(gridWeight, resolution) {}
 
 // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any wall,
-// and would pull the robot back along a partly seen corridor.
+// and would pull the robot back along a partly seen corridor. A scan has no more independent beams than
+// beams.
 double SlipRecovery::logWeight(const TPose2D& pose, const Particle& best, const PreparedScan& scan) const {
-  return exponent_ * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
+  const double beams = std::min(exponent_, static_cast<double>(scan.weighedBeams.rays.size()));
+  return beams * gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, best.grid);
 }
 
 std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPose2D& odometry,
@@ -83,7 +85,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   }
   if (hypotheses[0].isElsewhere) contradicting_.clear();
   const double fit = hypotheses[0].match.fit;
-  if (contradicting_.empty())
+  if (contradicting_.empty() && !scan.matchedBeams.rays.empty())
     usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
   return motions;
 }

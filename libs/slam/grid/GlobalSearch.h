@@ -28,8 +28,9 @@ class GlobalSearch {
     mrpt::math::TPose2D pose;  ///< map frame
     double score;              ///< share of the beams that end at walls, those near a wall count half
   };
-  /// The poses at which most beams end at walls, best first, on a lattice of 0.2 m and 2 deg over the free
-  /// cells of the map; at most one within 0.5 m and 10 deg. A scan match should refine them.
+  /// The poses at which most beams end at walls, best first, on a lattice of about 0.2 m (a whole number of
+  /// cells) and 2 deg over the free cells of the map; at most one within 0.5 m and 10 deg. A scan match
+  /// should refine them.
   /// @param headings  search only within 6 deg of these (rad); empty: all headings
   /// @param count     maximum number of poses
   /// @param leastScore  of a place, above 0

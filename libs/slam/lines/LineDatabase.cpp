@@ -67,9 +67,9 @@ void LineDatabaseOptions::describe(OptionTable& table) {
                  "dominating direction");
 }
 
-DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
-  const double n = line.count;
-  const auto mean = [n](double old, double now) { return (n * old + now) / (n + 1); };  // eq. (7), (8)
+DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen, int observations) {
+  const double n = line.count, m = observations;
+  const auto mean = [n, m](double old, double now) { return (n * old + m * now) / (n + m); };  // eq. (7), (8)
   const TPoint2D oldMiddle = middle(line), newMiddle = middle(seen);
   const TPoint2D pivot(mean(oldMiddle.x, newMiddle.x), mean(oldMiddle.y, newMiddle.y));
 
@@ -100,11 +100,14 @@ DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen) {
 
   DatabaseLine result = line;
   static_cast<LineSegment&>(result) = makeSegment(rho + signedDistance(pivot, 0, theta), theta, start, end);
-  ++result.count;
+  result.count += observations;
   return result;
 }
 
-LineDatabase::LineDatabase(std::vector<DatabaseLine> lines) : lines_(std::move(lines)) { sum(); }
+LineDatabase::LineDatabase(std::vector<DatabaseLine> lines) : lines_(std::move(lines)) {
+  for (DatabaseLine& line : lines_) line.inserted = 0;
+  sum();
+}
 
 void LineDatabase::sum() {
   dominatingDirection_ = directionModuloRightAngle(lines_);

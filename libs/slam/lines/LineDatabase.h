@@ -54,7 +54,8 @@ struct DatabaseLine : LineSegment {
 /// count; eq. (7) as printed measures it from the map's origin, which for a distant line turns a small error
 /// of theta into a large one of rho (doc/paper-notes.md). Both agree if that mean is the origin or the lines
 /// are parallel.
-DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen);
+/// @param observations  of `seen`: 1, or those of a line of another database
+DatabaseLine merged(const DatabaseLine& line, const LineSegment& seen, int observations = 1);
 
 /// A line's weight as evidence of its direction, m: length x min(count, 20). The cap keeps an old wall from
 /// outweighing all others.
@@ -85,7 +86,7 @@ void setDirections(std::vector<DatabaseLine>& lines, double window);
 class LineDatabase {
  public:
   LineDatabase() = default;
-  /// Restores a database from the result of lines().
+  /// Begins with known lines, whose age counts from now.
   explicit LineDatabase(std::vector<DatabaseLine> lines);
 
   /// One step of Sec. III-C: search, insertion, update, and pruning every pruneInterval steps.

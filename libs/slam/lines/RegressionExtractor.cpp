@@ -72,17 +72,17 @@ Regression regressionOf(PointRange points) {
 void regress(PointRange run, double sigma, std::vector<PointRange>& pieces) {
   if (run.size() < kWindow) return;
   const size_t first = pieces.size();
-  const TPoint2D *begin = run.first, *end = run.first + kWindow;  // of the window
-  while (end <= run.last) {
-    PointRange piece{begin == run.first ? begin : begin + kWindow / 2, end};
+  const size_t windows = run.size() - kWindow + 1;
+  const auto window = [&run](size_t i) { return PointRange{run.first + i, run.first + i + kWindow}; };
+  for (size_t i = 0; i < windows;) {
+    PointRange piece{run.first + (i == 0 ? 0 : i + kWindow / 2), window(i).last};
     Sums sums(piece.front());
     sums.add(piece);
-    for (++begin, ++end; end <= run.last; ++begin, ++end) {
-      if (!agree(regressionOf({begin, end}), sums.line(), sigma)) break;
-      sums.add({piece.last, end});
-      piece.last = end;
+    for (++i; i < windows && agree(regressionOf(window(i)), sums.line(), sigma); ++i) {
+      sums.add({piece.last, window(i).last});
+      piece.last = window(i).last;
     }
-    if (end <= run.last) piece.last -= kWindow / 2;
+    if (i < windows) piece.last -= kWindow / 2;
     pieces.push_back(piece);
   }
   // Neighbours that a few wrong points have parted.

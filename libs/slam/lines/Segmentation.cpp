@@ -21,24 +21,54 @@ void SegmentationOptions::describe(OptionTable& table) {
             "minimum length of a line; shorter ones have uncertain directions");
 }
 
+namespace {
+
+/// Returns whether the first beam is the neighbour of the last.
+bool isRound(const std::vector<Beam>& beams) {
+  if (beams.size() < 3) return false;
+  const double span = beams.back().angle - beams.front().angle;
+  return span + 1.5 * span / static_cast<double>(beams.size() - 1) >= 2 * M_PI;
+}
+
+}  // namespace
+
 // Sec. III-B, step 1, without the split at corners, which the paper does not have.
 SegmentedScan::SegmentedScan(const LaserScan& scan, const SegmentationOptions& options)
     : minPoints_(options.minPoints) {
   points_.reserve(scan.beams.size());
   const Beam* previous = nullptr;  // the preceding beam, if valid
+  const auto isJoined = [&options](const Beam& a, const TPoint2D& pa, const Beam& b, const TPoint2D& pb) {
+    return std::hypot(pa.x - pb.x, pa.y - pb.y) <=
+           options.gapAbsolute + options.gapRelative * std::min(a.range, b.range);
+  };
   for (const Beam& beam : scan.beams) {
     if (!beam.valid) {
       previous = nullptr;
       continue;
     }
     const TPoint2D point(beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle));
-    const bool joined =
-        previous && std::hypot(point.x - points_.back().x, point.y - points_.back().y) <=
-                        options.gapAbsolute + options.gapRelative * std::min(beam.range, previous->range);
-    if (!joined) starts_.push_back(points_.size());
+    if (!previous || !isJoined(beam, point, *previous, points_.back())) starts_.push_back(points_.size());
     points_.push_back(point);
     previous = &beam;
   }
+  const bool isSeamWithinRun = previous && scan.beams.front().valid && isRound(scan.beams) &&
+                               isJoined(scan.beams.front(), points_.front(), *previous, points_.back());
+  if (isSeamWithinRun) beginAtGap();
+}
+
+void SegmentedScan::beginAtGap() {
+  size_t begin = starts_.size() > 1 ? starts_[1] : 0;
+  if (starts_.size() == 1) {  // without a gap: at a corner, the point farthest from the seam
+    double farthest = 0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      const double distance = std::hypot(points_[i].x - points_[0].x, points_[i].y - points_[0].y);
+      if (distance > farthest) farthest = distance, begin = i;
+    }
+    starts_.push_back(begin);
+  }
+  std::rotate(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(begin), points_.end());
+  starts_.erase(starts_.begin());
+  for (size_t& start : starts_) start -= begin;
 }
 
 std::vector<PointRange> SegmentedScan::runs() const {

@@ -37,15 +37,18 @@ struct PointRange {
 };
 
 /// The beam end points in the sensor frame, split into runs. A run ends at an invalid beam and at a gap
-/// between neighbours larger than gapAbsolute + gapRelative * (range of the nearer one).
+/// between neighbours larger than gapAbsolute + gapRelative * (range of the nearer one). The last beam and
+/// the first of a scan all round are neighbours.
 class SegmentedScan {
  public:
   SegmentedScan(const LaserScan& scan, const SegmentationOptions& options);
 
-  /// The runs of at least minPoints points, in beam order.
+  /// The runs of at least minPoints points, in beam order, from the first gap of a scan all round.
   std::vector<PointRange> runs() const;
 
  private:
+  /// Turns the points so that no run contains the seam of a scan all round.
+  void beginAtGap();
   std::vector<mrpt::math::TPoint2D> points_;
   std::vector<size_t> starts_;  ///< index of each run's first point
   int minPoints_;

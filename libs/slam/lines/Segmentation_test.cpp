@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/Errors.h"
 #include "testing/TestLines.h"
 
@@ -54,6 +57,40 @@ TEST(Segmentation, TheRelativePartGrowsWithTheNearerRange) {
 TEST(Segmentation, AnInvalidBeamEndsASegment) {
   EXPECT_EQ(runSizes(scanOfRanges({1, 1, 1, 0, 1, 1}), pairsOnly()), (Sizes{3, 2}));
   EXPECT_EQ(runSizes(scanOfRanges({0, 1, 1, 0, 0, 1, 1, 0}), pairsOnly()), (Sizes{2, 2}));
+}
+
+/// The wall behind a laser that looks all round is one run, wherever its first beam points.
+TEST(Segmentation, AScanAllRoundHasNoSeam) {
+  std::vector<double> ranges(360, 2);
+  std::fill(ranges.begin() + 100, ranges.begin() + 160, 3);
+  const auto joined = pairsOnly();
+  for (size_t turn = 0; turn < 360; turn += 7) {
+    std::rotate(ranges.begin(), ranges.begin() + 7, ranges.end());
+    auto sizes = runSizes(scanOfRanges(ranges), joined);
+    std::sort(sizes.begin(), sizes.end());
+    ASSERT_EQ(sizes, (Sizes{60, 300})) << turn;
+  }
+  EXPECT_EQ(runSizes(scanOfRanges(std::vector<double>(360, 2)), joined), (Sizes{360}));
+  EXPECT_EQ(runSizes(scanOfRanges(std::vector<double>(350, 2)), joined), (Sizes{350}));
+}
+
+/// The walls of a room without gaps are whole: the seam is moved to a corner.
+TEST(Segmentation, TheSeamOfARoomIsMovedToACorner) {
+  std::vector<double> ranges;
+  for (int i = 0; i < 360; ++i) {
+    const double angle = (i + 0.5) * kDegree - M_PI, c = std::abs(std::cos(angle)),
+                 s = std::abs(std::sin(angle));
+    ranges.push_back(std::min(3 / std::max(c, 1e-9), 2 / std::max(s, 1e-9)));
+  }
+  SegmentationOptions options;
+  const SegmentedScan segmented(scanOfRanges(ranges), options);
+  std::vector<PointRange> pieces;
+  for (const PointRange& run : segmented.runs()) splitAtCorners(run, options, pieces);
+  ASSERT_EQ(pieces.size(), 4u);
+  for (const PointRange& piece : pieces) {
+    const double length = std::hypot(piece.back().x - piece.front().x, piece.back().y - piece.front().y);
+    EXPECT_GT(length, 3.8);
+  }
 }
 
 TEST(Segmentation, RunsOfTooFewPointsAreDropped) {

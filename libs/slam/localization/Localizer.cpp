@@ -50,6 +50,7 @@ Localizer::Localizer(FilterConfiguration configuration, OccupancyGrid grid, Line
       arena_(arenaThreads(configuration.filter.threads)) {}
 
 void Localizer::process(const TPose2D& odometry, const Scans& scans) {
+  expectFinite(odometry);
   odometry_ = odometry_ + odometry;
   if (!scans.empty() && (path_.empty() || interval_.isOver(odometry_))) update(scans);
 }

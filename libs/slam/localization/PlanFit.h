@@ -29,9 +29,8 @@ std::vector<mrpt::math::TPoint2D> thinned(const std::vector<mrpt::math::TPoint2D
 /// their number, because points on one wall share its error.
 /// @param points  m, in their own frame
 /// @param walls   not empty
-/// @return the fit; `first`, with no point on a wall, if the fit is over 1 m away from it or scales the plan
-/// by
-///         over 10 %
+/// @return the fit; `first`, with no point on a wall, if the fit is over 1 m away or scales the plan by over
+/// 10 %
 PlanFit fitPlan(const std::vector<mrpt::math::TPoint2D>& points, const std::vector<PlanLine>& walls,
                 const PlanFit& first);
 

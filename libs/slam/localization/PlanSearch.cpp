@@ -144,7 +144,10 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   odometry_ = odometry_ + odometry;
   if (scans.empty()) return;
   if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
-  if (start_) return accept(fitAtStart());
+  if (start_) {
+    if (!recent_.scans().back().scan.matchedBeams.rays.empty()) accept(fitAtStart());
+    return;
+  }
   if (++added_ % kEvery != 0) return;
   const TPose2D now = recent_.scans().back().pose;
   const std::optional<PlanFit> fit = fitAnywhere();

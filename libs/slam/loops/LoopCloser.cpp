@@ -39,13 +39,17 @@ std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
   return directionModuloRightAngle(lines);
 }
 
-/// Inverse of the covariance of a match, at least 5 cm and 0.5 deg. The matcher's information is tempered:
-/// its beams are not independent.
-Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match) {
-  const Eigen::Matrix3d floor =
+/// Standard deviations in x, y (m) and heading (rad) that a match has at most. A held pair may be unknown
+/// along a corridor; of a match, every other pose in the window scores less.
+const Eigen::Vector3d kOfHeld(10, 10, 1), kOfMatch(kSame, kSame, kSameAngle);
+
+/// Inverse of the covariance of a match, between these deviations and 5 cm and 0.25 deg. The matcher's
+/// information is tempered: its beams are not independent.
+Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match, const Eigen::Vector3d& most) {
+  const Eigen::Matrix3d least =
       Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * kDegree * kDegree).asDiagonal();
-  const Eigen::Matrix3d regular = 0.1 * match + Eigen::Vector3d(0.01, 0.01, 1).asDiagonal().toDenseMatrix();
-  return (regular.inverse() + floor).inverse();
+  const Eigen::Matrix3d regular = 0.1 * match + most.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix();
+  return (regular.inverse() + least).inverse();
 }
 
 /// The matrix that rotates x and y of (x, y, phi) by `angle` (rad).
@@ -141,7 +145,8 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
     // The filter has closed this loop itself: hold the relative pose that it found.
-    hold(visit, {older.reference, here, expected, edgeInformation(informationOf(near.pose, stretch, older))});
+    hold(visit, {older.reference, here, expected,
+                 edgeInformation(informationOf(near.pose, stretch, older), kOfHeld)});
     candidates_.clear();
     return Outcome::held;
   }
@@ -158,10 +163,10 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
                             mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
-  remember(visit,
-           {{older.reference, here, best->pose, edgeInformation(informationOf(best->pose, stretch, older))},
-            best->agreement,
-            best->second});
+  remember(visit, {{older.reference, here, best->pose,
+                    edgeInformation(informationOf(best->pose, stretch, older), kOfMatch)},
+                   best->agreement,
+                   best->second});
   return Outcome::found;
 }
 

@@ -51,6 +51,7 @@ ScanBeams thinned(const ScanBeams& beams) {
   return some;
 }
 
+/// With the default [scan_matcher], whose sigma suits the cells of the local maps.
 const ScanMatcher& matcher() {
   static const ScanMatcher matcher{ScanMatcherOptions()};
   return matcher;

@@ -1,55 +1,96 @@
 #include "slam/loops/PoseGraph.h"
 
-#include <mrpt/graphs/CNetworkOfPoses.h>
-#include <mrpt/graphslam/levmarq.h>
 #include <mrpt/math/wrap2pi.h>
-#include <mrpt/poses/CPose2D.h>
 
+#include <Eigen/Sparse>
 #include <cmath>
-#include <set>
 
 namespace hybrid_slam {
 
-using mrpt::graphs::TNodeID;
 using mrpt::math::TPose2D;
-using Network = mrpt::graphs::CNetworkOfPoses2DInf;
 
 namespace {
 
 constexpr double kFalseResidual = 25;  // chi^2 above which a loop is false
+constexpr int kMostIterations = 50;
+constexpr double kNegligibleStep = 1e-7;  // m, rad
 
-Network::constraint_t constraint(const TPose2D& relative, const Eigen::Matrix3d& information) {
-  return {mrpt::poses::CPose2D(relative), mrpt::math::CMatrixDouble33(information)};
+Eigen::Vector3d residual(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
+  const TPose2D is = poses[edge.to] - poses[edge.from];
+  return {is.x - edge.relative.x, is.y - edge.relative.y, mrpt::math::wrapToPi(is.phi - edge.relative.phi)};
 }
 
-double residual(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
-  const TPose2D is = poses[edge.to] - poses[edge.from];
-  const Eigen::Vector3d off(is.x - edge.relative.x, is.y - edge.relative.y,
-                            mrpt::math::wrapToPi(is.phi - edge.relative.phi));
+double chi2Of(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
+  const Eigen::Vector3d off = residual(edge, poses);
   return off.dot(edge.information * off);
 }
 
-std::vector<TPose2D> solve(const PoseGraph& graph, const std::vector<double>& loopWeights) {
-  Network network;
-  std::set<TNodeID> free;
-  for (size_t i = 0; i < graph.poses.size(); ++i) {
-    network.nodes[i] = mrpt::poses::CPose2D(graph.poses[i]);
-    if (i > 0) free.insert(i);
+using Edges = std::vector<const PoseEdge*>;
+
+double chi2Of(const Edges& edges, const std::vector<TPose2D>& poses) {
+  double sum = 0;
+  for (const PoseEdge* edge : edges) sum += chi2Of(*edge, poses);
+  return sum;
+}
+
+/// The normal equations of the residuals, linear in the map-frame changes of all poses but the first.
+struct NormalEquations {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::VectorXd vector;
+
+  NormalEquations(const Edges& edges, const std::vector<TPose2D>& poses)
+      : matrix(size(poses), size(poses)), vector(Eigen::VectorXd::Zero(size(poses))) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const PoseEdge* edge : edges) {
+      const TPose2D& from = poses[edge->from];
+      const TPose2D is = poses[edge->to] - from;
+      Eigen::Matrix3d byTo = Eigen::Matrix3d::Identity();
+      byTo.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.phi).toRotationMatrix();
+      Eigen::Matrix3d byFrom = -byTo;
+      byFrom(0, 2) = is.y, byFrom(1, 2) = -is.x;
+      const Eigen::Vector3d off = residual(*edge, poses);
+      const std::pair<size_t, const Eigen::Matrix3d*> ends[] = {{edge->from, &byFrom}, {edge->to, &byTo}};
+      for (const auto& [a, byA] : ends) {
+        if (a == 0) continue;
+        vector.segment<3>(row(a)) -= byA->transpose() * edge->information * off;
+        for (const auto& [b, byB] : ends) {
+          if (b == 0) continue;
+          const Eigen::Matrix3d block = byA->transpose() * edge->information * *byB;
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) entries.emplace_back(row(a) + i, row(b) + j, block(i, j));
+        }
+      }
+    }
+    matrix.setFromTriplets(entries.begin(), entries.end());
   }
-  network.root = 0;
-  const auto insert = [&](const PoseEdge& edge) {
-    network.insertEdge(edge.from, edge.to, constraint(edge.relative, edge.information));
-  };
-  for (const PoseEdge& edge : graph.motions) insert(edge);
-  // Do not use zero information: MRPT 2.5.8 accepts a step by its residuals without their information.
-  for (size_t i = 0; i < graph.loops.size(); ++i)
-    if (loopWeights[i] > 0) insert(graph.loops[i]);
-  mrpt::graphslam::TResultInfoSpaLevMarq info;
-  mrpt::containers::yaml parameters = mrpt::containers::yaml::Map();
-  parameters["max_iterations"] = 50;
-  mrpt::graphslam::optimize_graph_spa_levmarq(network, info, &free, parameters);
-  std::vector<TPose2D> poses;
-  for (size_t i = 0; i < graph.poses.size(); ++i) poses.push_back(network.nodes[i].asTPose());
+  static Eigen::Index row(size_t pose) { return 3 * (static_cast<Eigen::Index>(pose) - 1); }
+  static Eigen::Index size(const std::vector<TPose2D>& poses) { return row(poses.size()); }
+};
+
+std::vector<TPose2D> moved(std::vector<TPose2D> poses, const Eigen::VectorXd& step) {
+  for (size_t i = 1; i < poses.size(); ++i) {
+    const auto by = step.segment<3>(NormalEquations::row(i));
+    poses[i] = {poses[i].x + by[0], poses[i].y + by[1], mrpt::math::wrapToPi(poses[i].phi + by[2])};
+  }
+  return poses;
+}
+
+/// Gauss-Newton; a step that does not lower chi^2 is halved.
+std::vector<TPose2D> solve(const Edges& edges, std::vector<TPose2D> poses) {
+  double chi2 = chi2Of(edges, poses);
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const NormalEquations equations(edges, poses);
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(equations.matrix);
+    if (factors.info() != Eigen::Success) break;
+    Eigen::VectorXd step = factors.solve(equations.vector);
+    std::vector<TPose2D> next = moved(poses, step);
+    while (!(chi2Of(edges, next) <= chi2) && step.cwiseAbs().maxCoeff() > kNegligibleStep)
+      next = moved(poses, step *= 0.5);
+    const double reached = chi2Of(edges, next);
+    if (!(reached <= chi2)) break;
+    poses = std::move(next), chi2 = reached;
+    if (step.cwiseAbs().maxCoeff() < kNegligibleStep) break;
+  }
   return poses;
 }
 
@@ -59,11 +100,15 @@ OptimizedGraph optimized(const PoseGraph& graph) {
   OptimizedGraph result{graph.poses, std::vector<double>(graph.loops.size(), 1)};
   if (graph.poses.size() < 2) return result;
   for (int solution = 0; solution < 2; ++solution) {
-    result.poses = solve(graph, result.loopWeights);
+    Edges edges;
+    for (const PoseEdge& edge : graph.motions) edges.push_back(&edge);
+    for (size_t i = 0; i < graph.loops.size(); ++i)
+      if (result.loopWeights[i] > 0) edges.push_back(&graph.loops[i]);
+    result.poses = solve(edges, graph.poses);
     size_t worst = graph.loops.size();
     double highest = kFalseResidual;
     for (size_t i = 0; i < graph.loops.size(); ++i) {
-      const double chi2 = result.loopWeights[i] * residual(graph.loops[i], result.poses);
+      const double chi2 = result.loopWeights[i] * chi2Of(graph.loops[i], result.poses);
       if (chi2 > highest) highest = chi2, worst = i;
     }
     if (worst == graph.loops.size()) break;

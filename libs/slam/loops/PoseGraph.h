@@ -12,8 +12,8 @@ namespace hybrid_slam {
 /// A measured pose of node `to` in the frame of node `from`.
 struct PoseEdge {
   size_t from = 0, to = 0;
-  mrpt::math::TPose2D relative;
-  Eigen::Matrix3d information;
+  mrpt::math::TPose2D relative;  ///< m, rad
+  Eigen::Matrix3d information;   ///< of x, y, phi in the frame of `from` (1/m^2, 1/(m rad), 1/rad^2)
 
   template <class State>
   void visit(State& state) {
@@ -37,9 +37,10 @@ struct OptimizedGraph {
   std::vector<double> loopWeights;  ///< of each loop edge: 0 if it is false, else 1; two of 0: no solution
 };
 
-/// Solves for least squares by mrpt::graphslam's sparse Levenberg-Marquardt. If the loops do not agree with
-/// each other and with the motions, the one with the largest residual is dropped. If the others do not agree
-/// either, there is no solution.
+/// Solves for least squares by Gauss-Newton with a sparse Cholesky factorisation. (mrpt::graphslam 2.5.8
+/// accepts a step by the sum of the residuals without their information, so it stops early:
+/// doc/mrpt-notes.md.) If the loops do not agree with each other and with the motions, the one with the
+/// largest residual is dropped. If the others do not agree either, there is no solution.
 OptimizedGraph optimized(const PoseGraph& graph);
 
 }  // namespace hybrid_slam

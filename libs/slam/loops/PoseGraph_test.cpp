@@ -65,6 +65,29 @@ TEST(PoseGraph, TwoFalseLoopsEndTheSearch) {
   EXPECT_EQ(std::count(weights.begin(), weights.end(), 0), 2);
 }
 
+/// A motion that is certain across and a loop that is certain along the first pose's heading. The solution is
+/// their mean weighted by information in the frame of the first pose, whatever the heading of the second is.
+TEST(PoseGraph, InformationIsInTheFrameOfTheFirstPose) {
+  Eigen::Matrix3d motion, loop;
+  motion << 40, 30, 20, 30, 900, 50, 20, 50, 1e4;
+  loop << 700, -60, 40, -60, 30, -10, 40, -10, 2e4;
+  for (int degrees = -180; degrees < 180; degrees += 45) {
+    SCOPED_TRACE(degrees);
+    const double phi = degrees * kDegree;
+    const Eigen::Vector3d moved(2, 0, phi), seen(2.02, 0.03, phi + 0.002);
+    PoseGraph graph;
+    graph.poses = {{}, {moved[0], moved[1], moved[2]}};
+    graph.motions = {{0, 1, graph.poses[1], motion}};
+    graph.loops = {{0, 1, {seen[0], seen[1], seen[2]}, loop}};
+    const Eigen::Vector3d expected = (motion + loop).ldlt().solve(motion * moved + loop * seen);
+    const OptimizedGraph result = optimized(graph);
+    EXPECT_NEAR(result.poses[1].x, expected[0], 1e-9);
+    EXPECT_NEAR(result.poses[1].y, expected[1], 1e-9);
+    EXPECT_NEAR(std::remainder(result.poses[1].phi - expected[2], 2 * M_PI), 0, 1e-9);
+    EXPECT_EQ(result.loopWeights, std::vector<double>{1});
+  }
+}
+
 TEST(PoseGraph, WithoutLoopsNothingMoves) {
   const Ring ring;
   const OptimizedGraph result = optimized(ring.graph);

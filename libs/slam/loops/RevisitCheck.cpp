@@ -40,6 +40,7 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   for (; !waiting_.empty() && waiting_.front().distance < distance - delay_; waiting_.pop_front())
     grid_.insert(waiting_.front().beams, waiting_.front().pose, options);
 
+  ++scans_, beams_ += beams.rays.size();
   const GridPose frame(pose, beams, kResolution);
   TileReader cells(grid_.tiles());
   Revisit revisit{pose, update, distance};

@@ -34,8 +34,10 @@ class RevisitCheck {
   /// Adds the next scan of the path.
   /// @param distance  m, along the path
   void add(const mrpt::math::TPose2D& pose, const ScanBeams& beams, double distance, size_t update);
-  /// The scans with at least 10 % of their beams compared.
+  /// The scans with at least 8 and at least 10 % of their beams compared.
   const std::vector<Revisit>& revisits() const { return revisits_; }
+  /// Mean number of beams of all scans added; NaN before the first.
+  double meanBeams() const { return static_cast<double>(beams_) / static_cast<double>(scans_); }
 
   static constexpr double kResolution = 0.1;  ///< m
   static constexpr double kRange = 8;         ///< m
@@ -50,6 +52,7 @@ class RevisitCheck {
   OccupancyGrid grid_;
   std::deque<Waiting> waiting_;  ///< not yet in the map
   std::vector<Revisit> revisits_;
+  size_t scans_ = 0, beams_ = 0;
 };
 
 /// Share of the compared beams that contradict the map from 20 m of path before; 0 without any.

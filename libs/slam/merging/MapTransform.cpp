@@ -82,8 +82,7 @@ void addMap(ScanMap& map, const ScanMap& other, const TPose2D& frame, const Grid
       continue;
     }
     DatabaseLine& same = lines[static_cast<size_t>(known - map.lines.lines().data())];
-    same = merged(same, line);
-    same.count += line.count - 1;
+    same = merged(same, line, line.count);
   }
   setDirections(lines, database.directionWindow);
   map.lines = LineDatabase(std::move(lines));

@@ -49,6 +49,25 @@ TEST(Resampled, ACoarseCellFillsItsFineOnes) {
   EXPECT_EQ(fine.tiles().at({0, 0}), 0);
 }
 
+TEST(AddMap, LinesWeighByTheirObservations) {
+  ScanMap map{OccupancyGrid(0.1), LineDatabase({lineOf({0, 10}, {8, 10}, 3)})},
+      other{OccupancyGrid(0.1), LineDatabase({lineOf({0, 10.1}, {8, 10.1}, 997)})};
+  addMap(map, other, {}, GridOptions(), AssociationOptions(), LineDatabaseOptions());
+  ASSERT_EQ(map.lines.lines().size(), 1u);
+  EXPECT_EQ(map.lines.lines()[0].count, 1000);
+  EXPECT_NEAR(map.lines.lines()[0].rho, 10.0997, 1e-9);
+}
+
+/// A line that a long run saw once, at its end.
+TEST(AddMap, LinesOfTheOtherMapArePruned) {
+  DatabaseLine late = lineOf({0, 10}, {8, 10}, 1);
+  late.inserted = 1006;
+  ScanMap map{OccupancyGrid(0.1), LineDatabase()}, other{OccupancyGrid(0.1), LineDatabase({late})};
+  addMap(map, other, {}, GridOptions(), AssociationOptions(), LineDatabaseOptions());
+  for (int i = 0; i < 20; ++i) map.lines.update({}, LineDatabaseOptions(), AssociationOptions());
+  EXPECT_TRUE(map.lines.lines().empty());
+}
+
 TEST(AddMap, EvidenceAddsUpWithinTheLimits) {
   ScanMap map{OccupancyGrid(0.1), LineDatabase()}, other = map;
   map.grid.tiles().set({0, 0}, 10);

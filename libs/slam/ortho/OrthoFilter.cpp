@@ -22,6 +22,7 @@ OrthoFilter::OrthoFilter(const FilterConfiguration& c, const OrthoOptions& optio
 }
 
 void OrthoFilter::process(const TPose2D& odometry, const Scans& scans) {
+  expectFinite(odometry);
   odometry_ = odometry_ + odometry;
   if (scans.empty() || !(path_.empty() || interval_.isOver(odometry_))) return;
 
