@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -41,6 +42,12 @@ inline void warn(const std::vector<std::string>& warnings) {
 inline void openStandardDescriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0) (void)!::open("/dev/null", O_RDWR);  // the lowest number free
+}
+
+/// Makes a closed pipe, a server or a device that hangs up, and a limit of the file size end a write with an
+/// error, not the program.
+inline void keepWriteErrors() {
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
 /// Returns whether standard output is a terminal.
@@ -99,6 +106,7 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
   openStandardDescriptors();
+  keepWriteErrors();
   try {
     const int code = work();
     if (code == 0 && !isPrinted())

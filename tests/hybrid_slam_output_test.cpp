@@ -29,10 +29,21 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 using testing::UnorderedElementsAreArray;
 
 // ---- output
+
+/// config.ini and a session hold the names as text of an INI file.
+TEST_F(HybridSlam, NamesThatAnIniFileCannotHold) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
+  for (const std::string name : {"out ", " out", "a // b"}) {
+    output = folder.path(".") + "/" + name;
+    if (name[0] == ' ') output = name;
+    expectError(replay(log), "wrong name `" + output + "`");
+  }
+}
 
 TEST_F(HybridSlam, OutputThatCannotBeWritten) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
@@ -121,6 +132,25 @@ TEST_F(HybridSlam, AFullStandardOutputIsAnError) {
     EXPECT_EQ(contentOf(folder.path("code")), "1\n") << arguments;
     EXPECT_THAT(full.err, HasSubstr("hybrid-slam: error: cannot write: standard output; ")) << arguments;
   }
+}
+
+/// `| less`, then `q`: the run goes on to its results.
+TEST_F(HybridSlam, AClosedPipeIsAnErrorAfterTheResults) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
+  const test::Outcome piped = test::shell(
+      folder, "{ '" HYBRID_SLAM "' '" + log + "' -o out; echo $? >code; } | true; sleep 0.1; true");
+  for (int i = 0; i < 100 && !fs::exists(folder.path("code")); ++i) test::shell(folder, "sleep 0.1");
+  EXPECT_EQ(contentOf(folder.path("code")), "1\n");
+  EXPECT_THAT(test::namesIn(folder.path("out")), UnorderedElementsAreArray(kResults));
+  EXPECT_THAT(piped.err, Not(HasSubstr("terminate")));
+}
+
+/// Without a trap, SIGXFSZ ends a program that does not ignore it.
+TEST_F(HybridSlam, ALimitOfTheFileSizeIsAnError) {
+  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(40));
+  EXPECT_EQ(replay(log, "", "ulimit -f 2; "), 2);
+  EXPECT_THAT(err, HasSubstr("hybrid-slam: error: "));
+  EXPECT_THAT(results(), IsEmpty());
 }
 
 /// A result file must not get the descriptor of standard error, and with it the messages.

@@ -360,6 +360,7 @@ TEST_F(LivePrograms, WrongCommandLinesAndFiles) {
   liveError({}, "no INI file");
   liveError({ini, "-o", output}, "no sensors");
   liveError({ini, "--server", "robot", "-o", output}, "expected HOST:PORT");
+  liveError({ini, "--server", std::string(100000, 'a') + ":1", "-o", output}, "expected HOST:PORT");
   liveError({ini, "--server", "a:1", "--start", "0,0,0"}, "--start without a map");
   liveError({ini, "--server", "a:1", "-o", output, "--localize", folder.write("no.hslam", "none")},
             "no.hslam");

@@ -134,6 +134,7 @@ TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
   expectRefused(write("empty", ""), "not a session file");
   expectRefused(log, "not a session file");
   expectRefused(write("text", "no session"), "not a session file");
+  expectRefused(write("zeros", files::gzipped(std::string(1000, '\0'))), "not a session file");
   for (const size_t length : {bytes.size() / 100, bytes.size() / 2, bytes.size() - 4})
     expectRefused(write("cut", bytes.substr(0, length)), "cut");
   std::string damaged = bytes;

@@ -115,7 +115,6 @@ int main(int argc, char** argv) {
       return hybrid_slam::fail(
           1, "no display: DISPLAY is unset; expected an X11 or XWayland desktop, or xvfb-run");
     setenv("GDK_BACKEND", "x11", 0);
-    std::signal(SIGPIPE, SIG_IGN);  // the live page handles a server that hangs up
     hybrid_slam::stopOnSignals();
     int none = 1;  // wxWidgets gets no arguments
     return wxEntry(none, argv) == 0 ? 0 : 1;

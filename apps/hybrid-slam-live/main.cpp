@@ -110,7 +110,6 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
     return 0;
   }
   if (line.config.empty()) return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini");
-  ignoreHangUps();
   stopOnSignals();
   holdSaveSignal();
   run::Configuration configuration(files::inputFile(line.config), settings, sections);

@@ -67,6 +67,13 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   return settings;
 }
 
+/// Rejects a file name that an INI file, and so config.ini and a session, cannot hold.
+void expectKept(const std::string& given, const std::string& kept) {
+  if (!given.empty() && given != kept)
+    throw InputError("wrong name `" + given + "`", "command line",
+                     "expected one without line breaks, macros, `//`, and blanks at its ends");
+}
+
 int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (line.wantsManual) {
     std::cout << (isTerminal() ? run::plainConfigurationManual() : run::configurationManual());
@@ -74,6 +81,8 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   }
   const std::string usage = "expected hybrid-slam [config.ini] LOG";
   run::Configuration configuration(line.files.config, settings);
+  expectKept(line.files.log, configuration.run.rawlog);
+  expectKept(line.output, configuration.run.output);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   if (configuration.run.rawlog.empty() && line.session.resume.empty())

@@ -46,7 +46,6 @@ int run(const CommandLine& line) {
   }
   if (line.config.empty())
     return fail(2, "no INI file: command line; expected observation-server config.ini");
-  ignoreHangUps();
   stopOnSignals();
   mrpt::config::CConfigFileMemory source;
   warn(files::loadIni(source, files::inputFile(line.config), line.settings, sections, "",

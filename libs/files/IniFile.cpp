@@ -33,12 +33,14 @@ void checkLengths(const std::string& text, const std::string& file) {
     throw InputError("too large for an INI file", file,
                      "expected at most " + std::to_string(kLargestIniFile) + " bytes");
   size_t number = 1;
-  for (size_t begin = 0; begin < text.size(); ++number) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
+  for (size_t begin = 0, end = 0; end < text.size(); ++number) {
+    end = std::min(text.find('\n', end), text.size());
     if (end - begin > kLongestIniLine)
       throw InputError("line too long", file + ", line " + std::to_string(number),
                        "expected at most " + std::to_string(kLongestIniLine) + " characters");
-    begin = end + 1;
+    const bool isContinued = end > begin && text[end - 1] == '\\';  // MRPT joins these lines
+    ++end;
+    if (!isContinued) begin = end;
   }
 }
 

@@ -46,9 +46,11 @@ void ServerOptions::describe(OptionTable& t) {
 std::pair<std::string, uint16_t> hostAndPort(const std::string& text, const std::string& where) {
   static const std::regex form(R"((?:\[([^\]]+)\]|([^:\[\]]+)):(\d{1,5}))");  // IPv6 address in brackets
   std::smatch parts;
-  const int port = std::regex_match(text, parts, form) ? std::stoi(parts[3]) : 0;
+  constexpr size_t kLongest = 300;  // std::regex overflows the stack on long texts
+  const bool matches = text.size() <= kLongest && std::regex_match(text, parts, form);
+  const int port = matches ? std::stoi(parts[3]) : 0;
   if (port < 1 || port > 65535)
-    throw InputError("wrong server `" + text + "`", where,
+    throw InputError("wrong server `" + text.substr(0, kLongest) + "`", where,
                      "expected HOST:PORT, such as robot:4550 or [::1]:4550");
   return {parts[1].matched ? parts[1] : parts[2], static_cast<uint16_t>(port)};
 }

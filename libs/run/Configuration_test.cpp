@@ -93,6 +93,9 @@ TEST_F(ConfigurationTest, SectionsThatNobodyUsesGiveAWarning) {
 TEST_F(ConfigurationTest, OverlongLines) {
   EXPECT_EQ(errorOf("[run]\noutput = " + std::string(10000, 'x') + "\n"),
             "line too long: " + ini + ", line 2; expected at most 10000 characters");
+  const std::string part = std::string(4000, 'x') + "\\\n";  // MRPT joins continued lines
+  EXPECT_EQ(errorOf("[run]\noutput = " + part + part + part + "\n"),
+            "line too long: " + ini + ", line 4; expected at most 10000 characters");
   EXPECT_THAT(errorOf(std::string(1000001, '\n')), StartsWith("too large for an INI file: " + ini));
 }
 

@@ -197,7 +197,7 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
 
 std::string FilterRun::slipNote() const {
   if (slips_ == 0) return {};
-  return std::to_string(slips_) + " updates with a large odometry error: first at " +
+  return std::to_string(slips_) + " updates whose odometry was rejected: first at " +
          fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
 }
 

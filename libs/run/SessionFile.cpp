@@ -55,8 +55,22 @@ bool isSession(const std::string& file) {
   return in && gzread(in.get(), &magic, sizeof magic) == sizeof magic && magic == kMagic;
 }
 
+namespace {
+
+/// Returns the file; rejects another gzip file before all of it is unpacked.
+const std::string& notOfAnotherKind(const std::string& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  uint64_t magic = 0;
+  if (in && gzread(in.get(), &magic, sizeof magic) == sizeof magic && gzdirect(in.get()) == 0 &&
+      magic != kMagic)
+    throw InputError("not a session file", file, std::string("expected a ") + kWhat);
+  return file;
+}
+
+}  // namespace
+
 SessionReader::SessionReader(const std::string& file)
-    : file_(file), bytes_(files::readGzip(file, kWhat, kMostSessionBytes)), in_(bytes_) {
+    : file_(file), bytes_(files::readGzip(notOfAnotherKind(file), kWhat, kMostSessionBytes)), in_(bytes_) {
   uint64_t magic = 0;
   uint32_t format = 0;
   guarded([&] { in_(magic); });

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "base/Errors.h"
 #include "files/GridMapReader.h"
+#include "study/comparison/JsonFile.h"
 #include "study/comparison/ReturnError.h"
 #include "study/comparison/SpreadTable.h"
 #include "study/comparison/WallErrors.h"
@@ -27,8 +27,7 @@ evaluation::RelationErrors relationErrors(const files::Trajectory& trajectory, c
 }
 
 void takeMetrics(RunResult& result, const std::string& file) {
-  std::ifstream in(file);
-  const auto metrics = nlohmann::json::parse(in, nullptr, false);
+  const auto metrics = readJson(file);
   const auto take = [&](Figure figure, const char* key) {
     if (!metrics.is_object() || !metrics.contains(key) || !metrics[key].is_number())
       throw std::runtime_error("broken file: " + file + "; no number `" + key + "`");

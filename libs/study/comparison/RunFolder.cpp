@@ -10,6 +10,7 @@
 
 #include "base/Errors.h"
 #include "files/Checksum.h"
+#include "study/comparison/JsonFile.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -48,8 +49,7 @@ struct Origin {
 
 /// Reads origin.json; empty if it is broken.
 std::optional<Origin> originIn(const fs::path& file) {
-  std::ifstream in(file);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto json = readJson(file);
   if (!json.is_object()) return std::nullopt;
   const auto member = [&](const char* key) { return json.value(key, nlohmann::json()); };
   const auto size = member("log_size"), time = member("log_time_ns"), sections = member("other_sections");
@@ -57,7 +57,17 @@ std::optional<Origin> originIn(const fs::path& file) {
   return Origin{size.get<uintmax_t>(), time.get<int64_t>(), sections.get<std::string>()};
 }
 
-std::string canonical(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)).string(); }
+/// Returns the path as it is if it cannot be resolved: an empty one, a loop of links.
+std::string canonical(const fs::path& file) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(fs::absolute(file, error), error);
+  return (error ? file : path).string();
+}
+
+bool isThere(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
 
 }  // namespace
 
@@ -84,7 +94,7 @@ void RunFolder::expect(const RunIdentity& identity) const {
     if (expected.count(key) == 0)
       differs(folder_, "config.ini: " + key + " = " + value + ", now no such key");
 
-  if (!fs::exists(file(kOrigin))) return;
+  if (!isThere(file(kOrigin))) return;
   const auto origin = originIn(file(kOrigin));
   if (!origin) differs(folder_, std::string(kOrigin) + " is broken");
   if (origin->otherSections != identity.otherSections)
@@ -119,10 +129,9 @@ void RunFolder::finish() const {
 }
 
 std::string RunFolder::damage() const {
-  if (fs::exists(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
-  if (!fs::exists(file(kChecksums))) return {};
-  std::ifstream in(file(kChecksums));
-  const auto checksums = nlohmann::json::parse(in, nullptr, false);
+  if (isThere(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
+  if (!isThere(file(kChecksums))) return {};
+  const auto checksums = readJson(file(kChecksums));
   if (!checksums.is_object()) return kChecksums;
   for (const auto& [name, sum] : checksums.items())
     if (!sum.is_number_unsigned() || files::checksumOf(file(name).string()) != sum.get<uint32_t>())

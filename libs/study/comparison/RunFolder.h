@@ -32,7 +32,10 @@ class RunFolder {
   /// Output folder for hybrid-slam.
   const std::filesystem::path& partial() const { return partial_; }
 
-  bool isFinished() const { return std::filesystem::exists(file("metrics.json")); }
+  bool isFinished() const {
+    std::error_code none;  // such as a loop of links
+    return std::filesystem::exists(file("metrics.json"), none);
+  }
   /// @throws InputError with the folder and the first difference if the finished run has another identity.
   ///         Log size and time are compared if recorded; runs not started by slam-compare lack them.
   void expect(const RunIdentity& identity) const;

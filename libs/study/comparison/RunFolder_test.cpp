@@ -125,6 +125,28 @@ TEST_F(RunFolderTest, ARecordOfItsOriginWithWrongTypesIsDamage) {
   }
 }
 
+/// Copying a value of so many levels would overflow the stack.
+TEST_F(RunFolderTest, ADeepRecordOfItsOriginIsDamage) {
+  finishRun();
+  const std::string deep(200000, '[');
+  std::ofstream(folder.file("origin.json"))
+      << "{\"log_size\":" << deep << std::string(deep.size(), ']') << "}";
+  EXPECT_EQ(folder.damage(), "origin.json");
+}
+
+TEST_F(RunFolderTest, ALoopOfLinksIsNotFinished) {
+  fs::create_directories(folder.path().parent_path());
+  fs::create_symlink(folder.path(), folder.path());
+  EXPECT_FALSE(folder.isFinished());
+  EXPECT_EQ(folder.damage(), "");
+}
+
+TEST_F(RunFolderTest, AnEmptyConfigurationIsAnotherRuns) {
+  finishRun();
+  std::ofstream(folder.file("config.ini")) << "";
+  EXPECT_THAT(difference(identity), HasSubstr("log "));
+}
+
 TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {
   folder.begin(identity);
   std::ofstream(folder.partial() / "metrics.json") << "{}";
