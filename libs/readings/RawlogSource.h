@@ -19,7 +19,7 @@ struct BagPlan;
 
 /// Section [input].
 struct InputOptions : Options {
-  std::string sensorLabel;    ///< list of labels, see labelsOf; of a bag: topics
+  std::string sensorLabel;         ///< list of labels, see labelsOf; of a bag: topics
   std::string laserPose = "auto";  ///< of the only laser, see laserPoseIn; auto: as the log states
   std::string odometryTopic;       ///< of a bag
   bool requireOdometry = true;

@@ -23,6 +23,9 @@ void SegmentationOptions::describe(OptionTable& table) {
 
 namespace {
 
+constexpr double kClosedChord = 0.05;      // of the extent of a run all round, whose ends are neighbours
+constexpr double kLongestClosedChord = 1;  // m
+
 /// Returns whether the first beam is the neighbour of the last.
 bool isRound(const std::vector<Beam>& beams) {
   if (beams.size() < 3) return false;
@@ -85,14 +88,17 @@ void splitAtCorners(PointRange run, const SegmentationOptions& options, std::vec
   if (run.size() < static_cast<size_t>(options.minPoints)) return;
   const TPoint2D& a = run.front();
   const TPoint2D& b = run.back();
-  const double chord = std::hypot(b.x - a.x, b.y - a.y);
+  const auto fromStart = [&a](const TPoint2D& p) { return std::hypot(p.x - a.x, p.y - a.y); };
+  const double chord = fromStart(b);
+  const bool isClosed = chord < kLongestClosedChord &&
+                        std::any_of(run.begin(), run.end(),
+                                    [&](const TPoint2D& p) { return fromStart(p) > chord / kClosedChord; });
   const TPoint2D* corner = nullptr;
   double farthest = options.splitDistance;
   for (const TPoint2D& p : run) {
-    // A closed run has no chord: use the point farthest from its start.
-    const double distance = chord > 0
-                                ? std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / chord
-                                : std::hypot(p.x - a.x, p.y - a.y);
+    // A closed run has no chord to measure from: use the point farthest from its start.
+    const double distance =
+        isClosed ? fromStart(p) : std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / chord;
     if (distance > farthest) {
       farthest = distance;
       corner = &p;
