@@ -55,9 +55,8 @@ void InputOptions::describe(OptionTable& t) {
         "horizontally (within 5 deg), at most " +
             std::to_string(kMaxLasers));
   t.add("laser_pose", laserPose,
-        "X, Y, YAW[, ROLL] (m, deg): pose of the only laser on the robot, instead of that in the log; ROLL "
-        "180: "
-        "mounted upside down; auto: as the log states");
+        "X, Y, YAW[, ROLL] (m, deg): pose of the only laser on the robot, instead of that in the log; "
+        "ROLL 180: mounted upside down; auto: as the log states");
   t.add("odometry_topic", odometryTopic,
         "bag: topic of the odometry; empty: the only one, or the transforms");
   t.add("require_odometry", requireOdometry,

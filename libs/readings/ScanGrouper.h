@@ -18,8 +18,7 @@ class ScanGrouper {
  public:
   /// @param lasers  labels of the lasers to use; none: the first kMaxLasers that are mounted horizontally
   /// @param maxGap  s
-  /// @param isPlaced  whether the user states the laser's pose: only one laser is used then, whatever its
-  /// pose
+  /// @param isPlaced  whether the user states the laser's pose: one laser is used, its logged pose ignored
   ScanGrouper(const std::vector<std::string>& lasers, double maxGap, bool isPlaced = false);
 
   enum class Use { taken, empty, misplaced, tilted, unwanted, tooMany, second };

@@ -11,10 +11,9 @@ namespace hybrid_slam {
 /// A pose drawn for a particle, and its incremental weight.
 struct Proposed {
   mrpt::math::TPose2D pose;
-  double logWeight = 0;  ///< ln p(scan | previous pose, odometry, grid, lines), up to a constant of the step
-  double fit = 0;        ///< of the match, in [0, 1]
-  bool isMatched =
-      true;  ///< false: drawn without a match, from the motion model or, after a slip, around the place found
+  double logWeight = 0;   ///< ln p(scan | previous pose, odometry, grid, lines), up to a constant of the step
+  double fit = 0;         ///< of the match, in [0, 1]
+  bool isMatched = true;  ///< false: drawn from the motion model or around the place found after a slip
   LineWeight lineWeight;
 };
 

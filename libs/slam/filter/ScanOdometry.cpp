@@ -41,12 +41,13 @@ TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
   const double duration = timestamp - lastTime_;
   const TPose2D expected = predicted(duration);
   pose_ = before + expected;
-  if (ScanBeams(scans).rays.empty()) {  // without returns: keep the map, and slow down
+  const ScanBeams beams(scans, BeamSelection(scans).take(matchedBeams_));
+  if (beams.rays.empty()) {  // without returns: keep the map, and slow down
     lastMotion_ = {kSlowing * expected.x, kSlowing * expected.y, kSlowing * expected.phi};
     lastDuration_ = duration, lastTime_ = timestamp;
     return expected;
   }
-  const ScanMatch found = match(ScanBeams(scans, BeamSelection(scans).take(matchedBeams_)), pose_);
+  const ScanMatch found = match(beams, pose_);
   const bool fits = found.fit >= kMinFit;
   if (fits)
     pose_ = found.pose;

@@ -44,6 +44,7 @@ StockMapBuilder::StockMapBuilder(const TConstructionOptions& construction, const
     : CMetricMapBuilderRBPF(construction), motion_(motion), mostBytes_(mostBytes), random_(seed) {}
 
 void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
+  expectFinite(odometry);
   mrpt::obs::CActionCollection action;
   action.insert(toAction(odometry, motion_));
   mrpt::obs::CSensoryFrame observations;

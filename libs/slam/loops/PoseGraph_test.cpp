@@ -66,7 +66,7 @@ TEST(PoseGraph, TwoFalseLoopsEndTheSearch) {
 }
 
 /// A motion that is certain across and a loop that is certain along the first pose's heading. The solution is
-/// their mean weighted by information in the frame of the first pose, whatever the heading of the second is.
+/// their mean weighted by information in the frame of the first pose, for every heading of the second.
 TEST(PoseGraph, InformationIsInTheFrameOfTheFirstPose) {
   Eigen::Matrix3d motion, loop;
   motion << 40, 30, 20, 30, 900, 50, 20, 50, 1e4;

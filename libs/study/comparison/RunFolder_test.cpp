@@ -125,7 +125,7 @@ TEST_F(RunFolderTest, ARecordOfItsOriginWithWrongTypesIsDamage) {
   }
 }
 
-/// Copying a value of so many levels would overflow the stack.
+/// A recursive copy of 200,000 levels would overflow the stack.
 TEST_F(RunFolderTest, ADeepRecordOfItsOriginIsDamage) {
   finishRun();
   const std::string deep(200000, '[');
