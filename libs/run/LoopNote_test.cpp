@@ -18,6 +18,11 @@ TEST(LoopNote, SaysWhereByHowMuchAndOnWhatEvidence) {
       " at (12.3, -5.7) m between 1010.3 s and 1137.5 s: path moved by up to 4.26 m and 2.3 deg; 3 matches "
       "agree, at least 92 % of their walls fit, other places score 55 % of theirs";
   EXPECT_EQ(loopNote(loop, times, false), "loop closed" + evidence);
+  loop.earlier.reset();
+  EXPECT_EQ(loopNote(loop, times, false)
+                .find("loop closed at (12.3, -5.7) m between the earlier map and 1137.5 s: "),
+            0u);
+  loop.earlier = 1;
   EXPECT_EQ(loopNote(loop, times, true), "loop closed in the refinement" + evidence);
 }
 

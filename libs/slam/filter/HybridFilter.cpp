@@ -62,9 +62,12 @@ void HybridFilter::closeLoops(const PreparedScan& scan) {
   loopCloser_.add(best.path.lastMotion(), scan.scans, scan.lines,
                   particles_.lastStep().slipped.value_or(false));
   if (!loopCloser_.isDue()) return;
-  const auto closure = loopCloser_.close(bestPath(), best.lines->dominatingDirection());
+  const std::vector<TPose2D> before = bestPath();
+  const auto closure =
+      loopCloser_.close(before, best.lines->dominatingDirection(), base_ ? &base_->grid : nullptr);
   if (!closure) return;
   std::vector<TPose2D> path{best.path.poses().front()};
+  if (base_) path.front() = closure->path.front() + (path.front() - before.front());
   path.insert(path.end(), closure->path.begin(), closure->path.end());
   continueFrom(path);
   particles_.setLoop(*closure);
@@ -86,8 +89,8 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   std::vector<TPose2D> path = particles_.best().path.poses();
   for (TPose2D& at : path) at = origin + at;
   for (PosedScans& known : known_) known.pose = origin + known.pose;
-  loopCloser_.turn(origin.phi);
   continueFrom(path);
+  loopCloser_.joinMap(origin.phi, bestPath());
   expectNoMap();
 }
 

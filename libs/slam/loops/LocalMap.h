@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/grid/OccupancyGrid.h"
+#include "slam/loops/PoseGraph.h"
 
 namespace hybrid_slam {
 
@@ -19,9 +20,9 @@ struct Keyframe {
   }
 };
 
-/// The map of some keyframes, in the frame of one of them.
+/// The map of some keyframes, in the frame of one of them; or a part of the map of an earlier run.
 struct LocalMap {
-  size_t reference = 0;  ///< keyframe that defines the frame
+  size_t reference = 0;  ///< keyframe that defines the frame, or PoseEdge::kMapFrame
   OccupancyGrid grid;
   ScanBeams ends;  ///< one beam end for each occupied cell, from the reference
 };
@@ -31,5 +32,10 @@ struct LocalMap {
 /// @param options  its resolution is that of the map
 LocalMap localMap(const std::vector<Keyframe>& keyframes, const std::vector<mrpt::math::TPose2D>& poses,
                   size_t first, size_t last, const GridOptions& options);
+
+/// The cells of a map within `reach` (m, in x and in y) of a place, in the frame of the map.
+/// @param resolution  m; an occupied cell makes the coarser cell around it occupied
+LocalMap localMap(const OccupancyGrid& map, const mrpt::math::TPoint2D& place, double reach,
+                  double resolution);
 
 }  // namespace hybrid_slam

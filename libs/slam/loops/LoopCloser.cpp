@@ -42,6 +42,13 @@ std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
 /// Standard deviations in x, y (m) and heading (rad) that a match has at most. A held pair may be unknown
 /// along a corridor; of a match, every other pose in the window scores less.
 const Eigen::Vector3d kOfHeld(10, 10, 1), kOfMatch(kSame, kSame, kSameAngle);
+/// Of the robot found in an earlier map.
+const Eigen::Vector3d kOfJoin(0.1, 0.1, 0.5 * kDegree);
+
+SearchWindow searchWindow(const Eigen::Matrix3d& covariance, double maxOffset) {
+  return {std::clamp(3 * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), 0.6, maxOffset),
+          std::clamp(3 * std::sqrt(covariance(2, 2)), 4 * kDegree, kMaxAngle)};
+}
 
 /// Inverse of the covariance of a match, between these deviations and 5 cm and 0.25 deg. The matcher's
 /// information is tempered: its beams are not independent.
@@ -132,13 +139,24 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
   return chosen;
 }
 
-LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& stretch,
-                                         const PathUncertainty& uncertainty, size_t place, double reach) {
-  const LocalMap older = around(visit, place, reach);
+LoopCloser::Outcome LoopCloser::tryEarlierMap(const Visit& visit, const LocalMap& stretch,
+                                              const PathUncertainty& uncertainty, const OccupancyGrid& map) {
   const size_t here = stretch.reference;
-  const TPose2D expected = visit.poses[here] - visit.poses[older.reference];
+  const auto covariance = uncertainty.inMap(here, known_);
+  if (!covariance) return Outcome::none;
+  double extent = 0;
+  for (const ScanBeams::Ray& ray : stretch.ends.rays) extent = std::max(extent, ray.range);
+  const double reach = extent + searchWindow(*covariance, options_.maxOffset).distance;
+  const TPose2D& pose = visit.poses[here];
+  return tryPlace(visit, stretch, localMap(map, {pose.x, pose.y}, reach, grid_.resolution), *covariance);
+}
+
+LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& stretch, const LocalMap& older,
+                                         const Eigen::Matrix3d& covariance) {
+  const size_t here = stretch.reference;
+  const TPose2D frame = visit.frame(older.reference);
+  const TPose2D expected = visit.poses[here] - frame;
   const LoopMatch near = matchFrom(expected, stretch, older);
-  const Eigen::Matrix3d covariance = uncertainty.between(older.reference, here, known_);
   const auto isWhereExpected = [&](const LoopMatch& match) {
     return distanceOf(match.pose, expected) < kSame && angleOf(match.pose, expected) < kSameAngle;
   };
@@ -150,16 +168,13 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
     candidates_.clear();
     return Outcome::held;
   }
-  const SearchWindow window{
-      std::clamp(3 * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), 0.6, options_.maxOffset),
-      std::clamp(3 * std::sqrt(covariance(2, 2)), 4 * kDegree, kMaxAngle)};
-  const auto best = searchMatch(expected, window, stretch, older);
+  const auto best = searchMatch(expected, searchWindow(covariance, options_.maxOffset), stretch, older);
   if (!best || best->agreement.fit < options_.minFit || best->agreement.overlap < kMinOverlap)
     return Outcome::none;
   if (best->second > options_.maxSecond) return Outcome::ambiguous;
   if (isWhereExpected(*best)) return Outcome::none;
   // The correction under the uncertainty, which holds for the axes of the map.
-  const TPose2D corrected = visit.poses[older.reference] + best->pose;
+  const TPose2D corrected = frame + best->pose;
   const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
                             mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
@@ -171,22 +186,27 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
 }
 
 void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
-  const Eigen::Matrix3d toMap = rotationBy(visit.poses[edge.from].phi);
+  const Eigen::Matrix3d toMap = rotationBy(visit.frame(edge.from).phi);
   loops_.push_back(edge);
   known_.push_back({edge.from, edge.to, toMap * edge.information.inverse() * toMap.transpose()});
 }
 
-void LoopCloser::turn(double angle) {
-  const Eigen::Matrix3d rotation = rotationBy(angle);
+void LoopCloser::joinMap(double turn, const std::vector<TPose2D>& path) {
+  const Eigen::Matrix3d rotation = rotationBy(turn);
   for (KnownPair& pair : known_) pair.covariance = rotation * pair.covariance * rotation.transpose();
+  if (keyframes_.empty()) return;
+  const Eigen::Matrix3d covariance = kOfJoin.cwiseAbs2().asDiagonal();
+  const size_t last = keyframes_.size() - 1;
+  loops_.push_back({PoseEdge::kMapFrame, last, path.at(keyframes_[last].update), covariance.inverse()});
+  known_.push_back({KnownPair::kMapFrame, last, covariance});
 }
 
 void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
   const size_t here = candidate.edge.to;
-  const TPose2D corrected = visit.poses[candidate.edge.from] + candidate.edge.relative;
+  const TPose2D corrected = visit.frame(candidate.edge.from) + candidate.edge.relative;
   const bool agrees = std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& before) {
     if (visit.distances[here] - visit.distances[before.edge.to] > kForget) return false;
-    const TPose2D byBefore = visit.poses[before.edge.from] + before.edge.relative +
+    const TPose2D byBefore = visit.frame(before.edge.from) + before.edge.relative +
                              (visit.poses[here] - visit.poses[before.edge.to]);
     return distanceOf(byBefore, corrected) < kAgree && angleOf(byBefore, corrected) < kAgreeAngle;
   });
@@ -195,7 +215,8 @@ void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
 }
 
 std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
-                                             const std::optional<double>& direction) {
+                                             const std::optional<double>& direction,
+                                             const OccupancyGrid* earlier) {
   toAttempt_ = kAttempt;
   Visit visit;
   for (const Keyframe& keyframe : keyframes_) {
@@ -207,16 +228,27 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
   if (visit.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
   const LocalMap stretch = newest(visit, options_.stretch);
   const PathUncertainty uncertainty(visit.poses, variances_);
-  for (const size_t place : places(visit, stretch.reference, uncertainty)) {
-    Outcome outcome = tryPlace(visit, stretch, uncertainty, place, kReach);
-    if (outcome == Outcome::ambiguous)
-      outcome =
-          tryPlace(visit, newest(visit, kLonger * options_.stretch), uncertainty, place, kLonger * kReach);
-    if (outcome == Outcome::held) {
-      toAttempt_ = kAfterHeld;
-      return std::nullopt;
+  const auto attempt = [&](const auto& tried) {
+    const Outcome outcome = tried(stretch, kReach);
+    return outcome == Outcome::ambiguous ? tried(newest(visit, kLonger * options_.stretch), kLonger * kReach)
+                                         : outcome;
+  };
+  const auto isOver = [](Outcome outcome) { return outcome == Outcome::held || outcome == Outcome::found; };
+  auto outcome = Outcome::none;
+  if (earlier)
+    outcome = attempt(
+        [&](const LocalMap& newer, double) { return tryEarlierMap(visit, newer, uncertainty, *earlier); });
+  if (!isOver(outcome))
+    for (const size_t place : places(visit, stretch.reference, uncertainty)) {
+      outcome = attempt([&](const LocalMap& newer, double reach) {
+        const LocalMap older = around(visit, place, reach);
+        return tryPlace(visit, newer, older, uncertainty.between(older.reference, newer.reference, known_));
+      });
+      if (isOver(outcome)) break;
     }
-    if (outcome == Outcome::found) break;
+  if (outcome == Outcome::held) {
+    toAttempt_ = kAfterHeld;
+    return std::nullopt;
   }
   if (candidates_.size() < static_cast<size_t>(options_.agreeing)) return std::nullopt;
   return optimise(path, visit, direction);
@@ -283,7 +315,8 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
       known_.erase(known_.begin() + static_cast<ptrdiff_t>(i));
     }
   const PoseEdge& last = candidates.back().edge;
-  closure.earlier = keyframes_[last.from].update, closure.later = keyframes_[last.to].update;
+  if (last.from != PoseEdge::kMapFrame) closure.earlier = keyframes_[last.from].update;
+  closure.later = keyframes_[last.to].update;
   closure.place = closure.path[closure.later];
   closure.fit = 1;
   for (const Candidate& candidate : candidates) {

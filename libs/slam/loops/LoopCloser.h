@@ -24,6 +24,8 @@ namespace hybrid_slam {
 /// - The stretch fits at one other pose, and nowhere else as well. This match is a candidate.
 /// - The stretch fits at several poses. A longer stretch is tried.
 ///
+/// After `joinMap`, the stretch is matched first to the map of the earlier run, with the same outcomes.
+///
 /// Once several successive candidates agree on the correction, the pose graph of the motions, the held pairs,
 /// the candidates and the directions of the walls is optimised.
 ///
@@ -43,11 +45,15 @@ class LoopCloser {
   /// Tries to close a loop at the end of the path.
   /// @param path       a pose for each update, map frame
   /// @param direction  direction of the walls, modulo 90 deg, rad, map frame; empty: unknown
+  /// @param earlier    map of an earlier run in which `joinMap` placed the path; null without one
   std::optional<LoopClosure> close(const std::vector<mrpt::math::TPose2D>& path,
-                                   const std::optional<double>& direction);
+                                   const std::optional<double>& direction,
+                                   const OccupancyGrid* earlier = nullptr);
 
-  /// Turns the map frame by an angle (rad).
-  void turn(double angle);
+  /// The robot has been found in the map of an earlier run, whose frame is now that of the path.
+  /// @param turn  rotation of the path (rad)
+  /// @param path  transformed, a pose for each update
+  void joinMap(double turn, const std::vector<mrpt::math::TPose2D>& path);
 
   template <class State>
   void visit(State& state) {
@@ -60,7 +66,9 @@ class LoopCloser {
       isWhole = keyframes_[i].update < updates_ &&
                 (i == 0 || keyframes_[i - 1].update < keyframes_[i].update) && variances_[i].isOfMotion() &&
                 keyframes_[i].beams.areWithin(grid_.maxRange);
-    const auto isEdge = [count](size_t from, size_t to) { return from < to && to < count; };
+    const auto isEdge = [count](size_t from, size_t to) {
+      return (from < to || from == PoseEdge::kMapFrame) && to < count;
+    };
     for (const PoseEdge& edge : loops_) isWhole = isWhole && isEdge(edge.from, edge.to);
     for (const KnownPair& pair : known_) isWhole = isWhole && isEdge(pair.earlier, pair.later);
     for (const Candidate& candidate : candidates_)
@@ -83,10 +91,15 @@ class LoopCloser {
   struct Visit {
     std::vector<mrpt::math::TPose2D> poses;  ///< of the keyframes, map frame
     std::vector<double> distances;           ///< m, along the path
+    mrpt::math::TPose2D frame(size_t reference) const {
+      return reference == PoseEdge::kMapFrame ? mrpt::math::TPose2D() : poses[reference];
+    }
   };
   enum class Outcome { none, held, ambiguous, found };
-  Outcome tryPlace(const Visit& visit, const LocalMap& stretch, const PathUncertainty& uncertainty,
-                   size_t place, double reach);
+  Outcome tryEarlierMap(const Visit& visit, const LocalMap& stretch, const PathUncertainty& uncertainty,
+                        const OccupancyGrid& map);
+  Outcome tryPlace(const Visit& visit, const LocalMap& stretch, const LocalMap& older,
+                   const Eigen::Matrix3d& covariance);
   std::vector<size_t> places(const Visit& visit, size_t here, const PathUncertainty& uncertainty) const;
   void hold(const Visit& visit, const PoseEdge& edge);
   void remember(const Visit& visit, const Candidate& candidate);

@@ -93,6 +93,58 @@ TEST(LoopCloser, TheDirectionsOfTheWallsShowWhereATurnWasWrong) {
   EXPECT_LT(largestError(byLines, drive), 0.4 * largestError(byMotions, drive));
 }
 
+/// Drives from an unknown place, here the true origin, until the robot is found in an earlier map at `found`.
+Driven continued(const std::vector<DrivenPose>& drive, const OccupancyGrid& earlier, size_t found) {
+  LoopCloser closer({}, GridOptions());
+  Driven driven;
+  for (size_t i = 0; i < drive.size(); ++i) {
+    auto& path = driven.path;
+    path.push_back(path.empty() ? drive[i].truth : path.back() + drive[i].motion);
+    closer.add(drive[i].motion, drive[i].scans, {}, false);
+    if (i == found) {
+      const TPose2D origin = drive[i].truth + (TPose2D() - path.back());
+      for (TPose2D& pose : path) pose = origin + pose;
+      closer.joinMap(origin.phi, path);
+    }
+    if (!closer.isDue()) continue;
+    if (auto closure = closer.close(path, std::nullopt, i >= found ? &earlier : nullptr)) {
+      path = closure->path;
+      driven.closures.push_back(*closure);
+    }
+  }
+  return driven;
+}
+
+/// The map of some steps of a drive, at the true poses.
+OccupancyGrid mapOf(const std::vector<DrivenPose>& drive, size_t first, size_t last) {
+  OccupancyGrid grid;
+  for (size_t i = first; i < last; ++i) grid.insert(ScanBeams(drive[i].scans), drive[i].truth, GridOptions());
+  return grid;
+}
+
+double errorAt(const Driven& driven, const std::vector<DrivenPose>& drive, size_t i) {
+  return std::hypot(driven.path[i].x - drive[i].truth.x, driven.path[i].y - drive[i].truth.y);
+}
+
+TEST(LoopCloser, AClosureDoesNotMoveThePathOffTheEarlierMap) {
+  const auto drive = ringDrive(0.05 * kDegree);
+  const size_t found = drive.size() / 2;
+  const Driven driven = continued(drive, mapOf(drive, found - 20, found + 20), found);
+  ASSERT_FALSE(driven.closures.empty());
+  EXPECT_LT(errorAt(driven, drive, found), 0.1);
+  EXPECT_LT(largestError(driven.path, drive), 0.3);
+}
+
+// The earlier map ends after the first corridor; the robot comes back to it from the other side.
+TEST(LoopCloser, ALoopThroughUnknownGroundIsClosedOnTheEarlierMap) {
+  const auto drive = ringDrive(0.05 * kDegree);
+  const Driven driven = continued(drive, mapOf(drive, 0, 120), 5);
+  ASSERT_FALSE(driven.closures.empty());
+  EXPECT_FALSE(driven.closures.front().earlier);
+  EXPECT_GT(errorAt(closed(drive, never()), drive, drive.size() - 1), 1);
+  EXPECT_LT(errorAt(driven, drive, drive.size() - 1), 0.15);
+}
+
 TEST(LoopCloser, LinesInAnotherDirectionThanTheMapsAreIgnored) {
   const auto drive = wrongTurn();
   const Driven without = closed(drive);

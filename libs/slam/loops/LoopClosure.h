@@ -4,6 +4,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include <optional>
 #include <vector>
 
 namespace hybrid_slam {
@@ -12,7 +13,8 @@ namespace hybrid_slam {
 struct LoopClosure {
   std::vector<mrpt::math::TPose2D> path;  ///< corrected, a pose for each update
   mrpt::math::TPose2D place;              ///< corrected pose at the later visit
-  size_t earlier = 0, later = 0;          ///< updates of the two visits
+  std::optional<size_t> earlier;          ///< update of the earlier visit; empty: the map of an earlier run
+  size_t later = 0;                       ///< update of the later visit
   double shift = 0;                       ///< m, largest displacement of the path
   double turn = 0;                        ///< rad, largest change of a heading
   double fit = 0;                         ///< lowest share of agreeing walls among the matches

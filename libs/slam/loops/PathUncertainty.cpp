@@ -65,11 +65,22 @@ Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vect
   const Eigen::Vector2d& at = places_[to];
   Eigen::Matrix3d least = along(from, to, at);
   for (const KnownPair& pair : known) {
+    if (pair.earlier == KnownPair::kMapFrame) continue;
     const size_t near = from <= to ? pair.earlier : pair.later, far = from <= to ? pair.later : pair.earlier;
     const Eigen::Matrix3d ofPair =
         pair.hasLever ? movedBy(at - places_[pair.later], pair.covariance) : pair.covariance;
     const Eigen::Matrix3d detour = along(from, near, at) + ofPair + along(far, to, at);
     if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
+  }
+  return least;
+}
+
+std::optional<Eigen::Matrix3d> PathUncertainty::inMap(size_t to, const std::vector<KnownPair>& known) const {
+  std::optional<Eigen::Matrix3d> least;
+  for (const KnownPair& pair : known) {
+    if (pair.earlier != KnownPair::kMapFrame) continue;
+    const Eigen::Matrix3d here = pair.covariance + along(pair.later, to, places_[to]);
+    if (!least || here.topLeftCorner<2, 2>().trace() < least->topLeftCorner<2, 2>().trace()) least = here;
   }
   return least;
 }

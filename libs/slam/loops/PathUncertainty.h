@@ -5,6 +5,8 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Dense>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace hybrid_slam {
@@ -29,10 +31,11 @@ struct StepVariance {
 /// 5 deg if the odometry slipped and a search replaced it.
 StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 
-/// Two poses of the path whose relative pose has been measured.
+/// Two poses of the path whose relative pose has been measured, or a pose measured in the map.
 struct KnownPair {
-  size_t earlier = 0, later = 0;                         ///< indices of the path
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the later one, map frame
+  static constexpr size_t kMapFrame = std::numeric_limits<size_t>::max();  ///< `earlier` of a pose in the map
+  size_t earlier = 0, later = 0;                                           ///< indices of the path
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                    ///< of the later one, map frame
   /// Whether its heading error displaces the poses beyond. Loop closing is tuned without: it knows a pair to
   /// 0.5 deg at best, so that distant poses would seem uncertain by metres.
   bool hasLever = false;
@@ -57,6 +60,8 @@ class PathUncertainty {
   /// Covariance of pose `to` (x, y, phi; map frame) with respect to pose `from`, along the shorter of the
   /// path and the path with a short cut through one of the known pairs. Constant time per pair.
   Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
+  /// Covariance of pose `to` in the map, by the nearest pose measured there; empty without one.
+  std::optional<Eigen::Matrix3d> inMap(size_t to, const std::vector<KnownPair>& known) const;
 
  private:
   /// Sums over the motions up to each pose.

@@ -35,6 +35,16 @@ TEST(PathUncertainty, IsTheSameOnAnyPartOfAStraightPath) {
   EXPECT_TRUE(straight().between(10, 40).isApprox(straight().between(60, 90), 1e-9));
 }
 
+TEST(PathUncertainty, InTheMapIsThatFromTheNearestPoseSeenThere) {
+  const PathUncertainty uncertainty = straight();
+  const Eigen::Matrix3d seen = Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal();
+  const std::vector<KnownPair> known{{KnownPair::kMapFrame, 20, seen}, {KnownPair::kMapFrame, 60, seen}};
+  EXPECT_FALSE(uncertainty.inMap(50, {{10, 20, seen}}));
+  EXPECT_TRUE(uncertainty.inMap(60, known)->isApprox(seen));
+  EXPECT_TRUE(uncertainty.inMap(50, known)->isApprox(seen + uncertainty.between(60, 50)));
+  EXPECT_TRUE(uncertainty.between(0, 100, known).isApprox(uncertainty.between(0, 100)));
+}
+
 TEST(PathUncertainty, AKnownPairIsAShortCut) {
   const PathUncertainty uncertainty = outAndBack();
   const double direct = uncertainty.between(5, 95).trace();

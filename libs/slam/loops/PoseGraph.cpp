@@ -3,6 +3,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <Eigen/Sparse>
+#include <algorithm>
 #include <cmath>
 
 namespace hybrid_slam {
@@ -15,8 +16,12 @@ constexpr double kFalseResidual = 25;  // chi^2 above which a loop is false
 constexpr int kMostIterations = 50;
 constexpr double kNegligibleStep = 1e-7;  // m, rad
 
+TPose2D frameOf(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
+  return edge.from == PoseEdge::kMapFrame ? TPose2D() : poses[edge.from];
+}
+
 Eigen::Vector3d residual(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
-  const TPose2D is = poses[edge.to] - poses[edge.from];
+  const TPose2D is = poses[edge.to] - frameOf(edge, poses);
   return {is.x - edge.relative.x, is.y - edge.relative.y, mrpt::math::wrapToPi(is.phi - edge.relative.phi)};
 }
 
@@ -33,16 +38,20 @@ double chi2Of(const Edges& edges, const std::vector<TPose2D>& poses) {
   return sum;
 }
 
-/// The normal equations of the residuals, linear in the map-frame changes of all poses but the first.
+/// The normal equations of the residuals, linear in the map-frame changes of the poses. Without an edge from
+/// the map, the first pose stays.
 struct NormalEquations {
+  size_t fixed;  ///< poses that stay: 0 or 1
   Eigen::SparseMatrix<double> matrix;
   Eigen::VectorXd vector;
 
   NormalEquations(const Edges& edges, const std::vector<TPose2D>& poses)
-      : matrix(size(poses), size(poses)), vector(Eigen::VectorXd::Zero(size(poses))) {
+      : fixed(std::any_of(edges.begin(), edges.end(), isInMap) ? 0 : 1),
+        matrix(row(poses.size()), row(poses.size())),
+        vector(Eigen::VectorXd::Zero(row(poses.size()))) {
     std::vector<Eigen::Triplet<double>> entries;
     for (const PoseEdge* edge : edges) {
-      const TPose2D& from = poses[edge->from];
+      const TPose2D from = frameOf(*edge, poses);
       const TPose2D is = poses[edge->to] - from;
       Eigen::Matrix3d byTo = Eigen::Matrix3d::Identity();
       byTo.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.phi).toRotationMatrix();
@@ -51,10 +60,10 @@ struct NormalEquations {
       const Eigen::Vector3d off = residual(*edge, poses);
       const std::pair<size_t, const Eigen::Matrix3d*> ends[] = {{edge->from, &byFrom}, {edge->to, &byTo}};
       for (const auto& [a, byA] : ends) {
-        if (a == 0) continue;
+        if (!isFree(a)) continue;
         vector.segment<3>(row(a)) -= byA->transpose() * edge->information * off;
         for (const auto& [b, byB] : ends) {
-          if (b == 0) continue;
+          if (!isFree(b)) continue;
           const Eigen::Matrix3d block = byA->transpose() * edge->information * *byB;
           for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) entries.emplace_back(row(a) + i, row(b) + j, block(i, j));
@@ -63,17 +72,20 @@ struct NormalEquations {
     }
     matrix.setFromTriplets(entries.begin(), entries.end());
   }
-  static Eigen::Index row(size_t pose) { return 3 * (static_cast<Eigen::Index>(pose) - 1); }
-  static Eigen::Index size(const std::vector<TPose2D>& poses) { return row(poses.size()); }
-};
+  Eigen::Index row(size_t pose) const { return 3 * static_cast<Eigen::Index>(pose - fixed); }
 
-std::vector<TPose2D> moved(std::vector<TPose2D> poses, const Eigen::VectorXd& step) {
-  for (size_t i = 1; i < poses.size(); ++i) {
-    const auto by = step.segment<3>(NormalEquations::row(i));
-    poses[i] = {poses[i].x + by[0], poses[i].y + by[1], mrpt::math::wrapToPi(poses[i].phi + by[2])};
+  std::vector<TPose2D> moved(std::vector<TPose2D> poses, const Eigen::VectorXd& step) const {
+    for (size_t i = fixed; i < poses.size(); ++i) {
+      const auto by = step.segment<3>(row(i));
+      poses[i] = {poses[i].x + by[0], poses[i].y + by[1], mrpt::math::wrapToPi(poses[i].phi + by[2])};
+    }
+    return poses;
   }
-  return poses;
-}
+
+ private:
+  static bool isInMap(const PoseEdge* edge) { return edge->from == PoseEdge::kMapFrame; }
+  bool isFree(size_t pose) const { return pose >= fixed && pose != PoseEdge::kMapFrame; }
+};
 
 /// Gauss-Newton; a step that does not lower chi^2 is halved.
 std::vector<TPose2D> solve(const Edges& edges, std::vector<TPose2D> poses) {
@@ -83,9 +95,9 @@ std::vector<TPose2D> solve(const Edges& edges, std::vector<TPose2D> poses) {
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(equations.matrix);
     if (factors.info() != Eigen::Success) break;
     Eigen::VectorXd step = factors.solve(equations.vector);
-    std::vector<TPose2D> next = moved(poses, step);
+    std::vector<TPose2D> next = equations.moved(poses, step);
     while (!(chi2Of(edges, next) <= chi2) && step.cwiseAbs().maxCoeff() > kNegligibleStep)
-      next = moved(poses, step *= 0.5);
+      next = equations.moved(poses, step *= 0.5);
     const double reached = chi2Of(edges, next);
     if (!(reached <= chi2)) break;
     poses = std::move(next), chi2 = reached;

@@ -5,12 +5,14 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <vector>
 
 namespace hybrid_slam {
 
-/// A measured pose of node `to` in the frame of node `from`.
+/// A measured pose of node `to` in the frame of node `from`, or of the map.
 struct PoseEdge {
+  static constexpr size_t kMapFrame = std::numeric_limits<size_t>::max();  ///< `from` of a pose in the map
   size_t from = 0, to = 0;
   mrpt::math::TPose2D relative;  ///< m, rad
   Eigen::Matrix3d information;   ///< of x, y, phi in the frame of `from` (1/m^2, 1/(m rad), 1/rad^2)
@@ -26,7 +28,7 @@ struct PoseEdge {
 
 /// Poses and what is known about the motions between them.
 struct PoseGraph {
-  std::vector<mrpt::math::TPose2D> poses;  ///< map frame; the first stays
+  std::vector<mrpt::math::TPose2D> poses;  ///< map frame; without an edge from it, the first stays
   std::vector<PoseEdge> motions;           ///< trusted
   std::vector<PoseEdge> loops;             ///< may be false
 };

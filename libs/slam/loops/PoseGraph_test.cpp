@@ -88,6 +88,28 @@ TEST(PoseGraph, InformationIsInTheFrameOfTheFirstPose) {
   }
 }
 
+// Two poses, each seen in the map: no pose is fixed.
+TEST(PoseGraph, PosesSeenInTheMapMoveAllOthers) {
+  const Eigen::Matrix3d information = Eigen::Vector3d(400, 400, 2500).asDiagonal();
+  PoseGraph graph;
+  graph.poses = {{}, {1, 0, 0}, {2, 0, 0}};
+  graph.motions = {{0, 1, {1, 0, 0}, information}, {1, 2, {1, 0, 0}, information}};
+  const TPose2D middle(5, -3, M_PI / 2);
+  graph.loops = {{PoseEdge::kMapFrame, 1, middle, information}};
+  const OptimizedGraph single = optimized(graph);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(single.poses[i].x, 5, 1e-6) << i;
+    EXPECT_NEAR(single.poses[i].y, -4 + static_cast<double>(i), 1e-6) << i;
+    EXPECT_NEAR(single.poses[i].phi, M_PI / 2, 1e-6) << i;
+  }
+  // The second is 0.3 m further along the path: two measurements and a motion, of equal weight, share this.
+  graph.loops.push_back({PoseEdge::kMapFrame, 2, {5, -1.7, M_PI / 2}, information});
+  const OptimizedGraph both = optimized(graph);
+  EXPECT_NEAR(both.poses[1].y, -2.9, 1e-6);
+  EXPECT_NEAR(both.poses[2].y, -1.8, 1e-6);
+  EXPECT_NEAR(both.poses[0].y, -3.9, 1e-6);
+}
+
 TEST(PoseGraph, WithoutLoopsNothingMoves) {
   const Ring ring;
   const OptimizedGraph result = optimized(ring.graph);
