@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "NumberRange.h"
 #include "base/Errors.h"
 #include "files/InstalledFiles.h"
 #include "run/Configuration.h"
@@ -24,7 +25,7 @@ struct SessionArguments {
     app.add_option("--checkpoint-every", checkpointEvery,
                    "interval at which session.hslam is saved to the output folder")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.001, 1e9));
+        ->check(within(0.001, 1e9));
   }
   /// Adds --checkpoint-every and --resume.
   void addResume(CLI::App& app) {

@@ -4,7 +4,8 @@
   scripts/hostile-campaign.py BIN OUT [--scale 1] [--jobs 2] [--seed 1]
 
 BIN: a folder of programs (build/release/bin, build/sanitize/bin). At scale 1: 1,000 damaged rawlogs, 1,000 damaged text
-logs and the rawlogs that log2rawlog makes of them, 300 INI files, 50 servers that send nonsense to hybrid-slam-live.
+logs and the rawlogs that log2rawlog makes of them, 300 INI files, 300 sessions, 300 maps, 300 drawings of plans, 200
+tables, 50 servers that send nonsense to hybrid-slam-live.
 A run is bad if it ends by a signal, prints a sanitizer's report, takes over 10 s or 1 GB, ends with another exit status
 than 0, 1 or 2, fails without one line `PROGRAM: error: `, or succeeds with results that are not finite numbers. The
 input of a bad run is kept in OUT/bad. Exit status 1 if there is one. HYBRID_SLAM_DATASETS adds pieces of public logs.
@@ -239,6 +240,62 @@ class Campaign:
         self.slam("INI files", name, [file, rawlog], [file])
         file.unlink()
 
+    def session(self, number, made, rng):
+        """--localize, --continue or --resume with a damaged session."""
+        name = f"session-{number}"
+        file, bytes_ = self.out / f"{name}.hslam", (made / "session.hslam").read_bytes()
+        whole = rng.random() < 0.7
+        file.write_bytes(gzip.compress(damaged_bytes(gzip.decompress(bytes_), rng), 1) if whole else damaged_bytes(bytes_, rng))
+        option = rng.choice(["--localize", "--continue", "--resume"])
+        folder = self.out / f"{name}-out"
+        log = self.out / "good.rawlog"
+        self.run("sessions", name, [self.binary / "hybrid-slam", log, "-q", option, file, "-o", folder],
+                 None if option == "--localize" else folder, [file])
+        shutil.rmtree(folder, ignore_errors=True)
+        file.unlink()
+
+    def map(self, number, made, rng):
+        """--localize in a damaged grid map, map.yaml or picture."""
+        name = f"map-{number}"
+        folder = self.out / name
+        folder.mkdir()
+        damaged = rng.choice(["map.gridmap.gz", "map.yaml", "map.pgm"])
+        for file in ("map.gridmap.gz", "map.yaml", "map.pgm"):
+            data = (made / file).read_bytes()
+            if file == damaged and file.endswith(".gz"):
+                data = gzip.compress(damaged_bytes(gzip.decompress(data), rng), 1)
+            elif file == damaged:
+                data = (damaged_text if file.endswith("yaml") else damaged_bytes)(data, rng)
+            (folder / file).write_bytes(data)
+        given = folder / (damaged if damaged.endswith(".gz") else "map.yaml")
+        self.run("maps", name, [self.binary / "hybrid-slam", self.out / "good.rawlog", "-q", "--localize", given, "--start",
+                                "0,0,0", "-o", folder / "out"], None, [folder / damaged])
+        shutil.rmtree(folder)
+
+    def plan(self, number, made, rng):
+        """--prior-plan, and slam-eval plan, with a damaged drawing."""
+        name, kind = f"plan-{number}", rng.choice(["geojson", "dxf", "svg"])
+        file, folder = self.out / f"{name}.{kind}", self.out / f"{name}-out"
+        file.write_bytes(damaged_text((made / f"plan.{kind}").read_bytes(), rng))
+        self.run("plans", name, [self.binary / "hybrid-slam", self.out / "good.rawlog", "-q", "--prior-plan", file, "--start",
+                                 "0,0,0", "-o", folder], folder, [file])
+        self.run("plans", f"{name}-eval", [self.binary / "slam-eval", "plan", "--plan", file, "--truth", made / "plan.geojson"],
+                 None, [file])
+        shutil.rmtree(folder, ignore_errors=True)
+        file.unlink()
+
+    def table(self, number, made, rng):
+        """slam-eval with a damaged trajectory or damaged relations."""
+        name = f"table-{number}"
+        files = {"trajectory": made / "trajectory.tum", "relations": made / "relations"}
+        damaged = rng.choice(list(files))
+        file = self.out / f"{name}.txt"
+        file.write_bytes(damaged_text(files[damaged].read_bytes(), rng))
+        files[damaged] = file
+        self.run("tables", name, [self.binary / "slam-eval", "relations", "--trajectory", files["trajectory"], "--relations",
+                                  files["relations"]], None, [file])
+        file.unlink()
+
     def server(self, number, stream, rng):
         """hybrid-slam-live on a server that sends a damaged stream, in one of several ways."""
         name, kind = f"server-{number}", rng.randrange(6)
@@ -310,6 +367,15 @@ def damaged_messages(stream, rng):
     return out
 
 
+def made_results(binary, out):
+    """The results of a good run, and relations between its poses."""
+    made = out / "made"
+    subprocess.run([binary / "hybrid-slam", out / "good.rawlog", "-q", "--overwrite", "-o", made], check=True)
+    times = [line.split()[0] for line in (made / "trajectory.tum").read_text().splitlines() if not line.startswith("#")]
+    (made / "relations").write_text("".join(f"{a} {b} 0.1 0 0 0 0 0\n" for a, b in zip(times, times[1:])))
+    return made
+
+
 def recorded_stream(binary, out, rawlog):
     """What observation-server sends of a rawlog in two seconds."""
     config = out / "server.ini"
@@ -351,12 +417,14 @@ def main():
 
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = []
-        for kind, number in (("rawlog", 1000), ("text", 1000), ("ini", 300), ("server", 50)):
+        made = made_results(campaign.binary, out)
+        for kind, number in (("rawlog", 1000), ("text", 1000), ("ini", 300), ("session", 300), ("map", 300), ("plan", 300),
+                             ("table", 200), ("server", 50)):
             stream = recorded_stream(campaign.binary, out, bases.good_rawlog) if kind == "server" else b""
             for i in range(math.ceil(number * arguments.scale)):
                 random_stream = rng(f"{kind} {i}")
                 base = random_stream.choice({"rawlog": bases.rawlogs, "text": bases.texts, "ini": bases.inis,
-                                             "server": [stream]}[kind])
+                                             "server": [stream]}.get(kind, [made]))
                 if kind == "ini":
                     jobs.append(pool.submit(campaign.ini, i, base, random_stream, bases.good_rawlog))
                 else:

@@ -1,6 +1,7 @@
 /// hybrid-slam with sessions: saved, resumed, continued, localised in; killed at any moment; damaged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
@@ -130,7 +131,9 @@ TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
     }
   };
   expectRefused(folder.path("missing"), "no such file");
-  expectRefused(folder.path("."), "not a file");
+  expectRefused(folder.path("."), "a folder, not a file");
+  ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0666), 0);
+  expectRefused(folder.path("pipe"), "not a file");  // opening it would wait
   expectRefused(write("empty", ""), "not a session file");
   expectRefused(log, "not a session file");
   expectRefused(write("text", "no session"), "not a session file");
@@ -290,6 +293,7 @@ TEST_F(Sessions, OptionsThatExcludeEachOther) {
   expectRefused("--start 1,2 --continue x", "--start");
   expectRefused("--start 1e9,2,3 --continue x", "too far away");
   expectRefused("--checkpoint-every 0", "--checkpoint-every");
+  expectRefused("--checkpoint-every nan", "is not a number in 0.001..1e+09");
   expectRefused("--checkpoint-every 1 --localize x", "--checkpoint-every with --localize");
   ASSERT_EQ(replay(log), 0) << err;
   const std::string other = folder.path("other");

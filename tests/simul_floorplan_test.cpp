@@ -44,7 +44,7 @@ class SimulFloorplan : public testing::Test {
   void expectInputError(const std::string& arguments, const std::string& part) const {
     test::expectInputError(simulate(arguments), "simul-floorplan", part);
     EXPECT_FALSE(fs::exists(folder.path("out.rawlog")));
-    EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
+    EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
   }
 
   files::TemporaryFolder folder;
@@ -75,7 +75,7 @@ TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
   EXPECT_EQ(scans, 76u);  // 5 m and 1.5 m at 0.5 m/s, 2 s of turning, at 5 Hz, both ends counted
   EXPECT_EQ(rows, scans);
   EXPECT_THAT(test::contentOf(folder.path("out.png")), StartsWith("\x89PNG"));
-  EXPECT_FALSE(fs::exists(folder.path("out.part.rawlog")));
+  EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
 }
 
 TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
@@ -89,6 +89,16 @@ TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
   EXPECT_FALSE(test::contentOf(folder.path("a.rawlog")) == test::contentOf(folder.path("c.rawlog")));
   const std::string header = test::contentOf(folder.path("a.rawlog")).substr(4, 4);
   EXPECT_EQ(header, std::string(4, '\0'));  // gzip's MTIME; b may be of the same second
+}
+
+TEST_F(SimulFloorplan, WritesAllFilesOrNone) {
+  write("out.part.rawlog", "of the user");
+  ASSERT_EQ(call("mkdir out.tum").status, 0);
+  expectInputError(kRun, "cannot write: out.tum");
+  EXPECT_FALSE(fs::exists(folder.path("out.png")));
+  ASSERT_EQ(call("rmdir out.tum").status, 0);
+  ASSERT_EQ(simulate(kRun).status, 0);
+  EXPECT_EQ(test::contentOf(folder.path("out.part.rawlog")), "of the user");
 }
 
 TEST_F(SimulFloorplan, QuietHelpAndVersion) {
@@ -180,7 +190,7 @@ TEST_F(SimulFloorplan, SessionsDifferInDoorsBoxesAndNoiseButNotInWalls) {
   EXPECT_EQ(linesOf(first, false), linesOf(second, false));
   EXPECT_NE(linesOf(first, true), linesOf(second, true));
   EXPECT_THAT(linesOf(first, true), testing::Contains(testing::EndsWith("# box 1")));
-  EXPECT_FALSE(fs::exists(folder.path("a.truth.part.plan")));
+  EXPECT_FALSE(fs::exists(folder.path(".partial.a.truth.plan")));
 
   // Without things, the log of the first session is unchanged.
   ASSERT_EQ(simulate("room.ini -q -o e.rawlog").status, 0);

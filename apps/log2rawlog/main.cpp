@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "InputFiles.h"
+#include "NumberRange.h"
 #include "Program.h"
 #include "TopicArguments.h"
 #include "base/Numbers.h"
@@ -19,17 +20,6 @@
 namespace {
 
 using namespace hybrid_slam;
-
-/// A range check that rejects `nan`, which CLI::Range accepts.
-CLI::Validator within(double low, double high) {
-  const std::string range = numberText(low) + ".." + numberText(high);
-  return {[low, high, range](const std::string& given) -> std::string {
-            double value = 0;
-            if (CLI::detail::lexical_cast(given, value) && value >= low && value <= high) return {};
-            return "`" + given + "` is not a number in " + range;
-          },
-          range};
-}
 
 void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("%s: %s%s, %zu scans, %zu odometry readings, %.1f s, path %.1f m", output.c_str(),

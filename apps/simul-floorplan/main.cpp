@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +16,7 @@
 #include "SettingArguments.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
+#include "files/PartialFile.h"
 #include "study/simulation/BuildingPlan.h"
 #include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
@@ -44,17 +45,11 @@ using FilesAndWriters = std::vector<std::pair<fs::path, std::function<void(const
 
 /// Writes all files under temporary names first, so that no half-written file has a final name.
 void writeTogether(const FilesAndWriters& filesAndWriters) {
-  const auto partial = [](fs::path file) {
-    return file.replace_extension(".part" + file.extension().string());
-  };
-  try {
-    for (const auto& [file, write] : filesAndWriters) write(partial(file).string());
-    for (const auto& [file, write] : filesAndWriters) fs::rename(partial(file), file);
-  } catch (...) {
-    std::error_code ignored;
-    for (const auto& [file, write] : filesAndWriters) fs::remove(partial(file), ignored);
-    throw;
-  }
+  std::vector<std::unique_ptr<files::PartialFile>> parts;
+  for (const auto& [file, write] : filesAndWriters)
+    parts.push_back(std::make_unique<files::PartialFile>(file.string()));
+  for (size_t i = 0; i < parts.size(); ++i) filesAndWriters[i].second(parts[i]->path());
+  for (const auto& part : parts) part->commit();
 }
 
 void run(const CommandLine& line) {

@@ -5,6 +5,8 @@
 namespace hybrid_slam {
 namespace {
 
+constexpr size_t kLongestMessage = 10000;  // bytes: more than two paths
+
 /// The number of bytes of the valid UTF-8 character at the beginning; 0 if there is none.
 size_t utf8Size(std::string_view text) {
   const auto byte = [text](size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -32,6 +34,7 @@ std::string onOneLine(std::string_view text) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string line;
   while (!text.empty()) {
+    if (line.size() > kLongestMessage) return line + "... and " + std::to_string(text.size()) + " bytes more";
     const size_t size = utf8Size(text);
     const std::string_view character = text.substr(0, std::max<size_t>(size, 1));
     text.remove_prefix(character.size());

@@ -22,5 +22,10 @@ TEST(OnOneLine, OtherTextIsUnchanged) {
   EXPECT_EQ(onOneLine("\xe2(\xf5\xc0\x80"), R"(\xe2(\xf5\xc0\x80)");
 }
 
+TEST(OnOneLine, ALongTextIsCut) {
+  EXPECT_EQ(onOneLine(std::string(10000, 'a')), std::string(10000, 'a'));
+  EXPECT_EQ(onOneLine(std::string(5'000'000, 'a')), std::string(10001, 'a') + "... and 4989999 bytes more");
+}
+
 }  // namespace
 }  // namespace hybrid_slam

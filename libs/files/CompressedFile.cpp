@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -13,11 +13,7 @@ namespace {
 constexpr size_t kBufferSize = 1 << 16;
 
 std::FILE* openForReading(const std::string& path, const std::string& expected) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw InputError("no such file", path, expected);
-  // C opens a folder without an error and fails at the first read.
-  if (std::filesystem::is_directory(path, ignored)) throw InputError("a folder, not a file", path, expected);
-  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("not a file", path, expected);
+  expectFile(path, expected);
   errno = 0;
   std::FILE* const file = std::fopen(path.c_str(), "rbe");
   if (!file)

@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <new>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -44,9 +44,7 @@ std::string gzipped(std::string_view bytes) {
 
 std::string readGzip(const std::string& path, const std::string& what, size_t mostBytes) {
   const std::string expected = "expected a " + what;
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw InputError("no such file", path, expected);
-  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("not a file", path, expected);
+  expectFile(path, expected);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError("cannot read", path, expected);
   z_stream stream{};

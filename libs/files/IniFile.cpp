@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 #include "files/LineReader.h"
 
 namespace hybrid_slam::files {
@@ -46,8 +47,7 @@ void checkLengths(const std::string& text, const std::string& file) {
 
 std::string readText(const std::string& file) {
   const std::string expected = "expected a readable INI file";
-  if (!std::filesystem::exists(file)) throw InputError("no such file", file, expected);
-  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, expected);
+  expectFile(file, expected);
   std::ifstream in(file, std::ios::binary);
   std::string text(kLargestIniFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -68,8 +68,10 @@ void checkMacros(const std::string& text, const std::string& file) {
       if (line.find(macro) != std::string::npos)
         throw InputError("macro " + macro + "...}", where(),
                          "expected its value; of MRPT's macros, only @define is expanded");
-    if (line.find("@define") != std::string::npos)
-      longestDefinition = std::max(longestDefinition, line.size());
+    const size_t definition = line.find("@define");
+    if (line.find('$', definition) != std::string::npos && definition != std::string::npos)
+      throw InputError("`$` in a definition", where(), "expected its value");
+    if (definition != std::string::npos) longestDefinition = std::max(longestDefinition, line.size());
     for (size_t at = line.find("${"); at != std::string::npos; at = line.find("${", at + 1)) ++uses;
     if (uses * longestDefinition > kLargestIniFile)
       throw InputError(

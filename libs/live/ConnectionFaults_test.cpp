@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -94,6 +95,16 @@ TEST(Connection, CyclesMissedWhileDisconnectedCountAsLost) {
   EXPECT_THAT(listener.odometry(), testing::ElementsAre(1, 5)) << "its odometry was not restarted";
   EXPECT_EQ(listener.client().lost(), 4u) << "2 to 4, and 6";
   EXPECT_EQ(listener.client().connections(), 2u);
+}
+
+TEST(Connection, ImpossibleCycleNumbersDoNotOverflowTheCount) {
+  test::Events events;
+  const uint64_t last = std::numeric_limits<uint64_t>::max();
+  FakeServer server(
+      {bytesOf(7, 1, 1), bytesOf(7, last, 2), bytesOf(7, 1, 3), bytesOf(7, last, 4) + endOf(7, last)});
+  Listener listener(server.port(), events);
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
+  EXPECT_EQ(listener.client().lost(), 1'000'000'000'000u);
 }
 
 /// The first connection sends `wrong` after a valid cycle, the second one the rest.

@@ -15,6 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kShortestPause = 0.1, kLongestPause = 2;  // s
+constexpr uint64_t kMostLost = 1'000'000'000'000;          // a server may send any number
 
 }  // namespace
 
@@ -77,7 +78,8 @@ void ObservationClient::take(const Message& message, const CycleSink& sink) {
     log_.report("odometry", "new server: odometry continues from the last pose");
   } else if (hasSession_) {
     const uint64_t expected = number_ + (cycle ? 1 : 0);
-    if (message.number > expected) lost_ += message.number - expected;
+    if (message.number > expected)
+      lost_ = std::min(kMostLost, lost_ + std::min(kMostLost, message.number - expected));
   }
   hasSession_ = true;
   session_ = message.session, number_ = message.number;

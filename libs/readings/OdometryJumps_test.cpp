@@ -58,6 +58,19 @@ TEST(OdometryJumps, AnOutlierJumpsThereAndBack) {
   EXPECT_FALSE(drive.move(0.05));
 }
 
+TEST(OdometryJumps, AnImpossibleHeadingIsAJumpThereAndBack) {
+  OdometryJumps jumps;
+  EXPECT_FALSE(jumps.isJump({0, 0, 0}, 0));
+  EXPECT_FALSE(jumps.isJump({0.1, 0, 4000}, 1)) << "not wrapped";
+  for (const double heading : {1e30, -1e30, double(NAN)}) {
+    EXPECT_TRUE(jumps.isJump({0.1, 0, heading}, 2)) << heading;
+    EXPECT_TRUE(jumps.isJump({0.1, 0, 0}, 3)) << heading;
+    EXPECT_FALSE(jumps.isJump({0.1, 0, 0}, 4)) << heading;
+    EXPECT_TRUE(isFarAway({0, 0, heading})) << heading;
+    EXPECT_TRUE(isJump({}, {0, 0, heading})) << heading;
+  }
+}
+
 /// A log that begins on a fast vehicle loses one step.
 TEST(OdometryJumps, ASecondFastStepIsAMotion) {
   Drive drive(25);

@@ -49,7 +49,7 @@ TEST_F(ConfigurationTest, UnreadableFile) {
   };
   EXPECT_EQ(errorOfFile(folder.path("none.ini")),
             "no such file: " + folder.path("none.ini") + "; expected a readable INI file");
-  EXPECT_THAT(errorOfFile(folder.path("")), StartsWith("not a file: "));
+  EXPECT_THAT(errorOfFile(folder.path("")), StartsWith("a folder, not a file: "));
   EXPECT_THAT(errorOfFile(folder.write("binary", std::string("[run]\0", 6))),
               StartsWith("not a text file: "));
 }
@@ -159,6 +159,8 @@ TEST_F(ConfigurationTest, EndlessMacrosAreRefused) {
             "macro $eval{...}: " + ini + ", line 3" + expected);
   EXPECT_EQ(errorOf("@define a " + loop + "\n[run]\noutput = ${a}\n"),
             "macro $eval{...}: " + ini + ", line 1" + expected);
+  EXPECT_EQ(errorOf("@define a $\n[run]\noutput = ${a}{b}\n"),
+            "`$` in a definition: " + ini + ", line 1; expected its value");
   EXPECT_EQ(errorOf("[run]\noutput = $env{HOME}\n"), "macro $env{...}: " + ini + ", line 2" + expected);
   EXPECT_THAT(errorOf("[run]\noutput = $e\\\nval{" + loop.substr(6) + "\n"),  // in two lines
               StartsWith("macro $eval{...}: " + ini));

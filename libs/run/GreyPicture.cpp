@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 #include "run/PictureFile.h"
 #include "slam/grid/GridConversion.h"
 
@@ -17,8 +18,7 @@ constexpr size_t kMostPictureBytes =
     4 * kMostCells + 4096;  // of a plain PGM: three digits and a space a pixel
 
 std::string pictureBytes(const std::string& file) {
-  if (!std::filesystem::exists(file)) throw InputError("no such file", file, kPictureExpected);
-  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, kPictureExpected);
+  files::expectFile(file, kPictureExpected);
   const auto size = std::filesystem::file_size(file);
   if (size > kMostPictureBytes) throw InputError("picture too large", file, "expected at most 2^28 pixels");
   std::string bytes(size, '\0');

@@ -1,9 +1,8 @@
 #include "run/MapReader.h"
 
-#include <filesystem>
-
 #include "base/Errors.h"
 #include "files/GridMapReader.h"
+#include "files/InputFile.h"
 #include "files/LineReader.h"
 #include "files/ObjectLayouts.h"
 #include "run/RosMap.h"
@@ -15,8 +14,7 @@ static_assert(files::kMostGridMapCells == kMostCells);
 
 OccupancyGrid readMap(const std::string& file) {
   constexpr const char* kExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
-  if (!std::filesystem::exists(file)) throw InputError("no such file", file, kExpected);
-  if (!std::filesystem::is_regular_file(file)) throw InputError("not a file", file, kExpected);
+  files::expectFile(file, kExpected);
   if (files::isText(file)) return readRosMap(file);  // a grid map starts with zeros
   OccupancyGrid grid = fromMrpt(files::readGridMap(file));
   if (!(grid.resolution() >= 0.001 && grid.resolution() <= 10))

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 #include "run/PlanFiles.h"
 #include "run/PlanLines.h"
 
@@ -91,6 +92,7 @@ std::vector<PlanLine> planOf(const std::string& text, const std::string& file) {
 }
 
 std::vector<PlanLine> loadPlan(const std::string& file) {
+  files::expectFile(file, kExpected);
   std::ifstream in(file, std::ios::binary);
   std::string text(kMostBytes + 1, '\0');
   if (!in) throw InputError("cannot read the floor plan", file, kExpected);

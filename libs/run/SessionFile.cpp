@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
 
 #include "base/Errors.h"
 #include "files/Gzip.h"
+#include "files/InputFile.h"
 #include "files/PartialFile.h"
 
 namespace hybrid_slam::run {
@@ -50,6 +52,8 @@ void saveSession(const std::string& path, const std::string& bytes) {
 }
 
 bool isSession(const std::string& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a pipe would wait
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
   uint64_t magic = 0;
   return in && gzread(in.get(), &magic, sizeof magic) == sizeof magic && magic == kMagic;
@@ -59,6 +63,7 @@ namespace {
 
 /// Returns the file; rejects another gzip file before all of it is unpacked.
 const std::string& notOfAnotherKind(const std::string& file) {
+  files::expectFile(file, std::string("expected a ") + kWhat);
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
   uint64_t magic = 0;
   if (in && gzread(in.get(), &magic, sizeof magic) == sizeof magic && gzdirect(in.get()) == 0 &&

@@ -20,8 +20,11 @@ constexpr size_t kMostRecords = 20000, kMostNumbers = 100000;
 }  // namespace
 
 std::vector<Record> readRecords(const std::string& file, const std::vector<std::string>& words) {
-  std::ifstream in(file);
-  if (!in || !std::filesystem::is_regular_file(file))
+  std::error_code ignored;
+  const bool isFile = std::filesystem::is_regular_file(file, ignored);  // a pipe would wait for its writer
+  std::ifstream in;
+  if (isFile) in.open(file);
+  if (!isFile || !in)
     throw InputError("cannot be read", "file " + file, "expected a readable text file");
   std::vector<Record> records;
   std::string line;

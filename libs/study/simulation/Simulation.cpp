@@ -41,7 +41,7 @@ std::vector<Event> eventsOf(const Route& route, const std::vector<Slip>& slips, 
 
 /// Limits the number of readings, which are in memory until they are written.
 void expectBounded(const Route& route, int scans, double scanRate, size_t beamsOfScan, double odometryRate) {
-  constexpr double kMostBeams = 2e8, kMostReadings = 1e7, kLongestPath = 1e5;  // m
+  constexpr double kMostBeams = 5e7, kMostReadings = 2e6, kLongestPath = 1e5;  // m
   const double metres = route.progressAt(route.duration()).distance;
   if (!(metres <= kLongestPath))
     throw InputError("route too long: " + fixedText(metres / 1000, 1) + " km",
