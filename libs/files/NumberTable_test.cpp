@@ -84,6 +84,15 @@ TEST_F(NumberTable, OverlongLinesAreNamed) {
   }
 }
 
+TEST_F(NumberTable, RowsAndLinesAreLimited) {
+  std::string rows;
+  for (int i = 0; i < 5'000'001; ++i) rows += "1 2 3\n";
+  writeGzipped(rows);
+  EXPECT_EQ(error(), "too many rows: file `" + file + "`, line 5000001; expected at most 5000000");
+  writeGzipped(std::string(20'000'001, '\n'));
+  EXPECT_EQ(error(), "too many lines: file `" + file + "`; expected at most 20000000");
+}
+
 TEST_F(NumberTable, EmptyMissingAndUnreadableFiles) {
   EXPECT_THAT(error(), HasSubstr("cannot open the file: file `" + file + "`"));
   write("# nothing\n\n");

@@ -67,6 +67,26 @@ TEST(SlipRecovery, FindsARobotThatStoodStillOrMovedBackward) {
   }
 }
 
+/// Four beams, three of them on people in front of the walls, say little about where the robot is.
+TEST(SlipRecovery, FewBeamsRarelyOverruleTheOdometry) {
+  int slips = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    Particle particle = test::particleAt(test::room(), kStart);
+    SlipRecovery recovery = used(particle, test::room());
+    RandomStream random(100 + seed, 0, 0);
+    PreparedScan scan = test::prepared(test::room(), kStart + kOdometry, random);
+    for (ScanBeams* const beams : {&scan.matchedBeams, &scan.weighedBeams}) {
+      auto& rays = beams->rays;
+      const size_t every = rays.size() / 4;
+      for (size_t i = 0; i < 4; ++i) rays[i] = rays[i * every + seed % every];
+      rays.resize(4);
+      for (size_t i = 0; i < 3; ++i) rays[i].range *= 0.95;
+    }
+    slips += recovery.motionsOf(particle, kOdometry, scan).front().hasSlipped;
+  }
+  EXPECT_LE(slips, 4);
+}
+
 struct Found {
   bool isTrue = false;  ///< a hypothesis was the true pose
   size_t most = 0;      ///< number of hypotheses in a step
