@@ -24,8 +24,7 @@ std::vector<Record> readRecords(const std::string& file, const std::vector<std::
   const bool isFile = std::filesystem::is_regular_file(file, ignored);  // a pipe would wait for its writer
   std::ifstream in;
   if (isFile) in.open(file);
-  if (!isFile || !in)
-    throw InputError("cannot be read", "file " + file, "expected a readable text file");
+  if (!isFile || !in) throw InputError("cannot be read", "file " + file, "expected a readable text file");
   std::vector<Record> records;
   std::string line;
   size_t numbers = 0;
