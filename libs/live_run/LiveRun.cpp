@@ -49,7 +49,10 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
   if (!run_.folderNote().empty()) log_.report("results", run_.folderNote());
 }
 
-LiveRun::~LiveRun() { stopFilter(); }
+LiveRun::~LiveRun() {
+  stopFilter();
+  run_.finishCheckpoint();  // it uses the recording
+}
 
 void LiveRun::take(const mrpt::obs::CSensoryFrame::Ptr& cycle) {
   const auto arrival = Clock::now();

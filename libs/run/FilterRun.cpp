@@ -110,15 +110,16 @@ bool FilterRun::process(const readings::Reading& reading) {
   return isUpdate;
 }
 
-bool FilterRun::isMemoryFull() const {
+bool FilterRun::isMemoryFull() {
   if (configuration_.run.method == Method::stock || residentBytes() <= mostBytes_) return false;
-  ::malloc_trim(0);  // the allocator keeps what earlier particles have freed
+  finishCheckpoint();  // its bytes are a copy
+  ::malloc_trim(0);    // the allocator keeps what earlier particles have freed
   return residentBytes() > mostBytes_;
 }
 
 // Scans of new ground, in a log or from a server, would end the program and the whole machine without
 // results.
-void FilterRun::checkMemory() const {
+void FilterRun::checkMemory() {
   if (isMemoryFull())
     throw std::runtime_error("out of memory: the map, the path and the scans take over " +
                              fixedText(mostBytes_ / 1e9, 1) + " GB, a quarter of the memory");

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <future>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -67,8 +68,10 @@ class FilterRun {
   /// @throws InputError if it cannot be written; std::runtime_error during the search for the start
   void saveMapTo(const std::string& folder);
   /// Sets an action to call before each session is written: to resume from it, all readings so far must be on
-  /// disk.
+  /// disk. Checkpoints call it in another thread.
   void setBeforeSession(std::function<void()> action) { beforeSession_ = std::move(action); }
+  /// Waits for the checkpoint that is being written.
+  void finishCheckpoint();
   /// Returns whether this run, or the resumed one, continues an earlier map or began with a floor plan.
   bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
   /// Says in one line that the place in the earlier map has not been found; else empty.
@@ -121,8 +124,8 @@ class FilterRun {
   template <class State>
   void visit(State& state);
   bool filter(const readings::Reading& reading);
-  bool isMemoryFull() const;
-  void checkMemory() const;
+  bool isMemoryFull();
+  void checkMemory();
   void searchPlace(const readings::Reading& reading);
   void searchPlan(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
@@ -131,6 +134,8 @@ class FilterRun {
   ScanMap currentMap() const;  ///< of a method with lines
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void writeState(StateWriter& out);
+  /// Returns the bytes of a session file; empty, with a note, if there can be none.
+  std::string sessionWith(const ScanMap& map, const std::vector<mrpt::math::TPose2D>& poses);
   void saveSessionTo(const std::string& path, const ScanMap& map,
                      const std::vector<mrpt::math::TPose2D>& poses);
   void saveToDatedFolder();
@@ -177,6 +182,7 @@ class FilterRun {
   double savedCell_ = 0;                ///< m, of the map files
   double mostBytes_, refinementBytes_;
   Verdict verdict_;
+  std::future<void> checkpoint_;  ///< compressed and written while the filter goes on
 };
 
 }  // namespace hybrid_slam::run

@@ -111,6 +111,7 @@ void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
+  finishCheckpoint();
   const bool hasRoom = !isMemoryFull();  // the results below are copies
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (configuration_.filter.useLines && !localizer_) result.map = currentMap();

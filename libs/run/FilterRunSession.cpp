@@ -61,22 +61,26 @@ void FilterRun::visit(State& state) {
               "its readings do not belong to its path");
 }
 
-void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
-                              const std::vector<mrpt::math::TPose2D>& poses) {
+std::string FilterRun::sessionWith(const ScanMap& map, const std::vector<mrpt::math::TPose2D>& poses) {
+  std::string bytes;
   if (!isConsistent_) {
     notes_.emplace_back("no session: the filter failed inside an update");
-    return;
+    return bytes;
   }
-  beforeSession_();
-  std::string bytes;
   StateWriter out(bytes);
   SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
   writeHeader(out, header);
   writeState(out);
-  if (bytes.size() > kMostSessionBytes)
-    notes_.push_back("no session: over " + fixedText(kMostSessionBytes / 1e9, 1) + " GB");
-  else
-    saveSession(path, bytes);
+  if (bytes.size() <= kMostSessionBytes) return bytes;
+  notes_.push_back("no session: over " + fixedText(kMostSessionBytes / 1e9, 1) + " GB");
+  return {};
+}
+
+void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,
+                              const std::vector<mrpt::math::TPose2D>& poses) {
+  beforeSession_();
+  const std::string bytes = sessionWith(map, poses);
+  if (!bytes.empty()) saveSession(path, bytes);
 }
 
 void FilterRun::writeState(StateWriter& out) {
@@ -104,26 +108,44 @@ void FilterRun::restore(const std::string& state) {
   planSearch_.reset();
 }
 
-/// Writes a checkpoint if it is due. A full disk must not end the run. Next to the results of another run,
-/// which `finish` may replace, the checkpoint has a separate name, so that a killed run leaves them
-/// unchanged.
+/// Begins a checkpoint if one is due and none is being written. Next to the results of another run, which
+/// `finish` may replace, the checkpoint has a separate name, so that a killed run leaves them unchanged.
 void FilterRun::saveIfDue() {
   try {
     if (isSaveRequested_.exchange(false)) saveToDatedFolder();
   } catch (const std::exception& e) {
     notes_.push_back("map not saved: " + messageOf(e));
   }
+  if (checkpoint_.valid()) {
+    if (checkpoint_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    finishCheckpoint();
+  }
   const double every = configuration_.run.checkpointEvery;
   if (every <= 0 || !hybrid_ || search_ || planSearch_ || secondsSince(lastCheckpoint_) < every) return;
+  lastCheckpoint_ = Clock::now();
   try {
     const bool isBeside = staged_.isOfAnother(kSessionName) || staged_.isOfAnother(kResultFiles.back());
     const std::string name = isBeside ? kCheckpointName : kSessionName;
     staged_.setOwn(name);
-    saveSessionTo(staged_.finalPath(name), hybrid_->bestMap(), hybrid_->bestPath());
+    checkpoint_ =
+        std::async(std::launch::async, [path = staged_.finalPath(name), before = beforeSession_,
+                                        bytes = sessionWith(hybrid_->bestMap(), hybrid_->bestPath())] {
+          if (bytes.empty()) return;
+          before();
+          saveSession(path, bytes);
+        });
   } catch (const std::exception& e) {
     notes_.push_back("no checkpoint: " + messageOf(e));
   }
-  lastCheckpoint_ = Clock::now();
+}
+
+// A full disk must not end the run.
+void FilterRun::finishCheckpoint() {
+  if (checkpoint_.valid()) try {
+      checkpoint_.get();
+    } catch (const std::exception& e) {
+      notes_.push_back("no checkpoint: " + messageOf(e));
+    }
 }
 
 void FilterRun::saveToDatedFolder() {

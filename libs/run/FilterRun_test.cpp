@@ -5,7 +5,9 @@
 #include <mrpt/core/bits_math.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
@@ -100,6 +102,31 @@ TEST_F(FilterRunTest, ARunThatFillsTheMemoryEndsWithResultsAndASession) {
   EXPECT_THAT(run.takeNotes(), Contains("map not refined: out of memory"));
   EXPECT_EQ(nlohmann::json::parse(result("full/metrics.json"))["complete"], false);
   EXPECT_TRUE(std::filesystem::exists(folder.path("full/session.hslam")));
+}
+
+// A large session takes seconds to compress and to sync; scans of a live robot would be skipped.
+TEST_F(FilterRunTest, GoesOnWhileACheckpointIsWritten) {
+  Configuration c = configuration("out");
+  c.run.checkpointEvery = 1e-3;
+  FilterRun run(c);
+  std::promise<void> allProcessed;
+  std::shared_future<void> processed(allProcessed.get_future());
+  std::atomic<int> begun{0}, waitedInVain{0};
+  run.setBeforeSession([&] {
+    ++begun;
+    waitedInVain += processed.wait_for(std::chrono::seconds(20)) != std::future_status::ready;
+  });
+  process(run, c);
+  const int begunMeanwhile = begun;
+  allProcessed.set_value();
+  run.finishCheckpoint();
+  EXPECT_LE(begunMeanwhile, 1) << "one at a time";
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(waitedInVain, 0);
+  SessionReader session(folder.path("out/session.hslam"));
+  EXPECT_FALSE(session.header().times.empty());
+  finish(run, c, log);
+  EXPECT_EQ(run.takeNotes(), std::vector<std::string>());
 }
 
 TEST_F(FilterRunTest, AnUpdateThatFailsLeavesResultsWithoutASession) {
