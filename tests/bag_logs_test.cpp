@@ -8,6 +8,7 @@
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "readings/LogReader.h"
+#include "readings/RawlogSource.h"
 #include "readings/Timestamps.h"
 #include "testing/CompressedBytes.h"
 #include "testing/RosBags.h"
@@ -200,6 +201,45 @@ TEST_F(Bags, WrongFilesAreOneError) {
   test::expectInputError(run(LOG2RAWLOG, "'" + folder.write("a.bag", "#ROSBAG V2.0\nabc") + "' '" +
                                              folder.path("out.rawlog") + "'"),
                          "log2rawlog", "cut off");
+}
+
+std::string recorded(const std::string& name) { return std::string(RECORDED) + "/" + name; }
+
+/// The numbers were read from the bytes by hand: three whole scans of 681 beams, then the cut.
+TEST_F(Bags, RecordedByRos1) {
+  const std::string rawlog = folder.path("scan_tools.rawlog");
+  const test::Outcome outcome = run(LOG2RAWLOG, "'" + recorded("scan_tools.bag") + "' '" + rawlog + "'");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("cut off in the middle of a record"));
+  EXPECT_THAT(outcome.out, HasSubstr("3 scans, 0 odometry readings, 0.2 s"));
+  readings::InputOptions input;
+  input.requireOdometry = false;
+  readings::RawlogSource source(rawlog, input, readings::summarise(rawlog, input));
+  const auto first = source.next();
+  ASSERT_TRUE(first && first->scans.size() == 1);
+  const auto& scan = *first->scans[0];
+  EXPECT_NEAR(first->timestamp, 1282836370.970876, 1e-6);
+  ASSERT_EQ(scan.getScanSize(), 681u);
+  EXPECT_EQ(scan.getScanRange(0), 3.002F);
+  EXPECT_EQ(scan.getScanRange(340), 0.942F);
+  EXPECT_NEAR(scan.aperture, 2 * 2.0862138, 1e-6);
+  size_t more = 0;
+  while (source.next()) ++more;
+  EXPECT_EQ(more, 2u);
+}
+
+/// The counts are those of rosbag2's metadata.yaml.
+TEST_F(Bags, RecordedByRos2) {
+  for (const std::string name : {"talker.db3", "talker.mcap"}) {
+    const test::Outcome outcome = run(LOG2RAWLOG, "--list '" + recorded(name) + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out,
+              "        0  /parameter_events  rcl_interfaces/msg/ParameterEvent\n"
+              "       10  /rosout  rcl_interfaces/msg/Log\n"
+              "       10  /topic  std_msgs/msg/String\n");
+    test::expectInputError(run(LOG2RAWLOG, "'" + recorded(name) + "' '" + folder.path("a.rawlog") + "'"),
+                           "log2rawlog", "no laser scans");
+  }
 }
 
 }  // namespace

@@ -77,15 +77,27 @@ void addTopics(const std::string& path, int from, int to, const std::string& nam
 }
 
 /// Expects that each truncated file gives the messages it holds.
-void expectCutsAreFound(const std::string& path, const std::vector<TestMessage>& whole) {
+/// @param isPlain  nothing is compressed: all messages before the cut are there
+void expectCutsAreFound(const std::string& path, const std::vector<TestMessage>& whole, bool isPlain) {
   const std::string bytes = test::contentOf(path);
-  for (const double share : {0.1, 0.5, 0.9}) {
+  for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    SCOPED_TRACE(share);
     const auto length = static_cast<size_t>(share * static_cast<double>(bytes.size()));
     const Content cut = read(test::write(path, bytes.substr(0, length)));
-    EXPECT_THAT(cut.defect, HasSubstr("cut off")) << share;
-    EXPECT_LT(cut.messages.size(), whole.size());
+    if (cut.messages.size() < whole.size()) {
+      EXPECT_THAT(cut.defect, HasSubstr("cut off"));
+    }
     expectSame(cut.messages,
                {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut.messages.size())});
+    if (!isPlain) continue;
+    size_t before = 0;
+    for (size_t at = 0; before < whole.size(); ++before) {
+      at = bytes.find(whole[before].bytes, at);
+      ASSERT_NE(at, std::string::npos);
+      at += whole[before].bytes.size();
+      if (at > length) break;
+    }
+    EXPECT_EQ(cut.messages.size(), before);
   }
 }
 
@@ -105,13 +117,11 @@ TEST(Ros1Bag, WrittenByTheLibraryOfRos) {
 TEST(Ros1Bag, CutBagsAreReadUpToTheCut) {
   const files::TemporaryFolder folder;
   const auto written = messages(400);
-  const std::string path = test::writeRosBag(folder.path("a.bag"), written, rosbag::compression::LZ4);
-  const std::string bytes = test::contentOf(path);
-  for (const double share : {0.1, 0.5, 0.9}) {
-    const auto length = static_cast<size_t>(share * static_cast<double>(bytes.size()));
-    const Content cut = read(test::write(path, bytes.substr(0, length)));
-    expectSame(cut.messages,
-               {written.begin(), written.begin() + static_cast<std::ptrdiff_t>(cut.messages.size())});
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    SCOPED_TRACE(compression);
+    expectCutsAreFound(test::writeRosBag(folder.path("a.bag"), written, compression), written,
+                       compression == rosbag::compression::Uncompressed);
   }
 }
 
@@ -171,7 +181,15 @@ TEST(McapFile, EveryCompressionAndEncoding) {
 TEST(McapFile, CutsAreFound) {
   const files::TemporaryFolder folder;
   const auto written = messages(50, Encoding::cdr);
-  expectCutsAreFound(test::writeMcap(folder.path("a.mcap"), written), written);
+  for (const char* compression : {"none", "", "zstd", "lz4"}) {
+    SCOPED_TRACE(compression);
+    expectCutsAreFound(test::writeMcap(folder.path("a.mcap"), written, compression), written,
+                       std::string(compression).empty() || compression == std::string("none"));
+  }
+  const std::string bytes = test::contentOf(test::writeMcap(folder.path("a.mcap"), written));
+  const Content withoutEnd = read(folder.write("cut.mcap", bytes.substr(0, bytes.rfind("\x0f"))));
+  EXPECT_EQ(withoutEnd.messages.size(), written.size());
+  EXPECT_THAT(withoutEnd.defect, HasSubstr("cut off"));
 }
 
 TEST(McapFile, ChecksumsAreChecked) {

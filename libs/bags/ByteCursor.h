@@ -16,6 +16,11 @@ struct BrokenBytes : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Thrown where a file ends before its content.
+struct CutOff : BrokenBytes {
+  CutOff() : BrokenBytes("cut off in the middle of a record") {}
+};
+
 /// A name of unknown origin without characters that control a terminal.
 inline std::string printable(std::string_view name) {
   std::string text(name);

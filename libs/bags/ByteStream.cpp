@@ -21,7 +21,7 @@ bool ByteStream::isAtEnd() {
 }
 
 size_t ByteStream::read(char* to, size_t count) {
-  if (isAtEnd()) throw BrokenBytes("cut off in the middle of a record");
+  if (isAtEnd()) return 0;
   const size_t taken = std::min(count, end_ - begin_);
   const char* const from = buffer_.data() + begin_;
   if (to) std::memcpy(to, from, taken);
@@ -31,19 +31,36 @@ size_t ByteStream::read(char* to, size_t count) {
   return taken;
 }
 
-std::string ByteStream::take(uint64_t count) {
+std::string ByteStream::takeUpTo(uint64_t count) {
   constexpr uint64_t kStep = 1 << 20;
   std::string bytes;
   while (bytes.size() < count) {
     size_t at = bytes.size();
     bytes.resize(std::min(count, bytes.size() + std::max<uint64_t>(kStep, bytes.size())));
-    while (at < bytes.size()) at += read(bytes.data() + at, bytes.size() - at);
+    while (at < bytes.size()) {
+      const size_t taken = read(bytes.data() + at, bytes.size() - at);
+      at += taken;
+      if (taken == 0) {
+        bytes.resize(at);
+        return bytes;
+      }
+    }
   }
   return bytes;
 }
 
+std::string ByteStream::take(uint64_t count) {
+  std::string bytes = takeUpTo(count);
+  if (bytes.size() < count) throw CutOff();
+  return bytes;
+}
+
 void ByteStream::skip(uint64_t count) {
-  while (count > 0) count -= read(nullptr, std::min<uint64_t>(count, buffer_.size()));
+  while (count > 0) {
+    const size_t taken = read(nullptr, std::min<uint64_t>(count, buffer_.size()));
+    if (taken == 0) throw CutOff();
+    count -= taken;
+  }
 }
 
 }  // namespace hybrid_slam::bags

@@ -20,6 +20,8 @@ class ByteStream {
   /// Reads `count` bytes. Memory grows with the bytes in the file, not with `count`.
   /// @throws BrokenBytes if it has fewer
   std::string take(uint64_t count);
+  /// The same, but up to the end of the file if it has fewer.
+  std::string takeUpTo(uint64_t count);
   /// @throws BrokenBytes if the file has fewer bytes
   void skip(uint64_t count);
   /// CRC-32 of the bytes so far.

@@ -25,6 +25,8 @@ class ChunkedFile : public Bag {
   virtual std::optional<StoredMessage> nextRecord() = 0;
   /// Reads the next record of the chunk; returns it if it is a message.
   virtual std::optional<StoredMessage> nextInChunk() = 0;
+  /// Reads a record to record_. Of a chunk that is cut off, what is there, and isCut_ is set.
+  void takeRecord(uint64_t size, bool isChunk);
   /// @param compression  empty: none
   /// @param size         of the decompressed chunk
   void openChunk(std::optional<files::Compression> compression, std::string_view bytes, uint64_t size);
@@ -33,6 +35,7 @@ class ChunkedFile : public Bag {
   std::string record_, chunk_;
   ByteCursor inChunk_{{}};
   bool isAtEnd_ = false;
+  bool isCut_ = false;  ///< the file ends in the chunk
 };
 
 }  // namespace hybrid_slam::bags

@@ -32,8 +32,7 @@ std::optional<StoredMessage> McapFile::nextRecord() {
     stream_.skip(size);
     return std::nullopt;
   }
-  if (size > kMostChunkBytes) throw BrokenBytes("a record is over 256 MiB");
-  record_ = stream_.take(size);
+  takeRecord(size, kind == kChunk);
   return take(kind, record_);
 }
 
@@ -81,7 +80,8 @@ void McapFile::readChunk(std::string_view record) {
   const auto size = in.number<uint64_t>();
   const auto checksum = in.number<uint32_t>();
   const std::string_view compression = in.block();
-  const std::string_view bytes = in.take(in.number<uint64_t>());
+  const auto stored = in.number<uint64_t>();
+  const std::string_view bytes = in.take(isCut_ ? in.left() : stored);
   if (compression == "zstd")
     openChunk(files::Compression::zstd, bytes, size);
   else if (compression == "lz4")
@@ -90,6 +90,7 @@ void McapFile::readChunk(std::string_view record) {
     openChunk(std::nullopt, bytes, size);
   else
     throw BrokenBytes("a chunk of unknown compression");
+  if (isCut_) return;
   const auto found =
       crc32(0, reinterpret_cast<const Bytef*>(chunk_.data()), static_cast<uInt>(chunk_.size()));
   if (checksum != 0 && checksum != found) throw BrokenBytes("damaged chunk (wrong checksum)");

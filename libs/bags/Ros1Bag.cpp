@@ -64,8 +64,7 @@ std::optional<StoredMessage> Ros1Bag::nextRecord() {
     stream_.skip(size);
     return std::nullopt;
   }
-  if (size > kMostChunkBytes) throw BrokenBytes("a record is over 256 MiB");
-  record_ = stream_.take(size);
+  takeRecord(size, kind == kChunk);
   if (kind == kMessage) return messageOf(header, record_);
   if (kind == kChunk)
     readChunk(header, record_);

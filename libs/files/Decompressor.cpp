@@ -160,26 +160,42 @@ std::unique_ptr<Decompressor> makeDecompressor(Compression compression) {
   }
 }
 
-std::string decoded(Compression compression, std::string_view bytes, size_t size) {
+namespace {
+
+/// Decompresses up to `size` bytes, and one more if there are more.
+/// @param isWhole  false: the bytes may end too early
+std::string decodedUpTo(Compression compression, std::string_view bytes, size_t size, bool isWhole) {
   constexpr size_t kStep = 1 << 20;
   const auto decompressor = makeDecompressor(compression);
   std::string content;
   size_t length = 0;
   bool hasEnded = false;
-  while (!hasEnded || !bytes.empty()) {
-    // One byte more than claimed: reaches the end of the stream, and detects content that is too long.
+  while (length <= size && (!hasEnded || !bytes.empty())) {
     content.resize(std::min(size + 1, length + std::max(kStep, length)));
     char* out = content.data() + length;
     size_t room = content.size() - length;
     const size_t before = room, left = bytes.size();
     hasEnded = decompressor->decode(bytes, out, room);
     length += before - room;
-    if (length > size) throw Damaged("its content is longer than it says");
-    if (!hasEnded && room == before && bytes.size() == left) throw Damaged("it is cut off");
+    if (hasEnded || room < before || bytes.size() < left) continue;
+    if (isWhole) throw Damaged("it is cut off");
+    break;
   }
-  if (length != size) throw Damaged("its content is shorter than it says");
   content.resize(length);
   return content;
+}
+
+}  // namespace
+
+std::string decoded(Compression compression, std::string_view bytes, size_t size) {
+  std::string content = decodedUpTo(compression, bytes, size, true);
+  if (content.size() > size) throw Damaged("its content is longer than it says");
+  if (content.size() < size) throw Damaged("its content is shorter than it says");
+  return content;
+}
+
+std::string decodedStart(Compression compression, std::string_view bytes, size_t size) {
+  return decodedUpTo(compression, bytes, size, false).substr(0, size);
 }
 
 }  // namespace hybrid_slam::files

@@ -43,5 +43,7 @@ std::unique_ptr<Decompressor> makeDecompressor(Compression compression);
 /// @throws Damaged unless the content has exactly `size` bytes. Memory grows with the content, not with
 /// `size`.
 std::string decoded(Compression compression, std::string_view bytes, size_t size);
+/// Decompresses the bytes before a cut, at most `size`. @throws Damaged
+std::string decodedStart(Compression compression, std::string_view bytes, size_t size);
 
 }  // namespace hybrid_slam::files
