@@ -225,6 +225,45 @@ TEST(Rosbag2Database, GivesTheMessagesInOrder) {
   expectSame(content.messages, written);
 }
 
+/// The files of a folder, sorted.
+std::vector<std::string> filesIn(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// rosbag2 wrote in this mode until 2021. The name has characters that mean something in a URI.
+TEST(Rosbag2Database, ReadingOneInWalModeLeavesNothingBesideIt) {
+  const files::TemporaryFolder folder, temporary;
+  const auto written = messages(50, Encoding::cdr);
+  const std::string name = "a 100%?x=1#\xc3\xa9.db3", path = test::writeDatabase(folder.path(name), written);
+  execute(path, "PRAGMA journal_mode=WAL");
+  ASSERT_THAT(filesIn(folder.path("")), testing::ElementsAre(name));
+  expectSame(read(path).messages, written);
+  EXPECT_THAT(filesIn(folder.path("")), testing::ElementsAre(name));
+  const std::string before = std::filesystem::temp_directory_path();
+  ::setenv("TMPDIR", temporary.path("").c_str(), 1);
+  expectSame(read(folder.write("b.db3.gz", files::gzipped(test::contentOf(path)))).messages, written);
+  ::setenv("TMPDIR", before.c_str(), 1);
+  EXPECT_THAT(filesIn(temporary.path("")), testing::IsEmpty());
+}
+
+/// As after a crash of the recorder.
+TEST(Rosbag2Database, ChangesInAWalFileAreRead) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(50, Encoding::cdr));
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA journal_mode=WAL; DELETE FROM messages WHERE id > 7", nullptr, nullptr,
+               nullptr);
+  for (const std::string suffix : {"", "-wal"})
+    std::filesystem::copy_file(path + suffix, folder.path("b.db3" + suffix));
+  sqlite3_close(database);
+  EXPECT_EQ(read(folder.path("b.db3")).messages.size(), 7u);
+}
+
 TEST(Rosbag2Database, OtherDatabasesAreNone) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), {});

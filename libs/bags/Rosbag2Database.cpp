@@ -3,7 +3,9 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +19,7 @@ namespace hybrid_slam::bags {
 namespace {
 
 constexpr const char* kExpected = "expected a ROS 2 recording with the tables topics and messages";
+constexpr std::array kPending{"-wal", "-journal"};  // files of changes that are not in the database yet
 constexpr uint64_t kMostUnpackedBytes = uint64_t{16} << 30;
 constexpr int kLongestStatement = 1 << 20;  // bytes, in the file or ours with the numbers of all topics
 
@@ -68,6 +71,26 @@ class Unpacked {
   int descriptor_ = -1;
 };
 
+/// Returns SQLite's name of the file. A file without pending changes is said not to change: for one in WAL
+/// mode, as rosbag2 wrote at first, SQLite would else create two more beside it, and fail where it may not.
+std::string uriOf(const std::string& path) {
+  std::string uri = "file://";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    if (std::isalnum(byte) || c == '/' || c == '.' || c == '-' || c == '_')
+      uri += c;
+    else
+      uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  const bool hasChanges = std::any_of(kPending.begin(), kPending.end(), [&path](const char* suffix) {
+    std::error_code ignored;
+    const auto size = std::filesystem::file_size(path + suffix, ignored);
+    return !ignored && size > 0;
+  });
+  return hasChanges ? uri : uri + "?immutable=1";
+}
+
 /// Returns whether SQLite should stop: the pages of a schema may refer to each other.
 int stopsOpening(void* steps) {
   constexpr int kMostSteps = 1'000'000;  // of SQLite's machine; 10,000 topics need fewer than 100,000
@@ -85,7 +108,8 @@ Rosbag2Database::Rosbag2Database(const std::string& path)
     : database_(nullptr, sqlite3_close), messages_(nullptr, sqlite3_finalize) {
   const Unpacked file(path);  // SQLite keeps it open after its name has gone
   sqlite3* opened = nullptr;
-  const int state = sqlite3_open_v2(file.path().c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
+  const int state =
+      sqlite3_open_v2(uriOf(file.path()).c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   database_.reset(opened);
   if (state != SQLITE_OK) throw InputError("cannot read", path, kExpected);
   for (const int off :

@@ -62,6 +62,9 @@ void InputOptions::describe(OptionTable& t) {
   t.add("require_odometry", requireOdometry,
         "false: odometry is ignored; motion is predicted from the previous step and corrected by scan "
         "matching");
+  t.add("replace_stuck_odometry", replaceStuckOdometry,
+        "where the odometry stands still while the scans move, as after a lost connection to the robot's "
+        "base: scan matching gives the motion, until the odometry agrees with it again");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
         "largest gap between odometry readings for interpolation at a scan's time");
   t.add("scan_time", scanTime, "auto", 0, kLongestSweep, "s",

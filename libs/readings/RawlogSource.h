@@ -23,6 +23,7 @@ struct InputOptions : Options {
   std::string laserPose = "auto";  ///< of the only laser, see laserPoseIn; auto: as the log states
   std::string odometryTopic;       ///< of a bag
   bool requireOdometry = true;
+  bool replaceStuckOdometry = true;
   double maxOdometryGap = 1;
   std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
   std::optional<double> scanRate;  ///< Hz, of all lasers, instead of scanTime

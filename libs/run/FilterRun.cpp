@@ -88,6 +88,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
   }
   if (!configuration.input.requireOdometry)
     scanOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
+  else if (configuration.input.replaceStuckOdometry)
+    stuckOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
   steps_.imbue(std::locale::classic());
   writeStepsHeader(steps_);
   if (configuration.run.particlesEvery == 0) return;
@@ -101,6 +103,7 @@ bool FilterRun::process(const readings::Reading& reading) {
   isConsistent_ = false;
   readings::Reading moved = reading;
   if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
+  if (stuckOdometry_) replaceStuckOdometry(moved);
   const bool isUpdate = filter(moved);
   if (search_) searchPlace(moved);
   if (planSearch_) searchPlan(moved);
@@ -108,6 +111,16 @@ bool FilterRun::process(const readings::Reading& reading) {
   saveIfDue();
   if (isUpdate || scans_ % 100 == 0) checkMemory();
   return isUpdate;
+}
+
+void FilterRun::replaceStuckOdometry(readings::Reading& reading) {
+  const bool wasStuck = stuckOdometry_->isStuck();
+  reading.motion = stuckOdometry_->motionTo(reading.motion, reading.scans, reading.timestamp);
+  if (!wasStuck && !stuckOdometry_->isStuck()) return;
+  if (stuckScans_++ > 0) return;
+  firstStuck_ = reading.timestamp;
+  notes_.push_back("the odometry stands still while the scans move: scan matching replaces it from " +
+                   fixedText(firstStuck_, 3) + " s on");
 }
 
 bool FilterRun::isMemoryFull() {
@@ -200,6 +213,12 @@ std::string FilterRun::slipNote() const {
   if (slips_ == 0) return {};
   return std::to_string(slips_) + " updates whose odometry was rejected: first at " +
          fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
+}
+
+std::string FilterRun::stuckNote() const {
+  if (stuckScans_ == 0) return {};
+  return std::to_string(stuckScans_) + " scans whose odometry stood still while they moved: first at " +
+         fixedText(firstStuck_, 3) + " s; scan matching replaced it";
 }
 
 std::string FilterRun::mapNote() const {

@@ -23,6 +23,7 @@
 #include "run/Verdict.h"
 #include "slam/filter/HybridFilter.h"
 #include "slam/filter/ScanOdometry.h"
+#include "slam/filter/StuckOdometry.h"
 #include "slam/localization/Localizer.h"
 #include "slam/localization/PlanSearch.h"
 
@@ -80,6 +81,8 @@ class FilterRun {
   size_t scans() const { return scans_; }  ///< processed
   /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
+  /// One line on the scans during which the odometry was stuck; empty if there were none.
+  std::string stuckNote() const;
   /// One line if the map of the finished run has coarser cells than the filter's; else empty.
   std::string mapNote() const;
   /// Returns the events since the last call, one line each: loops closed (where, by how much, on what
@@ -123,6 +126,7 @@ class FilterRun {
   };
   template <class State>
   void visit(State& state);
+  void replaceStuckOdometry(readings::Reading& reading);
   bool filter(const readings::Reading& reading);
   bool isMemoryFull();
   void checkMemory();
@@ -157,6 +161,7 @@ class FilterRun {
   std::unique_ptr<Localizer> search_;            ///< for this place
   std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
+  std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still
   std::ostringstream steps_;                     ///< in memory: a disk that is full for a while costs no row
   std::optional<std::ostringstream> particles_;  ///< likewise
   TrajectoryRecorder recorder_;
@@ -173,13 +178,14 @@ class FilterRun {
   bool isConsistent_ = true;  ///< no reading has failed halfway
   double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
-  size_t loops_ = 0;  ///< closed while filtering
+  size_t stuckScans_ = 0;  ///< with stuck odometry
+  size_t loops_ = 0;       ///< closed while filtering
   size_t particlesMin_ = 0, particlesMax_ = 0;
-  size_t located_ = 0, lostAgain_ = 0;  ///< localisation: updates with a known place; times it was lost
-  bool wasLocated_ = false;             ///< at the last update
-  double firstSlip_ = 0;                ///< s
-  double cell_ = 0;                     ///< m, of the filter
-  double savedCell_ = 0;                ///< m, of the map files
+  size_t located_ = 0, lostAgain_ = 0;     ///< localisation: updates with a known place; times it was lost
+  bool wasLocated_ = false;                ///< at the last update
+  double firstSlip_ = 0, firstStuck_ = 0;  ///< s
+  double cell_ = 0;                        ///< m, of the filter
+  double savedCell_ = 0;                   ///< m, of the map files
   double mostBytes_, refinementBytes_;
   Verdict verdict_;
   std::future<void> checkpoint_;  ///< compressed and written while the filter goes on

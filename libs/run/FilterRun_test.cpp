@@ -13,6 +13,7 @@
 #include "base/Errors.h"
 #include "files/Gzip.h"
 #include "files/TemporaryFolder.h"
+#include "files/Trajectory.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::run {
@@ -102,6 +103,33 @@ TEST_F(FilterRunTest, ARunThatFillsTheMemoryEndsWithResultsAndASession) {
   EXPECT_THAT(run.takeNotes(), Contains("map not refined: out of memory"));
   EXPECT_EQ(nlohmann::json::parse(result("full/metrics.json"))["complete"], false);
   EXPECT_TRUE(std::filesystem::exists(folder.path("full/session.hslam")));
+}
+
+/// The odometry stands still for 8 s while the robot drives half a lap.
+TEST_F(FilterRunTest, StuckOdometryIsReplacedByTheScans) {
+  test::Log stuck = test::laps(160);
+  for (size_t i = 60; i < 100; ++i)
+    stuck[2 * i] = test::odometry(1000 + 0.2 * static_cast<double>(i), test::poseOnLap(59, 80));
+  const std::string file = test::writeGzipped(folder.path("stuck.rawlog"), stuck);
+  const auto worstOf = [&](const std::string& output, const std::string& setting) {
+    Configuration c = configuration(output, {"input.replace_stuck_odometry=" + setting});
+    c.run.rawlog = file;
+    FilterRun run(c);
+    readings::RawlogSource source(file, c.input, readings::summarise(file, c.input));
+    while (const auto reading = source.next()) run.process(*reading);
+    EXPECT_EQ(run.stuckNote().empty(), setting == "false") << run.stuckNote();
+    finish(run, c, file);
+    EXPECT_EQ(run.takeNotes().size(), setting == "false" ? 0u : 1u);
+    const auto trajectory = files::loadTum(folder.path(output + "/trajectory.tum"));
+    EXPECT_EQ(trajectory.size(), 160u);
+    double worst = 0;
+    for (size_t i = 0; i < trajectory.size(); ++i)
+      worst =
+          std::max(worst, (trajectory[i].pose - (test::poseOnLap(i, 80) - test::poseOnLap(0, 80))).norm());
+    return worst;
+  };
+  EXPECT_LT(worstOf("replaced", "true"), 0.15);
+  EXPECT_GT(worstOf("used", "false"), 1.5);
 }
 
 // A large session takes seconds to compress and to sync; scans of a live robot would be skipped.

@@ -46,6 +46,7 @@ class Pass {
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
     outcome.warnings = readings::warningsOf(log_, file);
     if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
+    if (const std::string stuck = run.stuckNote(); !stuck.empty()) outcome.warnings.push_back(stuck);
     outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
     if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
     outcome.verdict = run.verdict();
