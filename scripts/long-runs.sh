@@ -5,6 +5,10 @@
 # OUT (out/long-runs; 5 GB). HOURS (24) and RATE (3000 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
 # with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
 source "$(dirname "$0")/lib.sh"
+if [[ $# -eq 0 && -z ${HYBRID_SLAM_DATASETS:-} ]]; then
+  echo "HYBRID_SLAM_DATASETS is unset: no laps, no refinement" >&2
+  set -- day drive
+fi
 [[ $# -gt 0 ]] || set -- laps refinement day drive
 install_packages "${packages[@]}"
 build release hybrid-slam hybrid-slam-live hybrid-slam-laps observation-server log2rawlog simul-floorplan >&2

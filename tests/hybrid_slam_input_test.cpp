@@ -232,6 +232,32 @@ TEST_F(HybridSlam, AnyNumberOfBeams) {
   for (const size_t beams : {1u, 2u, 3u, 5000u}) {
     SCOPED_TRACE(beams);
     expectDone(replay(test::laps(10, 80, beams)));
+    for (const std::string method : {"likelihood_field", "ray_tracing", "consensus"})
+      expectDone(replay(test::laps(10, 80, beams), "--set grid_weight.method=" + method));
+  }
+  test::Log log = test::laps(10);
+  log[5] = test::scan(1000.4, test::poseOnLap(2, 80), 1);
+  expectDone(replay(log, "-m stock"));
+}
+
+/// MRPT gives no weight to an action this uncertain.
+TEST_F(HybridSlam, OneLongStepDuringAGap) {
+  test::Log log = test::laps(20);
+  for (size_t i = 10; i < 20; ++i) {
+    const mrpt::math::TPose2D pose = test::poseOnLap(i, 80);
+    log[2 * i] = test::odometry(1105 + 0.2 * static_cast<double>(i), mrpt::math::TPose2D(90, 0, 0) + pose);
+    log[2 * i + 1] = test::scan(1105 + 0.2 * static_cast<double>(i), pose);
+  }
+  for (const std::string options : {"", "-m stock", "--set particle_filter.proposal=auxiliary_standard",
+                                    "--set particle_filter.proposal=auxiliary_optimal"}) {
+    SCOPED_TRACE(options);
+    expectDone(replay(log, "-n 5 --set loop_closing.enabled=false " + options));
+    const auto poses = files::loadTum(output + "/trajectory.tum");
+    ASSERT_EQ(poses.size(), 20u);
+    EXPECT_GT(poses.back().pose.norm(), 50);
+    const nlohmann::json metrics = nlohmann::json::parse(result("metrics.json"));
+    const std::string steps = result("steps.csv");
+    EXPECT_EQ(metrics["updates"], std::count(steps.begin(), steps.end(), '\n') - 1);
   }
 }
 

@@ -295,6 +295,37 @@ TEST_F(HybridSlam, WhereTheMapsOfMrptsFilterFillTheMemoryTheResultsEndThere) {
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], false);
 }
 
+/// A map of 1 km by 1 km, with a limit between what the filter needs and what the largest result needs.
+TEST_F(HybridSlam, AResultThatNeedsTooMuchMemoryDoesNotCostTheOthers) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need their address space";
+#endif
+  test::Log log;
+  for (int i = 0; i < 60; ++i) {  // 20 m steps to the north-east
+    log.push_back(test::odometry(1000 + 20 * i, {14. * i, 14. * i, 0}));
+    log.push_back(test::scan(1000 + 20 * i));
+  }
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  size_t incomplete = 0;
+  for (const int megabytes : {450, 500, 550, 600, 700, 800}) {
+    SCOPED_TRACE(megabytes);
+    std::filesystem::remove_all(output);
+    test::ChildProgram program(
+        folder, "run",
+        {"/bin/sh", "-c",
+         "ulimit -v " + std::to_string(1024 * megabytes) + "; exec '" HYBRID_SLAM "' -q -n 5 -o '" + output +
+             "' '" + ini + "' '" + path + "'"});
+    const int status = program.wait();
+    if (!fs::exists(output + "/metrics.json")) continue;  // not even the filter had room
+    EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 60u);
+    const bool isComplete = nlohmann::json::parse(result("metrics.json"))["complete"];
+    EXPECT_EQ(isComplete, status == 0);
+    incomplete += !isComplete;
+    EXPECT_EQ(isComplete, program.err().find("out of memory") == std::string::npos) << program.err();
+  }
+  EXPECT_GT(incomplete, 0u);
+}
+
 TEST_F(HybridSlam, ARunUnderNohupOutlivesItsTerminal) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(400));
   test::ChildProgram program(

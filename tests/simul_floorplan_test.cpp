@@ -222,6 +222,10 @@ TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
   expectInputError(kRun, "too many readings: 27777.8 h");
   write("room.route", "start 1 1 0\nspeed 1e-9\ngo 6 1\n");
   expectInputError(kRun, "too many readings");
+  write("room.route", std::string(2 << 20, 'x'));
+  expectInputError(kRun, "not a text log: room.route, line 1");
+  write("room.route", std::string(1 << 19, 'x') + " 1 1 0\n");
+  expectInputError(kRun, "unknown word `xxx");
   std::string many;
   for (int i = 0; i < 20001; ++i) many += "wall 0 0 8 0\n";
   write("room.plan", many);

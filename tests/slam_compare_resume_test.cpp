@@ -166,5 +166,19 @@ TEST_F(SlamCompare, TwoProcessesInOneFolderAreAnError) {
               HasSubstr("another slam-compare is running"));
 }
 
+/// One report is of one log: that of another would be lost, and its runs counted with these.
+TEST_F(SlamCompare, AnotherLogNeedsAnotherFolder) {
+  ASSERT_EQ(run(" --methods general --particles 4 --seeds 1 -q").status, 0);
+  const std::string report = test::contentOf(folder.path("out/report.html"));
+  fs::copy_file(kLog, folder.path("other.rawlog"));
+  const Outcome outcome = shell(std::string("'") + SLAM_COMPARE + "' " + config +
+                                " other.rawlog -o out --methods hybrid --particles 4 --seeds 1 -q");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("finished run of another comparison"));
+  EXPECT_THAT(outcome.err, HasSubstr("other.rawlog"));
+  EXPECT_EQ(test::contentOf(folder.path("out/report.html")), report);
+  EXPECT_EQ(runs().size(), 1u);
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -254,6 +254,8 @@ int execute(const CommandLine& line, const std::string& command) {
     truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
+  if (!sweep.empty())
+    comparison::expectLog(sweep.front().folder.path().parent_path(), sweep.front().identity);
 
   for (const comparison::ComparisonRun& r : sweep) {
     expectNoStop("folder " + line.output);

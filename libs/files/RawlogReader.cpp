@@ -43,10 +43,12 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
   return nullptr;
 }
 
+constexpr size_t kMostClasses = 100;  // that a warning may name
+
 void RawlogReader::note(const std::vector<std::string>& classes) {
   for (const std::string& name : classes) {
     if (passedOver_++ == 0) firstPassedOver_ = entry_;
-    passedOverClasses_.emplace(baseName(name));
+    if (passedOverClasses_.size() < kMostClasses) passedOverClasses_.emplace(baseName(name));
   }
 }
 

@@ -150,6 +150,22 @@ TEST(RawlogReader, AnObservationOfAnUnknownClassIsPassedOver) {
   }
 }
 
+TEST(RawlogReader, NamesOfUnknownClassesFillNoMemory) {
+  const TemporaryFolder folder;
+  const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1)}));
+  std::string bytes = scan;
+  for (int i = 100; i < 400; ++i) {
+    std::string other = scan;
+    const size_t at = other.find("CObservation2DRangeScan");
+    other.replace(at + 20, 3, std::to_string(i));
+    bytes += other;
+  }
+  RawlogReader reader(folder.write("log", bytes));
+  while (reader.next()) continue;
+  EXPECT_EQ(reader.passedOver(), 300u);
+  EXPECT_EQ(reader.passedOverClasses().size(), 100u);
+}
+
 TEST(RawlogReader, AnObservationOfAnUnknownClassIsPassedOverWithinAFrame) {
   const TemporaryFolder folder;
   const std::string scan = test::contentOf(test::writePlain(folder.path("one"), {test::scan(1, {}, 5)}));

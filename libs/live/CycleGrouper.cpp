@@ -53,6 +53,7 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
 
 /// Scans at about the cycle rate all pass despite jitter; faster ones are thinned out.
 bool CycleGrouper::isDue(const CObservation2DRangeScan& scan, double time) {
+  if (due_.size() >= kMostLasers && due_.count(scan.sensorLabel) == 0) return false;
   const auto due = due_.try_emplace(scan.sensorLabel, time).first;
   if (time < due->second - period_ / 2) return false;
   due->second = std::max(due->second, time - period_ / 2) + period_;

@@ -50,5 +50,7 @@ constexpr double kLongestWait = 1;
 /// Largest number of waiting observations, far more than sensors give in kLongestWait; more mean that
 /// timestamps do not advance.
 constexpr size_t kMostWaiting = 1000;
+/// Largest number of labels of lasers; scans of others are left out.
+constexpr size_t kMostLasers = 100;
 
 }  // namespace hybrid_slam::live

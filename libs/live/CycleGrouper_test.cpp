@@ -50,6 +50,16 @@ TEST(CycleGrouper, StampsThatDoNotAdvanceFillNoMemory) {
   EXPECT_LE(most, kMostWaiting);
 }
 
+TEST(CycleGrouper, LabelsWithoutEndFillNoMemory) {
+  size_t all = 0;
+  CycleGrouper grouper(5, [&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { all += cycle->size(); });
+  for (size_t i = 0; i < 2 * kMostLasers; ++i)
+    grouper.add(scan(10 + static_cast<double>(i), {}, 3, "LASER" + std::to_string(i)));
+  grouper.add(scan(1000, {}, 3, "LASER0"));
+  grouper.finish();
+  EXPECT_EQ(all, kMostLasers + 1);
+}
+
 TEST(CycleGrouper, ACycleEndsWithTheFirstOdometryAfterItsScan) {
   Cycles c(5);
   c.odo(10.03), c.laser(10.1);

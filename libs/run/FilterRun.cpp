@@ -32,6 +32,8 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Conf
     return stockOptions(configuration.filter.filter, configuration.filter.grid);
   try {
     return stockOptions(configuration.source);
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& e) {
     throw InputError("wrong settings for MRPT's filter", std::string("section [") + kStockSection + "]",
                      messageOf(e));

@@ -113,6 +113,8 @@ class FilterRun {
   /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
+  /// Returns whether results of the finished run are missing for want of memory; notes name them.
+  bool lacksResults() const { return lacksResults_; }
   /// The verdict on the map of the finished run.
   const Verdict& verdict() const { return verdict_; }
 
@@ -136,6 +138,8 @@ class FilterRun {
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
   ScanMap currentMap() const;  ///< of a method with lines
+  template <class Write>
+  void writeOrNote(const std::string& result, const Write& write);
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void writeState(StateWriter& out);
   /// Returns the bytes of a session file; empty, with a note, if there can be none.
@@ -174,9 +178,10 @@ class FilterRun {
   std::atomic<bool> isSaveRequested_{false};
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
-  uint32_t fingerprint_ = 0;  ///< of the processed readings
-  bool isConsistent_ = true;  ///< no reading has failed halfway
-  double secondsBefore_ = 0;  ///< wall time of the resumed run
+  uint32_t fingerprint_ = 0;   ///< of the processed readings
+  bool isConsistent_ = true;   ///< no reading has failed halfway
+  bool lacksResults_ = false;  ///< for want of memory
+  double secondsBefore_ = 0;   ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
   size_t stuckScans_ = 0;  ///< with stuck odometry
   size_t loops_ = 0;       ///< closed while filtering

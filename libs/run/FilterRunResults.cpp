@@ -6,6 +6,8 @@
 #include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <utility>
 
 #include "base/Clock.h"
 #include "base/DeskewedScan.h"
@@ -123,8 +125,15 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     } else if (!hasRoom) {
       notes_.emplace_back("map not refined: out of memory");
     } else {
-      readings::RawlogSource scans(file, configuration_.input, log);
-      refineResult(result, scans);
+      try {
+        readings::RawlogSource scans(file, configuration_.input, log);
+        Result refined = result;
+        refineResult(refined, scans);
+        result = std::move(refined);
+      } catch (const std::bad_alloc&) {
+        notes_.emplace_back("map not refined: out of memory");
+        refinementLoops_.clear();
+      }
     }
   }
   const auto& [trajectory, path, grid, lines, map] = result;
@@ -135,12 +144,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   } else {
     writeMap(result, file, log);
   }
-  savePicture(folder_, grid, trajectory, lines, verdict_.places);
-  if (hybrid_) try {
-      saveSessionTo(folder_.path(kSessionName), map, path);
-    } catch (const std::bad_alloc&) {  // must not cost the other results
-      notes_.emplace_back("no session: out of memory");
-    }
+  writeOrNote("map.png", [&] { savePicture(folder_, grid, trajectory, lines, verdict_.places); });
+  if (hybrid_) writeOrNote("session", [&] { saveSessionTo(folder_.path(kSessionName), map, path); });
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
@@ -155,12 +160,30 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
          fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
 }
 
+/// A result that needs more memory than there is must not cost the others.
+template <class Write>
+void FilterRun::writeOrNote(const std::string& result, const Write& write) {
+  const auto note = [&] {
+    notes_.push_back("no " + result + ": out of memory");
+    lacksResults_ = true;
+  };
+  try {
+    write();
+  } catch (const std::bad_alloc&) {
+    note();
+  } catch (const cv::Exception& e) {
+    if (e.code != cv::Error::StsNoMem) throw;
+    note();
+  }
+}
+
 void FilterRun::writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log) {
   savedCell_ = result.grid.getResolution();
-  saveRosMap(folder_, result.grid, result.trajectory);
-  saveGridMap(folder_, result.grid);
+  writeOrNote("map.yaml", [&] { saveRosMap(folder_, result.grid, result.trajectory); });
+  writeOrNote("map.gridmap.gz", [&] { saveGridMap(folder_, result.grid); });
   saveLines(folder_, result.lines);
-  if (configuration_.filter.useLines) savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
+  if (configuration_.filter.useLines)
+    writeOrNote("plan", [&] { savePlan(folder_, floorPlanOf(result.lines, result.map.grid)); });
   VerdictCheck check;
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
@@ -224,7 +247,7 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
       {"doubtful_places", json(verdict_.places, updateTimes_)},
       {"lines", result.lines.size()},
       {"distance_m", recorder_.distance()},
-      {"complete", isWhole && log.defect.empty()},
+      {"complete", isWhole && log.defect.empty() && !lacksResults_},
       {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   if (localizer_ && !result.path.empty())

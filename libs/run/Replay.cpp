@@ -48,6 +48,8 @@ class Pass {
     if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
     if (const std::string stuck = run.stuckNote(); !stuck.empty()) outcome.warnings.push_back(stuck);
     outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
+    if (run.lacksResults() && outcome.incomplete.empty())
+      outcome.incomplete = "results are missing: out of memory";
     if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
     outcome.verdict = run.verdict();
     if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/Errors.h"
 #include "base/Numbers.h"
 #include "slam/grid/GridConversion.h"
 
@@ -35,6 +36,16 @@ class SwappedGenerators {
   mrpt::random::CRandomGenerator &a_, &b_;
 };
 
+/// MRPT checks no setting: a wrong number ends in a crash or takes all memory. @throws InputError
+void expectWithin(const mrpt::config::CConfigFileBase& source, const std::string& section,
+                  const std::string& key, double least, double most) {
+  if (!source.keyExists(section, key)) return;
+  const double value = source.read_double(section, key, least);
+  if (!(least <= value && value <= most))
+    throw InputError("wrong number", "section [" + section + "], key `" + key + "`",
+                     "expected " + numberText(least) + ".." + numberText(most));
+}
+
 size_t cellsOf(const COccupancyGridMap2D& grid) { return size_t{grid.getSizeX()} * grid.getSizeY(); }
 
 }  // namespace
@@ -48,7 +59,8 @@ void StockMapBuilder::process(const TPose2D& odometry, const Scans& scans) {
   mrpt::obs::CActionCollection action;
   action.insert(toAction(odometry, motion_));
   mrpt::obs::CSensoryFrame observations;
-  for (const auto& scan : scans) observations.insert(scan);
+  for (const auto& scan : scans)
+    if (scan->getScanSize() >= 2) observations.insert(scan);  // MRPT fails on a scan of one beam
   processActionObservation(action, observations);
 }
 
@@ -124,8 +136,25 @@ std::vector<WeightedPose> StockMapBuilder::particlePoses() const {
 
 mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockOptions(
     const mrpt::config::CConfigFileBase& source) {
+  const std::string application = "MappingApplication";
+  expectWithin(source, application, "sampleSize", 1, 100000);
+  expectWithin(source, application, "KLD_minSampleSize", 1, 100000);
+  expectWithin(source, application, "KLD_maxSampleSize", 1, 100000);
+  std::vector<std::string> sections;
+  source.getAllSections(sections);
+  for (const std::string& section : sections) {
+    if (section.rfind(application, 0) != 0) continue;
+    expectWithin(source, section, "resolution", 0.005, 10);
+    for (const char* key : {"min_x", "max_x", "min_y", "max_y"})
+      expectWithin(source, section, key, -1000, 1000);
+  }
+  std::vector<std::string> keys;
+  if (source.sectionExists(application)) source.getAllKeys(application, keys);
+  for (const std::string& key : keys)
+    if (key.size() > 6 && key.compare(key.size() - 6, 6, "_count") == 0)
+      expectWithin(source, application, key, 0, 10);
   mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions options;
-  options.loadFromConfigFile(source, "MappingApplication");
+  options.loadFromConfigFile(source, application);
   options.verbosity_level = mrpt::system::LVL_ERROR;
   return options;
 }

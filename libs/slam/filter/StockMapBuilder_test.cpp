@@ -1,14 +1,18 @@
 #include "slam/filter/StockMapBuilder.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/random/RandomGenerators.h>
 #include <tbb/global_control.h>
-#include <cstring>
 
+#include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <string>
 #include <thread>
+#include <tuple>
 
+#include "base/Errors.h"
 #include "testing/TestRoom.h"
 
 namespace hybrid_slam {
@@ -53,6 +57,29 @@ TEST(StockMapBuilder, TakesOurSettings) {
   EXPECT_NEAR(options.localizeLinDistance, 0.4, 1e-6);
   EXPECT_NEAR(options.insertionAngDistance, 25 * test::kDegree, 1e-6);
   EXPECT_NEAR(options.localizeAngDistance, 25 * test::kDegree, 1e-6);
+}
+
+/// MRPT takes them as they are, and crashes or fills the memory.
+TEST(StockMapBuilder, NumbersThatMrptDoesNotCheckAreRefused) {
+  const std::string s = "MappingApplication", map = s + "_occupancyGrid_00_creationOpts";
+  const std::tuple<std::string, std::string, std::string> wrong[] = {
+      {s, "sampleSize", "0"},    {s, "sampleSize", "-1"},     {s, "occupancyGrid_count", "-1"},
+      {map, "resolution", "0"},  {map, "resolution", "1e9"},  {map, "resolution", "nan"},
+      {map, "resolution", "-1"}, {map, "resolution", "1e-9"}, {map, "max_x", "1e9"}};
+  for (const auto& [section, key, value] : wrong) {
+    mrpt::config::CConfigFileMemory ini;
+    ini.write(s, "sampleSize", 5);
+    ini.write(s, "occupancyGrid_count", 1);
+    ini.write(map, "resolution", 0.1);
+    ini.write(section, key, value);
+    try {
+      stockOptions(ini);
+      ADD_FAILURE() << key << " = " << value;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("section [" + section + "], key `" + key + "`"), std::string::npos)
+          << e.what();
+    }
+  }
 }
 
 TEST(StockMapBuilder, CanBeQueriedBeforeTheFirstScan) {

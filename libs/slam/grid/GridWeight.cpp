@@ -48,13 +48,12 @@ size_t decimation(size_t count, int beams) {
   return std::max<size_t>(1, (2 * count + static_cast<size_t>(beams)) / (2 * static_cast<size_t>(beams)));
 }
 
-/// The cells within reach of the longest beam.
-CellBox reach(const ScanBeams& beams, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) {
+/// The cells within reach of the longest beam: MRPT uses all beams, and reads outside the grid.
+CellBox reach(const LaserScans& scans, const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) {
   double reach = 0;
-  for (const auto& ray : beams.rays) {
-    const auto& origin = beams.origins[ray.laser];
-    reach = std::max(reach, ray.range + std::hypot(origin.x, origin.y) + 1);
-  }
+  for (const LaserScan& scan : scans)
+    for (const Beam& beam : scan.beams)
+      if (beam.valid) reach = std::max(reach, beam.range + scan.sensorPose.norm() + 1);
   return {grid.cellOf(robot.x - reach, robot.y - reach), grid.cellOf(robot.x + reach, robot.y + reach)};
 }
 
@@ -66,7 +65,7 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScans& scans,
   if (options_.method == Method::penetration) return penetration_.meanLogLikelihood(beams, robot, grid);
   if (beams.rays.empty()) return 0;
 
-  MrptGrid local = toMrpt(grid, reach(beams, robot, grid));
+  MrptGrid local = toMrpt(grid, reach(scans, robot, grid));
   auto& options = local.likelihoodOptions;
   options.likelihoodMethod = mrptMethod(options_.method);
   options.LF_stdHit = options.rayTracing_stdHit = static_cast<float>(options_.sigma);
@@ -75,7 +74,7 @@ double GridWeight::logWeight(const ScanBeams& beams, const LaserScans& scans,
   for (const LaserScan& scan : scans) {
     const auto valid =
         std::count_if(scan.beams.begin(), scan.beams.end(), [](const Beam& b) { return b.valid; });
-    if (valid == 0) continue;
+    if (valid == 0 || scan.beams.size() < 2) continue;  // MRPT takes no scan of one beam
     const size_t step = decimation(scan.beams.size(), options_.beams);
     options.LF_decimation = static_cast<uint32_t>(step);
     options.rayTracing_decimation = options.consensus_takeEachRange = static_cast<int>(step);

@@ -124,6 +124,19 @@ TEST_P(GridWeightMethods, AScanOffTheMapIsFinite) {
   EXPECT_LE(weight(scan, {1000, 1000, 0}), 0);
 }
 
+/// MRPT's consensus uses all beams of the scan, also those that were not selected, and checks no bounds.
+TEST_P(GridWeightMethods, ASelectionWithoutTheLongestBeam) {
+  RandomStream random(7, 0, 0);
+  const TPose2D robot(0.5, 0.5, 1);
+  const CObservation2DRangeScan scan = scanAt(robot, random);
+  LaserScan all = toLaserScan(scan, 80);
+  for (const size_t i : {20u, 90u, 160u}) all.beams[i].range = 60;
+  LaserScan selected = all;
+  for (Beam& beam : selected.beams) beam.valid = beam.range < 3;
+  const double value = GridWeight(options(), 0.05).logWeight(ScanBeams(selected), {all}, robot, grid());
+  EXPECT_TRUE(std::isfinite(value));
+}
+
 INSTANTIATE_TEST_SUITE_P(All, GridWeightMethods,
                          testing::Values(NamedMethod{Method::penetration, "penetration"},
                                          NamedMethod{Method::likelihoodField, "likelihood_field"},

@@ -1,6 +1,7 @@
 #include "slam/motion/MotionModel.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace hybrid_slam {
 
@@ -95,7 +96,18 @@ mrpt::obs::CActionRobotMovement2D::TMotionModelOptions toMrpt(const MotionModelO
 
 mrpt::obs::CActionRobotMovement2D toAction(const TPose2D& odometry, const MotionModelOptions& options) {
   mrpt::obs::CActionRobotMovement2D action;
-  action.computeFromOdometry(mrpt::poses::CPose2D(odometry), toMrpt(options));
+  auto model = toMrpt(options);
+  action.computeFromOdometry(mrpt::poses::CPose2D(odometry), model);
+  // MRPT's filters ignore an action whose covariance has a determinant over 1000, as after 70 m in one step.
+  constexpr double kMostDeterminant = 900;
+  const double determinant = action.poseChange->getCovariance().det();
+  if (determinant <= kMostDeterminant) return action;
+  const double scale = std::pow(kMostDeterminant / determinant, 1.0 / 6);
+  auto& gaussian = model.gaussianModel;
+  for (auto* deviation :
+       {&gaussian.a1, &gaussian.a2, &gaussian.a3, &gaussian.a4, &gaussian.minStdXY, &gaussian.minStdPHI})
+    *deviation *= static_cast<std::remove_reference_t<decltype(*deviation)>>(scale);
+  action.computeFromOdometry(mrpt::poses::CPose2D(odometry), model);
   return action;
 }
 

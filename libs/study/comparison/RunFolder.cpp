@@ -79,6 +79,16 @@ void noteLog(RunIdentity& identity, const std::string& log) {
   identity.logTime = static_cast<int64_t>(status.st_mtim.tv_sec) * 1000000000 + status.st_mtim.tv_nsec;
 }
 
+void expectLog(const fs::path& runs, const RunIdentity& identity) {
+  std::error_code none;  // no runs yet
+  for (const auto& entry : fs::directory_iterator(runs, none)) {
+    std::ifstream config(entry.path() / "config.ini");
+    if (!config || entry.path().filename().string()[0] == '.') continue;  // failed or unfinished
+    const std::string log = settingsOf(config)["[run] rawlog"];
+    if (canonical(log) != identity.log) differs(entry.path(), "log " + log + ", now " + identity.log);
+  }
+}
+
 void RunFolder::expect(const RunIdentity& identity) const {
   std::ifstream config(file("config.ini"));
   std::istringstream expectedConfig(identity.configuration);

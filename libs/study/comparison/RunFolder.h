@@ -21,6 +21,10 @@ struct RunIdentity {
 /// @throws InputError if there is no such file
 void noteLog(RunIdentity& identity, const std::string& log);
 
+/// Expects that all finished runs in DIR/runs are of this log: one report compares runs of one log.
+/// @throws InputError with the first run of another log
+void expectLog(const std::filesystem::path& runs, const RunIdentity& identity);
+
 /// DIR/runs/NAME. hybrid-slam writes to a temporary name, so that only complete runs have the final name.
 class RunFolder {
  public:

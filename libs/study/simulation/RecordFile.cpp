@@ -1,20 +1,23 @@
 #include "study/simulation/RecordFile.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "base/Options.h"
+#include "files/LineReader.h"
 
 namespace hybrid_slam::simulation {
 namespace {
 
 constexpr double kLargestNumber = 1e5;  // m, s, deg: a building has no more
+constexpr size_t kLongestWord = 100;    // the nearest known word is searched for
 constexpr size_t kMostRecords = 20000, kMostNumbers = 100000;
 
 }  // namespace
@@ -22,17 +25,18 @@ constexpr size_t kMostRecords = 20000, kMostNumbers = 100000;
 std::vector<Record> readRecords(const std::string& file, const std::vector<std::string>& words) {
   std::error_code ignored;
   const bool isFile = std::filesystem::is_regular_file(file, ignored);  // a pipe would wait for its writer
-  std::ifstream in;
-  if (isFile) in.open(file);
-  if (!isFile || !in) throw InputError("cannot be read", "file " + file, "expected a readable text file");
+  if (!isFile || ::access(file.c_str(), R_OK) != 0)
+    throw InputError("cannot be read", "file " + file, "expected a readable text file");
+  files::LineReader in(file);
   std::vector<Record> records;
   std::string line;
   size_t numbers = 0;
-  for (int number = 1; std::getline(in, line); ++number) {
+  while (in.next(line)) {
     std::istringstream parts(line.substr(0, line.find('#')));
     Record record;
     if (!(parts >> record.word)) continue;
-    record.where = "file " + file + ", line " + std::to_string(number);
+    record.where = "file " + file + ", line " + std::to_string(in.number());
+    record.word.resize(std::min(record.word.size(), kLongestWord));
     if (std::find(words.begin(), words.end(), record.word) == words.end())
       throw InputError("unknown word `" + record.word + "`", record.where,
                        "the nearest known word is `" + nearestName(record.word, words) + "`");
