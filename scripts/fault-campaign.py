@@ -283,12 +283,14 @@ class Campaign:
     def limit(self, largest):
         return int(largest * self.rng.random() ** 3)
 
-    def fill_disks(self, count):
+    def programs(self):
+        """The commands that write files, without the name, and what they write."""
         config = self.out / "simulation.ini"
         config.write_text((ROOT / "config-ini/simul-csie-loop.ini").read_text().replace("../", f"{ROOT}/"))
         for part in (parts := [self.out / "part-1", self.out / "part-2"]):
-            self.expect(run(self.bin / "hybrid-slam", LOG, "-q", "-s", part.name[-1], "-o", part)[0] == 0, "replay fails")
-        programs = {
+            command = self.bin / "hybrid-slam", LOG, "-q", "--overwrite", "-s", part.name[-1], "-o", part
+            self.expect(run(*command)[0] == 0, "replay fails")
+        return {
             "hybrid-slam": (["hybrid-slam", self.short, "-q", "-n", "5", "--overwrite", "-o"], "folder"),
             "log2rawlog": (["log2rawlog", self.text], "rawlog"),
             "simul-floorplan": (["simul-floorplan", config, "-q", "-o"], "rawlog"),
@@ -297,7 +299,9 @@ class Campaign:
                               "hybrid", "-n", "5", "-q", "-o"], "folder"),
             "slam-merge": (["slam-merge", *parts, "-q", "-o"], "folder"),
         }
-        for name, (command, kind) in programs.items():
+
+    def fill_disks(self, count):
+        for name, (command, kind) in self.programs().items():
             target, failed = self.out / f"full-{name}{'' if kind == 'folder' else '.' + kind}", 0
             command = [self.bin / command[0], *command[1:], target]
             code, err = run(*command)
@@ -367,11 +371,12 @@ class Campaign:
         self.row("slam-eval, disk full", count, "one error line each")
 
     def write_nowhere(self):
-        for command in (["hybrid-slam", self.short, "-q", "-o"], ["log2rawlog", self.text],
-                        ["simul-floorplan", ROOT / "config-ini/simul-csie-loop.ini", "-q", "-o"]):
+        commands = [command for command, _ in self.programs().values()]
+        commands.append(["hybrid-slam-live", ROOT / "config-ini/paper.ini", "--server", "127.0.0.1:9", "-o"])
+        for command in commands:
             code, err = run(self.bin / command[0], *command[1:], "/proc/nowhere")
-            self.expect(code in (1, 2) and "error: " in err, f"{command[0]} into /proc: {code} {err}")
-        self.row("output that cannot be written", 3, "one error line each")
+            self.expect(code in (1, 2) and err.count("error: ") == 1, f"{command[0]} into /proc: {code} {err}")
+        self.row("output in a folder that cannot be written", len(commands), "one error line each")
 
 
 # Method of Campaign, and the option with its number of times.

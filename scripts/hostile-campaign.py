@@ -36,6 +36,13 @@ NUMBERS = ["0", "-1", "1e30", "-1e30", "nan", "inf", "4294967295", "999999999999
            "1e5", "180.0", "-0", "0x10", "1,5"]
 
 
+SETTINGS = [["-m", method] for method in ("general", "linemap", "ortho", "stock")] + [
+    ["--set", f"{key}={value}"] for key, values in {
+        "particle_filter.proposal": ("standard", "auxiliary_standard", "auxiliary_optimal"),
+        "grid_weight.method": ("likelihood_field", "ray_tracing", "consensus"),
+        "line_extraction.method": ("regression", "ransac", "hough", "em")}.items() for value in values]
+
+
 class Bases:
     """Small undamaged inputs."""
 
@@ -209,9 +216,11 @@ class Campaign:
         report.unlink()
         return code
 
-    def slam(self, group, name, arguments, keep):
+    def slam(self, group, name, arguments, keep, rng):
+        """hybrid-slam, half of the runs with another method, proposal, weight or line extraction."""
         folder = self.out / f"{name}-out"
-        self.run(group, name, [self.binary / "hybrid-slam", *arguments, "-q", "-s", "1", "-n", "5", "-o", folder],
+        settings = rng.choice(SETTINGS) if rng.random() < 0.5 else []
+        self.run(group, name, [self.binary / "hybrid-slam", *arguments, *settings, "-q", "-s", "1", "-n", "5", "-o", folder],
                  folder, keep)
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -219,16 +228,16 @@ class Campaign:
         name, data = f"rawlog-{number}", damaged_bytes(base, rng)
         file = self.out / f"{name}.rawlog"
         file.write_bytes(gzip.compress(data, 1) if rng.random() < 0.3 else data)
-        self.slam("rawlogs", name, [file], [file])
+        self.slam("rawlogs", name, [file], [file], rng)
         file.unlink()
 
     def text(self, number, base, rng):
         name = f"text-{number}"
         file, rawlog = self.out / f"{name}.log", self.out / f"{name}.rawlog"
         file.write_bytes(damaged_text(base, rng))
-        self.slam("text logs", name, [file], [file])
+        self.slam("text logs", name, [file], [file], rng)
         if self.run("log2rawlog", f"{name}-convert", [self.binary / "log2rawlog", file, rawlog], keep=[file]) == 0:
-            self.slam("their rawlogs", f"{name}-made", [rawlog], [file, rawlog])
+            self.slam("their rawlogs", f"{name}-made", [rawlog], [file, rawlog], rng)
         file.unlink()
         rawlog.unlink(missing_ok=True)
 
@@ -237,7 +246,7 @@ class Campaign:
         file = self.out / f"{name}.ini"
         text = re.sub(rb"rawlog *=.*", b"", damaged_text(base, rng))
         file.write_bytes(text)
-        self.slam("INI files", name, [file, rawlog], [file])
+        self.slam("INI files", name, [file, rawlog], [file], rng)
         file.unlink()
 
     def session(self, number, made, rng):

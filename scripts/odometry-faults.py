@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""Maps public logs whose odometry restarts, or whose robot is carried (doc/accuracy.md): odometry-faults.py [OUT]
+"""Maps public logs whose odometry stands still or restarts, or whose robot is carried (doc/accuracy.md): odometry-faults.py [OUT]
 
+stuck    the odometry stands still for 2 or 10 % of the scans, as when the connection to the base is lost; then it goes on
+         from there, or with all it has counted meanwhile
 restart  the odometry starts at zero again after 30, 50 or 70 % of the scans, as when a robot's base is reset
 carried  a part of the log is left out and the odometry continues, as when the robot is carried: CUTS=10 random places in
          the second half of the log where it then drives for 3 m within 0.5 m of its earlier path
@@ -39,6 +41,22 @@ def write(file, log, transform):
                 print(*fields, file=out)
 
 
+class Stick:
+    def __init__(self, first, last, catches_up):
+        self.first, self.last, self.catches_up, self.held, self.origin = first, last, catches_up, None, None
+
+    def __call__(self, pose, time, share):
+        if share < self.first:
+            self.held = pose
+        elif share < self.last:
+            return self.held
+        elif not self.catches_up:
+            if self.origin is None:
+                self.origin = add(self.held, inverse(pose))
+            return add(self.origin, pose)
+        return pose
+
+
 class Restart:
     def __init__(self, share):
         self.share, self.origin, self.last = share, None, None
@@ -70,6 +88,20 @@ def print_row(log, fault, errors, bound, verdicts):
     lost = [verdict for verdict, ok in zip(verdicts, good) if not ok]
     print(f"| {NAMES[log]} | {fault} | {sum(good)} of {len(good)} | {statistics.median(errors):.3f} ({max(errors):.3f}) | "
           + (", ".join(f"{lost.count(v)} {v}" for v in sorted(set(lost))) or "-") + " |", flush=True)
+
+
+def stuck(out):
+    for log, bound in BOUNDS.items():
+        errors, verdicts = [], []
+        for i, (first, length) in enumerate([(0.2, 0.02), (0.5, 0.02), (0.3, 0.1)]):
+            for catches_up in (False, True):
+                file = out / f"{log}-stuck-{i}-{int(catches_up)}.clf.gz"
+                write(file, log, Stick(first, first + length, catches_up))
+                for seed in range(1, int(os.environ.get("SEEDS", 3)) + 1):
+                    folder = out / f"{log}-stuck-{i}-{int(catches_up)}-{seed}"
+                    verdicts.append(run(file, folder, seed)["verdict"])
+                    errors.append(error(log, folder))
+        print_row(log, "stuck", errors, bound, verdicts)
 
 
 def restarts(out):
@@ -125,6 +157,7 @@ def main():
     out = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "out/odometry-faults")
     out.mkdir(parents=True, exist_ok=True)
     print("| log | fault | right | error, median (worst), m | verdicts on the others |\n|---|---|---|---|---|")
+    stuck(out)
     restarts(out)
     carries(out)
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <thread>
@@ -136,6 +137,17 @@ TEST(Connection, WrongBytesEndOnlyTheConnection) {
       test::contentOf(test::writePlain(folder.path("object"), {test::action({1, 0, 0})}));
   expectSurvived(encode({MessageKind::cycle, 7, 2, pair}), "CActionCollection");
   expectSurvived(encode({MessageKind::cycle, 7, 2, "nonsense"}), "unreadable");
+}
+
+/// Otherwise it fills the log of messages.
+TEST(Connection, AServerThatSendsNoCyclesIsTriedLessAndLessOften) {
+  test::Events events;
+  const std::string nonsense = encode({MessageKind::heartbeat, 7, 1, ""}) + "garbage";
+  FakeServer server({nonsense, nonsense, nonsense, bytesOf(7, 1, 1) + endOf(7, 1)});
+  const auto start = std::chrono::steady_clock::now();
+  Listener listener(server.port(), events);
+  ASSERT_TRUE(test::happens([&] { return listener.hasReturned(); }));
+  EXPECT_GT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(100 + 200 + 400));
 }
 
 TEST(Connection, AHalfOpenConnectionIsGivenUp) {

@@ -60,10 +60,9 @@ void ObservationClient::listen(const CycleSink& sink, const StopCheck& stop) {
     while (const auto message = decoder.next()) {
       lastMessage = Clock::now();
       take(*message, sink);
-      if (isFirst) {
-        log_.report("server " + addressText(settings_.host, settings_.port), "connected");
-        pause_ = kShortestPause;
-      }
+      if (isFirst) log_.report("server " + addressText(settings_.host, settings_.port), "connected");
+      if (message->kind == MessageKind::cycle)
+        pause_ = kShortestPause;  // not for a server that sends nonsense
       isFirst = false;
       isConnected_ = true;
       if (hasEnded_) return;

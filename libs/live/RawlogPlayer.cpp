@@ -28,8 +28,9 @@ class Pace {
     const double due = rate_ > 0 ? static_cast<double>(count_) / rate_ : time - first_;
     ++count_;
     last_ = time;
-    const auto moment =
-        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due));
+    constexpr double kNever = 1e9;  // s; longer ones do not fit into the clock
+    const auto moment = start_ + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(std::min(due, kNever)));
     while (!stop_() && Clock::now() < moment)
       std::this_thread::sleep_until(std::min(moment, Clock::now() + std::chrono::milliseconds(50)));
   }

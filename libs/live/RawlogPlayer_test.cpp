@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "readings/ReadingAssembler.h"
@@ -88,6 +90,16 @@ TEST(RawlogPlayer, StopsOnRequest) {
   int asked = 0;
   EXPECT_THROW(RawlogPlayer(log, 5, kFast, [&] { return ++asked == 3; }), std::runtime_error);
   EXPECT_EQ(asked, 3);
+}
+
+TEST(RawlogPlayer, TheSlowestRateIsNotTheFastest) {
+  const files::TemporaryFolder folder;
+  RawlogPlayer player(test::writePlain(folder.path("log"), test::laps(10)), 5, 1e-300);
+  size_t cycles = 0;
+  const auto start = std::chrono::steady_clock::now();
+  player.run([&](const CSensoryFrame::Ptr&) { ++cycles; },
+             [&] { return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(300); });
+  EXPECT_EQ(cycles, 1u);
 }
 
 TEST(RawlogPlayer, ALogWithoutScansIsAnError) {

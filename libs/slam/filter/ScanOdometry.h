@@ -24,6 +24,10 @@ class ScanOdometry {
   /// scans.
   /// @param timestamp  s; if the step is shorter than the last one, the predicted motion is scaled down
   mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp);
+  /// Sets the motion (m, rad) and duration (s) of the last step, from which the next one is predicted.
+  void setLastMotion(const mrpt::math::TPose2D& motion, double duration) {
+    lastMotion_ = motion, lastDuration_ = duration;
+  }
 
   template <class State>
   void visit(State& state) {

@@ -38,34 +38,39 @@ StuckOdometry::StuckOdometry(const GridOptions& grid, const ScanMatcherOptions& 
 
 TPose2D StuckOdometry::motionTo(const TPose2D& odometry, const Scans& scans, double timestamp) {
   if (!isStuck_ && !stands(odometry)) {
-    scanOdometry_.reset();
-    lastScans_ = scans, lastTime_ = timestamp;
+    keep(odometry, scans, timestamp);
     return odometry;
   }
   const TPose2D motion = matched(scans, timestamp);
   if (isStuck_) {
     if (!stands(odometry)) ++distrusted_;
-    if (!stands(odometry) && (agree(odometry, motion) || distrusted_ == kDistrusted)) {
-      isStuck_ = false;
-      scanOdometry_.reset();
-      lastScans_ = scans, lastTime_ = timestamp;
-    }
+    isStuck_ = stands(odometry) || (!agree(odometry, motion) && distrusted_ < kDistrusted);
+    if (!isStuck_) keep(odometry, scans, timestamp);
     return motion;
   }
   moved_ = moved_ + motion;
   const bool drives = moved_.norm() > kLeastMove || std::abs(moved_.phi) > kLeastTurn;
-  if (!drives || timestamp - stoodSince_ < kLeastTime || !isStandingRefuted(scans)) return odometry;
+  if (!drives || timestamp - stoodSince_ < kLeastTime || !isStandingRefuted(scans, moved_)) return odometry;
   isStuck_ = true;
   distrusted_ = 0;
   return moved_;
 }
 
+void StuckOdometry::keep(const TPose2D& motion, const Scans& scans, double timestamp) {
+  scanOdometry_.reset();
+  lastMotion_ = motion;
+  lastDuration_ = lastScans_.empty() ? 0 : timestamp - lastTime_;
+  lastScans_ = scans, lastTime_ = timestamp;
+}
+
 /// Matches the scans to those since the odometry stood still.
 TPose2D StuckOdometry::matched(const Scans& scans, double timestamp) {
   if (!scanOdometry_) {
-    if (lastScans_.empty()) lastScans_ = scans, lastTime_ = timestamp;
+    if (lastScans_.empty()) keep({}, scans, timestamp);
     scanOdometry_.emplace(grid_, matcher_);
     scanOdometry_->motionTo(lastScans_, lastTime_);
+    // With a scan per metre, the robot that drives on is out of reach of a search around where it was.
+    if (isStandingRefuted(scans, lastMotion_)) scanOdometry_->setLastMotion(lastMotion_, lastDuration_);
     stoodSince_ = lastTime_;
     moved_ = TPose2D();
   }
@@ -73,14 +78,13 @@ TPose2D StuckOdometry::matched(const Scans& scans, double timestamp) {
 }
 
 // People who walk past a robot that stands hide the walls, but do not explain more of them elsewhere.
-bool StuckOdometry::isStandingRefuted(const Scans& scans) const {
+bool StuckOdometry::isStandingRefuted(const Scans& scans, const TPose2D& moved) const {
   GridOptions decisive = grid_;  // one scan shows walls and free space
   decisive.pHit = 0.9, decisive.pMiss = 0.2;
   OccupancyGrid last(grid_.resolution);
   last.insert(ScanBeams(toLaserScans(lastScans_, grid_.maxRange)), TPose2D(), decisive);
   const ScanBeams beams(toLaserScans(scans, grid_.maxRange));
-  return beamShares(beams, moved_, last).explained >
-         beamShares(beams, TPose2D(), last).explained + kLeastGain;
+  return beamShares(beams, moved, last).explained > beamShares(beams, TPose2D(), last).explained + kLeastGain;
 }
 
 }  // namespace hybrid_slam

@@ -29,7 +29,8 @@ class StuckOdometry {
   template <class State>
   void visit(State& state) {
     bool matches = scanOdometry_.has_value();
-    state(isStuck_, distrusted_, lastScans_, lastTime_, stoodSince_, moved_, matches);
+    state(isStuck_, distrusted_, lastScans_, lastMotion_, lastTime_, lastDuration_, stoodSince_, moved_,
+          matches);
     if constexpr (State::kIsReading) {
       scanOdometry_.reset();
       if (matches) scanOdometry_.emplace(grid_, matcher_);
@@ -39,14 +40,17 @@ class StuckOdometry {
 
  private:
   mrpt::math::TPose2D matched(const Scans& scans, double timestamp);
-  bool isStandingRefuted(const Scans& scans) const;
+  void keep(const mrpt::math::TPose2D& motion, const Scans& scans, double timestamp);
+  bool isStandingRefuted(const Scans& scans, const mrpt::math::TPose2D& moved) const;
 
   GridOptions grid_;
   ScanMatcherOptions matcher_;
   bool isStuck_ = false;
   size_t distrusted_ = 0;                     ///< changes of the odometry since it was stuck
   Scans lastScans_;                           ///< before the odometry stood still, or the first
-  double lastTime_ = 0, stoodSince_ = 0;      ///< s
+  mrpt::math::TPose2D lastMotion_;            ///< to these
+  double lastTime_ = 0, lastDuration_ = 0;    ///< s, of these scans and of that motion
+  double stoodSince_ = 0;                     ///< s
   mrpt::math::TPose2D moved_;                 ///< by the scans since then
   std::optional<ScanOdometry> scanOdometry_;  ///< while the odometry stands still or is stuck
 };

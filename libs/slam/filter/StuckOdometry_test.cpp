@@ -69,6 +69,27 @@ TEST(StuckOdometry, TheMissedMotionIsNotCountedTwice) {
   }).expectTrue(24);
 }
 
+/// A robot that goes on, or stops, where the odometry stands still, with a scan per 0.8 m.
+TEST(StuckOdometry, WithFewScansTheRobotIsExpectedToDriveOn) {
+  for (const bool isStopped : {false, true}) {
+    SCOPED_TRACE(isStopped);
+    StuckOdometry stuck = Lap::make();
+    const auto at = [isStopped](size_t i) {
+      return test::poseOnLap(isStopped ? std::min<size_t>(i, 3) : i, 12);
+    };
+    TPose2D pose;
+    for (size_t i = 0; i < 9; ++i) {
+      const bool stands = i == 0 || i > 3;
+      pose = pose + stuck.motionTo(stands ? TPose2D() : at(i) - at(i - 1), {test::scan(1, at(i))},
+                                   2.0 * static_cast<double>(i));
+      const TPose2D error = pose - (at(i) - at(0));
+      EXPECT_LT(error.norm(), 0.06) << i;
+      EXPECT_LT(std::abs(error.phi), 0.03) << i;
+    }
+    EXPECT_EQ(stuck.isStuck(), !isStopped);
+  }
+}
+
 TEST(StuckOdometry, OdometryThatIsStuckForEverIsReplacedForEver) {
   Lap([](size_t) { return TPose2D(); }).expectTrue(4);
 }
