@@ -2,7 +2,7 @@
 # Measures what grows with laps, days and kilometres in long runs: the tables of doc/reliability.md.
 #   scripts/long-runs.sh [laps | refinement | day | drive ...]      default: all four
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps` and `refinement`. The results and logs go to
-# OUT (out/long-runs; 5 GB). HOURS (24) and RATE (3000 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
+# OUT (out/long-runs; 5 GB). HOURS (24) and RATE (2500 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
 # with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
 source "$(dirname "$0")/lib.sh"
 if [[ $# -eq 0 && -z ${HYBRID_SLAM_DATASETS:-} ]]; then
@@ -64,7 +64,7 @@ refinement() {
 # A robot drives laps in the simulated CSIE building, with 40 scans and odometry readings per second of robot time, sent
 # as fast as one core can process them.
 day() {
-  local hours=${HOURS:-24} rate=${RATE:-3000} seconds server live address
+  local hours=${HOURS:-24} rate=${RATE:-2500} seconds server live address
   "$bin/simul-floorplan" "$config/simul-csie.ini" -q -o "$out/round.rawlog" --set laser.sensor=LMS-200 \
     --set laser.resolution_deg=1 --set laser.rate=40 --set odometry.rate=40
   seconds=$(awk 'NR == 1 { first = $1 } { last = $1 } END { print int(last - first) }' "$out/round.tum")

@@ -341,6 +341,30 @@ TEST_F(HybridSlam, ATextLogGivesWhatItsRawlogGives) {
   EXPECT_THAT(results(), testing::UnorderedElementsAreArray(kResults));
 }
 
+/// The logs of GMapping and DP-SLAM, which have no name that tells their format.
+TEST_F(HybridSlam, OtherTextLogsGiveWhatTheirRawlogsGive) {
+  std::string gfs, dpslam;
+  for (size_t i = 0; i < 40; ++i) {
+    const mrpt::math::TPose2D pose = test::poseOnLap(i, 80);
+    const auto scan = test::scan(0, pose);
+    std::ostringstream ranges, at;
+    for (size_t k = 0; k < 181; ++k) ranges << ' ' << scan->getScanRange(k);
+    at << pose.x << ' ' << pose.y << ' ' << pose.phi;
+    gfs += "LASER_READING 181" + ranges.str() + ' ' + at.str() + ' ' +
+           std::to_string(100 + 0.2 * static_cast<double>(i)) + '\n';
+    dpslam += "Odometry " + at.str() + "\nLaser 181" + ranges.str() + '\n';
+  }
+  for (const std::string& content : {gfs, dpslam}) {
+    const std::string log = folder.write("log", content), rawlog = folder.path("made.rawlog");
+    ASSERT_EQ(test::shell(folder, "'" LOG2RAWLOG "' '" + log + "' '" + rawlog + "'").status, 0);
+    expectDone(run("--overwrite '" + rawlog + "' -o '" + output + "'"));
+    const std::string expected = result("trajectory.tum");
+    EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 40u);
+    expectDone(run("--overwrite '" + log + "' -o '" + output + "'"));
+    EXPECT_EQ(result("trajectory.tum"), expected);
+  }
+}
+
 // ---- INI file
 
 TEST_F(HybridSlam, ShippedInisRun) {

@@ -8,6 +8,12 @@ cited=$(sed -nE 's/^version: //p' CITATION.cff) released=$(sed -nE 's/^date-rele
 [ "$cited" = "$2" ] || { echo "CITATION.cff: '$cited', expected '$2'"; exit 1; }
 grep -q "version = {$2}" doc/citing.md || { echo "doc/citing.md: expected version = {$2}"; exit 1; }
 
+# The workflow runs what the project's own checks run.
+for command in .ci/run $(grep -oE 'scripts/[a-z-]+\.sh' .github/workflows/ci.yml); do
+  [ -x "$command" ] && grep -q -- "- $command" .github/workflows/ci.yml ||
+    { echo ".github/workflows/ci.yml: expected $command, an executable file"; exit 1; }
+done
+
 # The names of libraries and packages, and find_package.
 minor=${2%.*}
 names=$(grep -rnoE '(libhybrid_slam_[a-z_]+\.so\.|libhybrid-slam|find_package\(hybrid_slam )[0-9]+(\.[0-9]+)*' \

@@ -82,7 +82,9 @@ std::vector<LogSetting> updates(std::vector<float> steps) {
 }
 
 std::string describe(const LaserScan& scan) {
-  const auto degrees = [](double angle) { return numberText(std::round(mrpt::RAD2DEG(angle) * 1e3) / 1e3); };
+  const auto degrees = [](double angle) {
+    return numberText(std::round(mrpt::RAD2DEG(angle) * 1e3) / 1e3 + 0.0);
+  };  // not -0
   std::string text = std::to_string(scan.beams.size()) + " beams";
   if (scan.beams.size() > 1)
     text += " every " +

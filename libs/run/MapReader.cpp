@@ -13,7 +13,8 @@ namespace hybrid_slam::run {
 static_assert(files::kMostGridMapCells == kMostCells);
 
 OccupancyGrid readMap(const std::string& file) {
-  constexpr const char* kExpected = "expected the map.yaml of ROS's map_server or a grid map of MRPT";
+  constexpr const char* kExpected =
+      "expected a session.hslam, the map.yaml of ROS's map_server or a grid map of MRPT";
   files::expectFile(file, kExpected);
   if (files::isText(file)) return readRosMap(file);  // a grid map starts with zeros
   OccupancyGrid grid = fromMrpt(files::readGridMap(file));

@@ -60,11 +60,20 @@ void drawPlot(wxGraphicsContext& to, const wxRect2DDouble& area, const std::stri
     to.SetPen(wxPen(colourOf(i), 1));
     to.StrokePath(curve);
   }
-  // The ends of the axes are inside: beside the title they would overlap in a narrow window.
+  // The ends of the axes are inside: beside the title they would overlap in a narrow window. They hide the
+  // curve.
+  const auto write = [&](const wxString& text, double x, double y) {
+    wxDouble w = 0, h = 0;
+    to.GetTextExtent(text, &w, &h);
+    to.SetPen(*wxTRANSPARENT_PEN);
+    to.SetBrush(*wxWHITE_BRUSH);
+    to.DrawRectangle(x, y, w, h);
+    to.DrawText(text, x, y);
+  };
   const wxString last = wxString::Format("%.0f s", end);
-  to.DrawText(wxString::Format("%g", high), area.m_x + 3, top + 1);
+  write(wxString::Format("%g", high), area.m_x + 3, top + 1);
   to.GetTextExtent(last, &width, &height);
-  to.DrawText(last, area.m_x + area.m_width - width - 3, bottom - height - 1);
+  write(last, area.m_x + area.m_width - width - 3, bottom - height - 1);
 }
 
 }  // namespace
