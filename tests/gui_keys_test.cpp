@@ -1,8 +1,12 @@
 /// The window driven like a user does: with real keys and the mouse, under a window manager.
 #include <wx/display.h>
+#include <wx/spinctrl.h>
+#include <wx/timer.h>
 
 #include <array>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "KeysTest.h"
 #include "PathTypist.h"
@@ -26,6 +30,46 @@ TEST_F(KeysTest, WorkFromTheStart) {
   const wxWindow* const before = wxWindow::FindFocus();
   press(WXK_TAB);
   EXPECT_TRUE(happens([&] { return wxWindow::FindFocus() && wxWindow::FindFocus() != before; }));
+}
+
+/// Types a number into the dialog with this title, and Return; each step waits for the previous one.
+class NumberTypist : public wxTimer {
+ public:
+  NumberTypist(Dialogs& dialogs, std::string title, int number) : title_(std::move(title)), number_(number) {
+    dialogs.left = title_;
+    Start(200);
+  }
+  void Notify() override {
+    for (wxWindow* each : wxTopLevelWindows) {
+      auto* const dialog = dynamic_cast<wxDialog*>(each);
+      if (!dialog || !dialog->IsModal() || dialog->GetTitle() != title_) continue;
+      if (++ticks_ > 200) return dialog->EndModal(wxID_CANCEL);  // else the test would not end
+      for (wxWindow* control : dialog->GetChildren())
+        if (auto* const field = dynamic_cast<wxSpinCtrl*>(control)) return typeInto(field);
+    }
+  }
+
+ private:
+  void typeInto(wxSpinCtrl* field) {
+    if (step_ == 0) {
+      ++step_;  // first: the simulator may run the window
+      field->SetFocus();
+      wxUIActionSimulator().Char('A', wxMOD_CONTROL);
+      wxUIActionSimulator().Text(std::to_string(number_).c_str());
+    } else if (step_ == 1) {
+      ++step_;
+      wxUIActionSimulator().Char(WXK_RETURN);
+    }
+  }
+  std::string title_;
+  int number_, step_ = 0, ticks_ = 0;
+};
+
+TEST_F(KeysTest, ATypedNumberGoesToItsScan) {
+  openLog();
+  const NumberTypist typist(dialogs, "Go to scan", 25);
+  press('G', wxMOD_CONTROL);
+  EXPECT_TRUE(stands(State::paused, 25));
 }
 
 TEST_F(KeysTest, SpaceAndArrowsControlTheReplay) {

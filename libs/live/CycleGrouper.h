@@ -51,6 +51,6 @@ constexpr double kLongestWait = 1;
 /// timestamps do not advance.
 constexpr size_t kMostWaiting = 1000;
 /// Largest number of labels of lasers; scans of others are left out.
-constexpr size_t kMostLasers = 100;
+constexpr size_t kMostLasers = 1000;
 
 }  // namespace hybrid_slam::live
