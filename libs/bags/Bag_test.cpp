@@ -187,7 +187,7 @@ TEST(McapFile, CutsAreFound) {
                        std::string(compression).empty() || compression == std::string("none"));
   }
   const std::string bytes = test::contentOf(test::writeMcap(folder.path("a.mcap"), written));
-  const Content withoutEnd = read(folder.write("cut.mcap", bytes.substr(0, bytes.rfind("\x0f"))));
+  const Content withoutEnd = read(folder.write("cut.mcap", bytes.substr(0, bytes.rfind('\x0f'))));
   EXPECT_EQ(withoutEnd.messages.size(), written.size());
   EXPECT_THAT(withoutEnd.defect, HasSubstr("cut off"));
 }

@@ -80,13 +80,14 @@ class LiveRun {
   run::Configuration& configuration_;
   EventLog& log_;
   bool isQuiet_;
+  bool hasWrongOdometry_ = false;  ///< a reading was not a number
+  std::atomic<bool> hasFailed_{false};
   Watcher watcher_;
   run::FilterRun run_;
   Recording recording_;
   std::set<std::string> used_, ignored_;  ///< labels of lasers whose scans are used, and are not
   readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
-  bool hasWrongOdometry_ = false;  ///< a reading was not a number
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
   double stateInterval_ = 10;  ///< s
@@ -95,7 +96,6 @@ class LiveRun {
   std::future<run::Verdict> nextVerdict_;
   std::atomic<size_t> skipped_{0};
   size_t toldSkipped_ = 0;
-  std::atomic<bool> hasFailed_{false};
   std::exception_ptr failure_;
   std::thread thread_;
 };

@@ -207,12 +207,12 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 }
 
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
-    : file_(file),
-      reader_(file, summary.bag),
-      assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings && options.requireOdometry,
+    : assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings && options.requireOdometry,
                  options.maxOdometryGap,
                  sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings),
-                 laserPoseIn(options.laserPose)) {}
+                 laserPoseIn(options.laserPose)),
+      file_(file),
+      reader_(file, summary.bag) {}
 
 std::string RawlogSource::place() const { return placeOf(reader_, file_); }
 

@@ -94,9 +94,9 @@ class RawlogSource {
   std::string place() const;
 
  private:
+  ReadingAssembler assembler_;
   std::string file_;
   LogReader reader_;
-  ReadingAssembler assembler_;
   bool isAtEnd_ = false;
 };
 

@@ -136,7 +136,6 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
       }
     }
   }
-  const auto& [trajectory, path, grid, lines, map] = result;
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
   if (localizer_) {
     verdict_ = verdictOfLocalization();
@@ -144,8 +143,10 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   } else {
     writeMap(result, file, log);
   }
-  writeOrNote("map.png", [&] { savePicture(folder_, grid, trajectory, lines, verdict_.places); });
-  if (hybrid_) writeOrNote("session", [&] { saveSessionTo(folder_.path(kSessionName), map, path); });
+  writeOrNote("map.png",
+              [&] { savePicture(folder_, result.grid, result.trajectory, result.lines, verdict_.places); });
+  if (hybrid_)
+    writeOrNote("session", [&] { saveSessionTo(folder_.path(kSessionName), result.map, result.path); });
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
@@ -155,7 +156,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   staged_.publish();
 
   const double wall = all.at("wall_s");
-  return std::to_string(scans_) + " scans, " + std::to_string(path.size()) + " updates, " +
+  return std::to_string(scans_) + " scans, " + std::to_string(result.path.size()) + " updates, " +
          fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
          fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
 }
