@@ -34,14 +34,14 @@ const std::string& recordingName(const LiveOptions& options) {
 }  // namespace
 
 LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet)
-    : configuration_(configuration),
+    : assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
+                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true),
+                 readings::laserPoseIn(configuration.input.laserPose)),
+      configuration_(configuration),
       log_(log),
       isQuiet_(isQuiet),
       run_(configuration),
       recording_(run_.folder(), recordingName(options), log),
-      assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
-                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true),
-                 readings::laserPoseIn(configuration.input.laserPose)),
       queue_(static_cast<size_t>(options.maxWaiting)),
       thread_([this] { filter(); }) {
   recording_.keepFree(1e6 * options.diskReserve);

@@ -77,6 +77,7 @@ class LiveRun {
   /// Names the last observation in the recording.
   std::string place() const;
 
+  readings::ReadingAssembler assembler_;
   run::Configuration& configuration_;
   EventLog& log_;
   bool isQuiet_;
@@ -86,7 +87,6 @@ class LiveRun {
   run::FilterRun run_;
   Recording recording_;
   std::set<std::string> used_, ignored_;  ///< labels of lasers whose scans are used, and are not
-  readings::ReadingAssembler assembler_;
   ReadingQueue queue_;
   std::vector<double> latencies_;  ///< ms, of each filtered scan
   Clock::time_point lastState_ = Clock::now();
