@@ -15,13 +15,12 @@ namespace hybrid_slam::bags {
 namespace {
 
 using test::Content;
+using test::errorOfBag;
 using test::expectSame;
 using test::messages;
 using test::read;
 using test::TestMessage;
 using testing::HasSubstr;
-
-std::string errorOf(const std::string& path) { return test::errorOfBag(path); }
 
 /// Expects that each truncated file gives the messages it holds.
 /// @param isPlain  nothing is compressed: all messages before the cut are there
@@ -111,7 +110,7 @@ TEST(Ros1Bag, WrongLengthsOfTheIndexDoNotMatter) {
 
 TEST(Ros1Bag, OldVersionsAreRefused) {
   const files::TemporaryFolder folder;
-  EXPECT_THAT(errorOf(folder.write("old.bag", "#ROSBAG V1.2\nabc")), HasSubstr("rosbag fix"));
+  EXPECT_THAT(errorOfBag(folder.write("old.bag", "#ROSBAG V1.2\nabc")), HasSubstr("rosbag fix"));
 }
 
 TEST(McapFile, EveryCompressionAndEncoding) {
@@ -185,7 +184,7 @@ TEST(RecordingFolder, AFileThatCannotBeReadIsTheEnd) {
   const files::TemporaryFolder folder;
   const auto written = messages(5, Encoding::cdr);
   folder.write("drive_0.db3", "");
-  EXPECT_THAT(errorOf(folder.path("")), HasSubstr("not a bag: " + folder.path("drive_0.db3")));
+  EXPECT_THAT(errorOfBag(folder.path("")), HasSubstr("not a bag: " + folder.path("drive_0.db3")));
   test::writeDatabase(folder.path("drive_0.db3"), written);
   folder.write("drive_1.db3", "");
   const Content content = read(folder.path(""));
@@ -211,11 +210,11 @@ TEST(Bag, OtherFilesAreNone) {
   const files::TemporaryFolder folder;
   for (const char* text : {"", "#ROSBAG", "FLASER 1 2 3"}) {
     EXPECT_FALSE(isBag(folder.write("other", text)));
-    EXPECT_THAT(errorOf(folder.path("other")), HasSubstr("not a bag"));
+    EXPECT_THAT(errorOfBag(folder.path("other")), HasSubstr("not a bag"));
   }
   EXPECT_FALSE(isBag(folder.path("none")));
   EXPECT_FALSE(isBag(folder.path("")));
-  EXPECT_THAT(errorOf(folder.path("")), HasSubstr("not a recording"));
+  EXPECT_THAT(errorOfBag(folder.path("")), HasSubstr("not a recording"));
 }
 
 }  // namespace

@@ -18,13 +18,12 @@ namespace hybrid_slam::bags {
 namespace {
 
 using test::Content;
+using test::errorOfBag;
 using test::expectSame;
 using test::messages;
 using test::read;
 using test::TestMessage;
 using testing::HasSubstr;
-
-std::string errorOf(const std::string& path) { return test::errorOfBag(path); }
 
 void execute(const std::string& path, const std::string& sql) {
   sqlite3* database = nullptr;
@@ -95,11 +94,12 @@ TEST(Rosbag2Database, OtherDatabasesAreNone) {
   const std::string path = test::writeDatabase(folder.path("a.db3"), {});
   EXPECT_TRUE(read(path).messages.empty());
   execute(path, "DROP TABLE messages; CREATE VIEW messages AS SELECT 1 AS topic_id");
-  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("not a recording"));
   execute(path, "DROP VIEW messages; CREATE VIRTUAL TABLE messages USING fts5(topic_id, timestamp, data)");
-  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
-  EXPECT_THAT(errorOf(folder.write("b.db3", std::string("SQLite format 3\0", 16) + std::string(5000, 'x'))),
-              HasSubstr("expected a ROS 2 recording"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("not a recording"));
+  EXPECT_THAT(
+      errorOfBag(folder.write("b.db3", std::string("SQLite format 3\0", 16) + std::string(5000, 'x'))),
+      HasSubstr("expected a ROS 2 recording"));
 }
 
 TEST(Rosbag2Database, TenThousandTopicsAreReadAndMoreAreNot) {
@@ -112,27 +112,27 @@ TEST(Rosbag2Database, TenThousandTopicsAreReadAndMoreAreNot) {
   std::filesystem::copy(path, copy);
   EXPECT_EQ(read(folder.path("folder")).defect, "");
   addTopics(path, 10001, 10001);
-  EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("over 10,000 topics"));
 }
 
 TEST(Rosbag2Database, TopicsOfOneNameAreBoundedAsWell) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
   addTopics(path, 3, 10001, "'/scan'");
-  EXPECT_THAT(errorOf(path), HasSubstr("over 10,000 topics"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("over 10,000 topics"));
 }
 
 TEST(Rosbag2Database, ComputedColumnsAreRefused) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), messages(1, Encoding::cdr));
   execute(path, "ALTER TABLE topics ADD COLUMN extra TEXT AS (name || name)");
-  EXPECT_EQ(errorOf(path), "computed columns in table topics: " + path +
-                               "; expected a ROS 2 recording with the tables topics and messages");
+  EXPECT_EQ(errorOfBag(path), "computed columns in table topics: " + path +
+                                  "; expected a ROS 2 recording with the tables topics and messages");
   test::writeDatabase(path, messages(1, Encoding::cdr));
   execute(path,
           "ALTER TABLE messages DROP COLUMN data;"
           "ALTER TABLE messages ADD COLUMN data BLOB AS (zeroblob(1000000))");
-  EXPECT_THAT(errorOf(path), HasSubstr("computed columns in table messages"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("computed columns in table messages"));
 }
 
 /// SQLite would sort in temporary files, which may become larger than the recording.
@@ -187,7 +187,7 @@ TEST(Rosbag2Database, ASchemaOfTheSamePageManyTimesIsRefused) {
   test::write(path, innerPage(head, 6, 10) + bytes.substr(512) + fourRows + std::string(100, '\0') + cells +
                         lastRow + std::string(106, '\0') + cells + innerPage("", 7, 7) + innerPage("", 8, 8) +
                         innerPage("", 9, 9));
-  EXPECT_THAT(errorOf(path), HasSubstr("not a recording"));
+  EXPECT_THAT(errorOfBag(path), HasSubstr("not a recording"));
 }
 
 TEST(Rosbag2Database, NoSpaceToUnpackItIsAnError) {
@@ -199,7 +199,7 @@ TEST(Rosbag2Database, NoSpaceToUnpackItIsAnError) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{100'000, before.rlim_max};  // the second write of 64 kB is short
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string error = errorOf(packed);
+  const std::string error = errorOfBag(packed);
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_THAT(error, HasSubstr("cannot unpack the database"));
@@ -213,7 +213,7 @@ TEST(Rosbag2Database, DamagedDatabasesDoNoHarm) {
   for (size_t i = 16; i < bytes.size(); i += bytes.size() / 100) {
     std::string damaged = bytes;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x41);
-    errorOf(test::write(path, damaged));
+    errorOfBag(test::write(path, damaged));
   }
 }
 

@@ -9,6 +9,7 @@
 namespace hybrid_slam::files {
 namespace {
 
+constexpr size_t kMostClasses = 100;  // that a warning may name
 constexpr const char* kExpected = "expected serialised MRPT objects (log2rawlog converts text logs)";
 
 }  // namespace
@@ -42,8 +43,6 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
   }
   return nullptr;
 }
-
-constexpr size_t kMostClasses = 100;  // that a warning may name
 
 void RawlogReader::note(const std::vector<std::string>& classes) {
   for (const std::string& name : classes) {
