@@ -35,23 +35,63 @@ std::optional<double> directionModuloRightAngle(const std::vector<LineSegment>& 
 
 double wrapToRightAngle(double angle) { return std::remainder(angle, M_PI / 2); }
 
+namespace {
+
+/// Moments of weighted directions, relative to a direction that moves.
+struct Moments {
+  double m0 = 0, m1 = 0, m2 = 0, m3 = 0;
+
+  void add(double weight, double d) {
+    m0 += weight;
+    m1 += weight * d;
+    m2 += weight * d * d;
+    m3 += weight * d * d * d;
+  }
+  void moveBy(double d) {
+    m3 -= d * (3 * m2 - d * (3 * m1 - d * m0));
+    m2 -= d * (2 * m1 - d * m0);
+    m1 -= d * m0;
+  }
+};
+
+}  // namespace
+
+// A window slides over the sorted directions. The sums over it follow from its moments, so the time does not
+// grow with the number of parallel lines, which in a large building are nearly all.
 void setDirections(std::vector<DatabaseLine>& lines, double window) {
   struct Known {
     double theta, evidence;
+    DatabaseLine* line;
   };
-  std::vector<Known> known;
-  known.reserve(lines.size());
-  for (const DatabaseLine& line : lines) known.push_back({wrapToRightAngle(line.theta), evidence(line)});
-  for (size_t i = 0; i < lines.size(); ++i) {
-    double sum = 0, total = 0;
-    for (const Known& other : known) {
-      const double d = rightAngleDifference(other.theta, known[i].theta);
-      if (std::abs(d) >= window) continue;
-      const double weight = other.evidence * (1 - d * d / (window * window));
-      sum += weight * d;
-      total += weight;
+  const size_t n = lines.size();
+  std::vector<Known> sorted;
+  sorted.reserve(n);
+  for (DatabaseLine& line : lines) sorted.push_back({wrapToRightAngle(line.theta), evidence(line), &line});
+  std::sort(sorted.begin(), sorted.end(), [](const Known& a, const Known& b) { return a.theta < b.theta; });
+
+  const auto theta =
+      [&](size_t k) {  // of the n lines repeated every 90 deg: k in [n, 2 n) are the lines themselves
+        return sorted[k % n].theta + (static_cast<double>(k / n) - 1) * M_PI / 2;
+      };
+  Moments moments;
+  size_t low = 0, high = 0;  // the window: low <= k < high
+  double last = 0;
+  for (size_t i = n; i < 2 * n; ++i) {
+    const double centre = theta(i);
+    moments.moveBy(centre - last);
+    last = centre;
+    for (; low < high && theta(low) <= centre - window; ++low)
+      moments.add(-sorted[low % n].evidence, theta(low) - centre);
+    if (low == high) {  // without the rounding errors of what left
+      moments = {};
+      while (theta(low) <= centre - window) ++low;
+      high = low;
     }
-    lines[i].direction = wrapToRightAngle(known[i].theta + (total > 0 ? sum / total : 0));
+    for (; high < 3 * n && theta(high) < centre + window; ++high)
+      moments.add(sorted[high % n].evidence, theta(high) - centre);
+    const double square = window * window, total = square * moments.m0 - moments.m2;
+    const double offset = total > 0 ? (square * moments.m1 - moments.m3) / total : 0;
+    sorted[i % n].line->direction = wrapToRightAngle(centre + offset);
   }
 }
 

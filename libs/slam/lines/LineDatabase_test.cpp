@@ -261,6 +261,37 @@ TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
     EXPECT_NEAR(std::remainder(line.direction - line.theta, M_PI / 2), 0, 1e-12);
 }
 
+/// The sliding sums against the definition, line by line: few and many lines, clusters and all directions,
+/// across 45 deg.
+TEST(SetDirections, AreTheSumsOfTheDefinition) {
+  RandomStream random(14, 0, 0);
+  for (int i = 0; i < 400; ++i) {
+    const double window = i % 10 == 0 ? 0 : test::uniform(random, 0.01, 22.5) * test::kDegree,
+                 spread = test::uniform(random, 0, i % 3 == 0 ? 90 : 2) * test::kDegree,
+                 centre = i % 4 == 0 ? M_PI / 4 : test::uniform(random, -M_PI, M_PI);
+    std::vector<DatabaseLine> lines(static_cast<size_t>(test::uniform(random, 0, 60)));
+    for (DatabaseLine& line : lines) {
+      line.theta = mrpt::math::wrapToPi(centre + spread * random.gaussian());
+      line.length = std::exp(test::uniform(random, -3, 5));
+      line.count = 1 + static_cast<int>(test::uniform(random, 0, 30));
+    }
+    setDirections(lines, window);
+    for (const DatabaseLine& line : lines) {
+      double sum = 0, total = 0;
+      for (const DatabaseLine& other : lines) {
+        const double d = std::remainder(other.theta - line.theta, M_PI / 2);
+        if (std::abs(d) >= window) continue;
+        const double weight = evidence(other) * (1 - d * d / (window * window));
+        sum += weight * d;
+        total += weight;
+      }
+      const double expected = line.theta + (total > 0 ? sum / total : 0);
+      ASSERT_NEAR(std::remainder(line.direction - expected, M_PI / 2), 0, 1e-9)
+          << lines.size() << " lines, case " << i;
+    }
+  }
+}
+
 TEST(SetDirections, TurnWithTheMapAndKeepFramesApart) {
   RandomStream random(9, 0, 0);
   for (int i = 0; i < 300; ++i) {
