@@ -2,11 +2,15 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-packages=(
+build_packages=(
   g++ cmake ninja-build ccache
   libmrpt-dev mrpt-common libopencv-dev libeigen3-dev libtbb-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev
   libyaml-cpp-dev libdxflib-dev zlib1g-dev libbz2-dev libzstd-dev liblz4-dev libsqlite3-dev
-  libwxgtk3.2-dev libgl1-mesa-dri libegl1 libx11-dev xvfb xauth openbox libgtest-dev libgmock-dev libbenchmark-dev
+  libwxgtk3.2-dev libx11-dev
+)
+packages=(  # for the tests too
+  "${build_packages[@]}"
+  libgl1-mesa-dri libegl1 xvfb xauth openbox libgtest-dev libgmock-dev libbenchmark-dev
   python3 librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev
   mrpt-apps mkdocs doxygen gnuplot-nox locales
 )

@@ -7,7 +7,7 @@ source "$(dirname "$0")/lib.sh"
 folder=build/packages
 if [[ ${1:-} == -C ]]; then folder=${2:?FOLDER is missing}; shift 2; fi
 [[ $# -eq 0 ]] || { echo "error: unknown argument $1, expected -C FOLDER" >&2; exit 2; }
-install_packages "${packages[@]}" dpkg-dev file help2man
+install_packages "${build_packages[@]}" dpkg-dev file help2man
 
 # The date of the release, so that the same sources give the same packages.
 SOURCE_DATE_EPOCH=$(date -u -d "$(sed -nE 's/^## \[[0-9.]+\] - //p' CHANGELOG.md | head -n 1)" +%s)

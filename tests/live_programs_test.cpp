@@ -131,20 +131,25 @@ TEST_F(LivePrograms, TheLiveMapEqualsThatOfTheLogAndOfTheRecording) {
 }
 
 TEST_F(LivePrograms, ControlCWritesAllResults) {
-  const auto robot = replaying(5000, "50");
-  const auto map = live();
-  // The recording grows by blocks; a few cycles are enough.
-  ASSERT_TRUE(test::happens([&] { return robot->err().find(": connected") != std::string::npos; }));
-  ASSERT_TRUE(isRecording()) << map->err();
-  map->signal(SIGINT);
-  EXPECT_EQ(map->wait(), 0) << map->err();
-  expectAllResults();
-  const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
-  EXPECT_GT(scans, 0u);
-  EXPECT_LT(scans, 5000u);
-  EXPECT_EQ(recorded(), scans);
-  robot->signal(SIGINT);
-  EXPECT_EQ(robot->wait(), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(strsignal(signal));
+    output = folder.path("until " + std::to_string(signal));
+    std::filesystem::remove(folder.path("server.out"));  // it has the port of an earlier server
+    const auto robot = replaying(5000, "50");
+    const auto map = live();
+    // The recording grows by blocks; a few cycles are enough.
+    ASSERT_TRUE(test::happens([&] { return robot->err().find(": connected") != std::string::npos; }));
+    ASSERT_TRUE(isRecording()) << map->err();
+    map->signal(signal);
+    EXPECT_EQ(map->wait(), 0) << map->err();
+    expectAllResults();
+    const size_t scans = nlohmann::json::parse(result("metrics.json"))["scans"];
+    EXPECT_GT(scans, 0u);
+    EXPECT_LT(scans, 5000u);
+    EXPECT_EQ(recorded(), scans);
+    robot->signal(signal);
+    EXPECT_EQ(robot->wait(), 0);
+  }
 }
 
 TEST_F(LivePrograms, AServerRestartContinuesTheSameMap) {

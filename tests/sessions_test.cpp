@@ -283,6 +283,15 @@ TEST_F(Sessions, LocalisesWithoutAMapOfItsOwn) {
   }
 }
 
+TEST_F(Sessions, ASessionGivenAsTheLogIsNamed) {
+  ASSERT_EQ(replay(log), 0) << err;
+  for (const char* option : {"", "--list "}) {
+    EXPECT_EQ(run(option + ("'" + session + "' -o '" + folder.path("other") + "'")), 2);
+    EXPECT_THAT(err, AllOf(testing::MatchesRegex(kErrorLine), HasSubstr("a session, not a log: " + session)));
+  }
+  EXPECT_FALSE(fs::exists(folder.path("other")));
+}
+
 TEST_F(Sessions, OptionsThatExcludeEachOther) {
   const auto expectRefused = [&](const std::string& options, const std::string& text) {
     EXPECT_EQ(run("'" + log + "' -o '" + output + "' " + options), 2) << options;

@@ -12,6 +12,7 @@
 #include "Stop.h"
 #include "TopicArguments.h"
 #include "run/Replay.h"
+#include "run/SessionFile.h"
 
 namespace {
 
@@ -74,6 +75,13 @@ void expectKept(const std::string& given, const std::string& kept) {
                      "expected one without line breaks, macros, `//`, and blanks at its ends");
 }
 
+/// Rejects a session given as the log.
+void expectNoSession(const std::string& log) {
+  if (run::isSession(log))
+    throw InputError("a session, not a log", log,
+                     "expected a log; --resume, --continue and --localize take sessions");
+}
+
 int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (line.wantsManual) {
     std::cout << (isTerminal() ? run::plainConfigurationManual() : run::configurationManual());
@@ -88,6 +96,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   if (configuration.run.rawlog.empty() && line.session.resume.empty())
     return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
   warn(configuration.warnings);
+  expectNoSession(configuration.run.rawlog);
   if (line.topics.wantsList) {
     printTopics(configuration.run.rawlog);
     return 0;
