@@ -58,6 +58,7 @@ ln -s /packages build/packages
 # The pages' command; the user's apt asks.
 apt() { apt_get --no-install-recommends "$@"; }
 source ./install.sh
+mapfile -t names < <(dpkg-query -W -f '${Package}\n' '*hybrid-slam*')
 [[ -x /usr/bin/hybrid-slam-gui ]] || fail "the pages' command does not install the window"
 for package in hybrid-slam hybrid-slam-gui; do
   for program in $(dpkg -L $package | sed -n 's|^/usr/bin/||p'); do
@@ -78,6 +79,12 @@ done
 (cd /root && simul-floorplan -q config-ini/simul-csie-corridor.ini -o robot.rawlog)
 (cd /root && hybrid-slam -q config-ini/csie-lms100.ini robot.rawlog -o paper)
 (hybrid-slam /dev/null 2>&1 || true) | grep -q "error: " || fail "no error"
+
+echo "== nothing is linked that is not used"
+for file in $(dpkg -L "${names[@]}" | grep -E '^/usr/(bin|lib)/.'); do
+  [[ -f $file && ! -L $file ]] || continue
+  unused=$(ldd -u "$file" 2>&1) || fail "$file: $unused"
+done
 
 echo "== the window, and its entry in the desktop's menu"
 apt_get install --no-install-recommends xvfb xauth openbox libgl1-mesa-dri desktop-file-utils shared-mime-info

@@ -72,6 +72,18 @@ TEST_F(KeysTest, ATypedNumberGoesToItsScan) {
   EXPECT_TRUE(stands(State::paused, 25));
 }
 
+TEST_F(KeysTest, AClickOnTheSliderGoesToItsScan) {
+  openLog();
+  const wxSlider* const slider = frame->replay()->slider();
+  const wxRect area = slider->GetScreenRect();
+  wxUIActionSimulator().MouseMove(area.GetPosition() + wxPoint(3 * area.width / 4, area.height / 2));
+  wxYield();
+  wxUIActionSimulator().MouseClick();
+  EXPECT_TRUE(happens([&] { return now().state == State::paused && now().scans > 35 && now().scans < 55; }))
+      << now().scans << " of 60";
+  EXPECT_TRUE(happens([&] { return static_cast<size_t>(slider->GetValue()) == now().scans; }));
+}
+
 TEST_F(KeysTest, SpaceAndArrowsControlTheReplay) {
   log = longLog();
   openLog();

@@ -1,5 +1,9 @@
 /// Search and reset in Parameters, with real keys and the mouse.
 #include <wx/display.h>
+#include <wx/timer.h>
+
+#include <string>
+#include <utility>
 
 #include "KeysTest.h"
 
@@ -107,6 +111,70 @@ TEST_F(ParametersTest, AllKeysGetTheirDefaults) {
   EXPECT_EQ(window::Settings(*frame->settings()).configuration.text(),
             window::Settings(*standard).configuration.text());
   EXPECT_EQ(frame->settings()->configuration.run.rawlog, log) << "it stays open";
+}
+
+/// Searches for the seed in the open dialog, types a value over its own, and clicks on OK. Each step waits
+/// for the one before.
+class SeedTypist : public wxTimer {
+ public:
+  SeedTypist(Dialogs& dialogs, std::string value) : dialogs_(dialogs), value_(std::move(value)) {
+    dialogs_.left = "Parameters";
+    Start(100);
+  }
+  void Notify() override {
+    auto* const dialog = dynamic_cast<window::ParametersDialog*>(dialogs_.open);
+    if (!dialog || isActing_) return;
+    if (++ticks_ > 400) return dialog->EndModal(wxID_CANCEL);  // else the test would not end
+    isActing_ = true;                                          // the simulator may run the window
+    if (isReadyFor(step_, *dialog)) act(step_++, *dialog);
+    isActing_ = false;
+  }
+
+ private:
+  bool isReadyFor(int step, window::ParametersDialog& dialog) const {
+    wxPropertyGrid* const grid = dialog.grid();
+    if (step == 0) return dialog.IsActive();
+    if (step == 1) return grid->GetProperty("run.rawlog")->HasFlag(wxPG_PROP_HIDDEN);
+    if (step == 2) return grid->GetEditorControl() && wxWindow::FindFocus() == grid->GetEditorControl();
+    return step == 3 && grid->GetPropertyValueAsString(kKey).utf8_string() == value_;
+  }
+  void act(int step, window::ParametersDialog& dialog) {
+    wxUIActionSimulator user;
+    wxPropertyGrid* const grid = dialog.grid();
+    if (step == 0) user.Text("seed");
+    if (step == 1) {
+      const wxRect row = grid->GetPropertyRect(grid->GetProperty(kKey), grid->GetProperty(kKey));
+      const wxPoint place(grid->GetSplitterPosition() + 40, row.y + row.height / 2);
+      user.MouseMove(grid->ClientToScreen(grid->CalcScrolledPosition(place)));
+      user.MouseClick();
+    }
+    if (step == 2) {
+      user.Char('A', wxMOD_CONTROL);
+      user.Text(value_.c_str());
+      user.Char(WXK_RETURN);
+    }
+    if (step == 3) {
+      const wxRect ok = wxWindow::FindWindowById(wxID_OK, &dialog)->GetScreenRect();
+      user.MouseMove(ok.GetPosition() + wxPoint(ok.width / 2, ok.height / 2));
+      user.MouseClick();
+    }
+  }
+
+  static constexpr const char* kKey = "particle_filter.seed";
+  Dialogs& dialogs_;
+  std::string value_;
+  int step_ = 0, ticks_ = 0;
+  bool isActing_ = false;
+};
+
+TEST_F(KeysTest, ATypedParameterRestartsTheReplay) {
+  openAt(20);
+  ASSERT_NE(frame->settings()->configuration.filter.filter.seed, 77u);
+  const SeedTypist typist(dialogs, "77");
+  press(WXK_F4);
+  EXPECT_TRUE(stands(State::paused, 0)) << "from the start";
+  EXPECT_EQ(frame->settings()->configuration.filter.filter.seed, 77u);
+  EXPECT_TRUE(dialogs.messages.empty());
 }
 
 }  // namespace
