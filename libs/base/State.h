@@ -2,8 +2,8 @@
 /// @brief Serialisation: one description of a class's members serves writing and reading.
 #pragma once
 
+#include <mrpt/core/reverse_bytes.h>
 #include <mrpt/math/TPose2D.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -44,7 +44,7 @@ struct HasVisit<T, State, std::void_t<decltype(std::declval<T&>().visit(std::dec
 ///
 ///     template <class State> void visit(State& state) { state(member, ...); }
 ///
-/// in MRPT's format of numbers (little-endian). Other classes have a free function `visit(state, value)`. A
+/// as little-endian numbers. Other classes have a free function `visit(state, value)`. A
 /// value that several shared_ptrs own is written once. Reading trusts nothing: memory grows with the bytes
 /// present, a pose is within kFarthest, NaN is an error. `visit` checks other conditions with
 /// `state.check`.
@@ -133,19 +133,20 @@ class StateWriter : public State<StateWriter> {
  public:
   static constexpr bool kIsReading = false;
   /// Appends to `bytes`, which must outlive the writer.
-  explicit StateWriter(std::string& bytes)
-      : sink_{bytes}, archive_(mrpt::serialization::archiveFrom(sink_)) {}
+  explicit StateWriter(std::string& bytes) : bytes_(bytes) {}
 
   template <class T>
   void number(const T& value) {
-    if constexpr (std::is_enum_v<T>)
-      archive_ << static_cast<int32_t>(value);
-    else if constexpr (std::is_same_v<T, bool>)
-      archive_ << static_cast<uint8_t>(value);
-    else
-      archive_ << value;
+    if constexpr (std::is_enum_v<T>) {
+      number(static_cast<int32_t>(value));
+    } else if constexpr (std::is_same_v<T, bool>) {
+      number(static_cast<uint8_t>(value));
+    } else {
+      const T written = mrpt::toNativeEndianness(value);  // its own inverse
+      bytes(&written, sizeof written);
+    }
   }
-  void bytes(const void* from, size_t count) { sink_.Write(from, count); }
+  void bytes(const void* from, size_t count) { bytes_.append(static_cast<const char*>(from), count); }
   static size_t available(size_t count) { return count; }
 
   /// Returns the number of a shared value, from 1; 0 if it has not been written.
@@ -172,17 +173,7 @@ class StateWriter : public State<StateWriter> {
   }
 
  private:
-  struct Sink {
-    std::string& bytes;
-    size_t Write(const void* from, size_t count) {
-      bytes.append(static_cast<const char*>(from), count);
-      return count;
-    }
-    size_t Read(void*, size_t) { return 0; }
-    std::string getStreamDescription() const { return "state"; }
-  };
-  Sink sink_;
-  mrpt::serialization::CArchiveStreamBase<Sink> archive_;
+  std::string& bytes_;
   std::map<std::type_index, std::map<const void*, uint32_t>> numbers_;
 };
 
@@ -197,8 +188,7 @@ class StateReader : public State<StateReader> {
  public:
   static constexpr bool kIsReading = true;
   /// `bytes` must outlive the reader.
-  explicit StateReader(std::string_view bytes)
-      : source_{bytes}, archive_(mrpt::serialization::archiveFrom(source_)) {}
+  explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
 
   /// All of these throw StateError for bytes that no StateWriter can have written.
   template <class T>
@@ -212,12 +202,15 @@ class StateReader : public State<StateReader> {
       if constexpr (std::is_floating_point_v<T>) check(!std::isnan(value), "a value is not a number");
     }
   }
-  void bytes(void* to, size_t count) { source_.Read(to, available(count)); }
+  void bytes(void* to, size_t count) {
+    bytes_.copy(static_cast<char*>(to), available(count));
+    bytes_.remove_prefix(count);
+  }
   size_t available(size_t count) const {
-    check(count <= source_.bytes.size(), "it is cut");
+    check(count <= bytes_.size(), "it is cut");
     return count;
   }
-  bool isAtEnd() const { return source_.bytes.empty(); }
+  bool isAtEnd() const { return bytes_.empty(); }
 
   template <class T>
   std::shared_ptr<T> at(uint32_t number) {
@@ -241,25 +234,14 @@ class StateReader : public State<StateReader> {
   }
 
  private:
-  struct Source {
-    std::string_view bytes;
-    size_t Read(void* to, size_t count) {
-      bytes.copy(static_cast<char*>(to), count);
-      bytes.remove_prefix(count);
-      return count;
-    }
-    size_t Write(const void*, size_t) { return 0; }
-    std::string getStreamDescription() const { return "state"; }
-  };
   template <class T>
   T read() {
-    available(sizeof(T));
-    T value;
-    archive_ >> value;
-    return value;
+    T value{};
+    bytes(&value, sizeof value);
+    return mrpt::toNativeEndianness(value);
   }
-  Source source_;
-  mrpt::serialization::CArchiveStreamBase<Source> archive_;
+
+  std::string_view bytes_;
   std::map<std::type_index, std::vector<std::shared_ptr<void>>> values_;
 };
 
