@@ -262,7 +262,28 @@ TEST_F(KeysTest, WhatIsDroppedIsOpened) {
   EXPECT_NE(frame->settings()->configuration.filter.filter.particles, 8);
   drop(ini);
   EXPECT_EQ(frame->settings()->configuration.filter.filter.particles, 8);
+  EXPECT_EQ(frame->settings()->configuration.run.rawlog, log) << "the INI file names none";
+  EXPECT_THAT(frame->GetTitle().utf8_string(), HasSubstr("laps.rawlog"));
+  EXPECT_TRUE(stands(State::paused, 0));
   EXPECT_TRUE(dialogs.messages.empty());
+}
+
+TEST_F(KeysTest, AFileThatIsNoLogLeavesTheOpenOne) {
+  openAt(20);
+  const wxString title = frame->GetTitle();
+  size_t messages = 0;
+  for (const std::string& file :
+       {folder.write("noise.rawlog", std::string("\1\2\3\0", 4)), folder.write("notes.txt", "no log\n")}) {
+    drop(file);
+    ASSERT_TRUE(happens([&] { return dialogs.messages.size() == messages + 1; })) << file;
+    EXPECT_THAT(dialogs.messages.back(), HasSubstr(file));
+    ++messages;
+  }
+  EXPECT_TRUE(stands(State::paused, 20));
+  EXPECT_EQ(frame->GetTitle(), title);
+  EXPECT_EQ(frame->settings()->configuration.run.rawlog, log);
+  EXPECT_EQ(frame->GetMenuBar()->FindItem(window::kRecentFiles)->GetSubMenu()->GetMenuItemCount(), 2u)
+      << "the log and the INI file";
 }
 
 TEST_F(KeysTest, TheWindowFitsTheScreen) {

@@ -110,6 +110,8 @@ TEST_F(PanesTest, TheSmallestWindowHasRoomForItsControls) {
         page == window::kReplayPage ? static_cast<wxWindow*>(frame->replay()) : frame->live();
     std::vector<wxRect> before;
     for (const wxWindow* control : panel->GetChildren()) {
+      const bool isMap = dynamic_cast<const window::MapCanvas*>(control) != nullptr;
+      EXPECT_GE(control->GetSize().y, isMap ? frame->FromDIP(200) : 0) << "a map";
       const wxRect area = control->GetRect();
       EXPECT_TRUE(wxRect(panel->GetClientSize()).Contains(area)) << control->GetLabel();
       for (const wxRect& other : before) EXPECT_FALSE(other.Intersects(area)) << control->GetLabel();
@@ -121,6 +123,27 @@ TEST_F(PanesTest, TheSmallestWindowHasRoomForItsControls) {
           << control->GetLabel();
     }
   }
+}
+
+TEST_F(PanesTest, TheButtonsHaveRoomForTheirNamesWhileALogPlays) {
+  openAt(10);
+  for (int i = 0; i < 2; ++i) press(WXK_DOWN, wxMOD_CONTROL);  // slow
+  press(WXK_SPACE);
+  ASSERT_TRUE(happens([this] { return now().state == State::playing; }));
+  size_t buttons = 0;
+  const auto isPlaying = [this] {
+    for (const wxWindow* control : frame->replay()->GetChildren())
+      if (control->GetLabel() == "Pause") return true;
+    return false;
+  };
+  ASSERT_TRUE(happens(isPlaying));
+  screenshot("playing");
+  for (const wxWindow* control : frame->replay()->GetChildren())
+    if (dynamic_cast<const wxButton*>(control)) {
+      EXPECT_GE(control->GetSize().x, control->GetBestSize().x) << control->GetLabel();
+      ++buttons;
+    }
+  EXPECT_EQ(buttons, 4u);
 }
 
 /// The texts of a plot stand above it or in it, those of its axis one above the other; none reaches the next.

@@ -163,6 +163,24 @@ class EarlierMapTest : public KeysTest {
   const std::string session = folder.path("maps/hybrid/session.hslam");
 };
 
+TEST_F(EarlierMapTest, IsOpenedByItsTypedPath) {
+  saveMapByKeys();
+  const PathTypist typist(dialogs, "Map or floor plan", session);
+  press('M', wxMOD_CONTROL);
+  ASSERT_TRUE(happens([&] { return frame->settings()->map().use == Use::mapOn; }));
+  EXPECT_EQ(frame->settings()->map().file, session);
+  EXPECT_TRUE(stands(State::paused, 0));
+}
+
+TEST_F(EarlierMapTest, TheSameChoiceLeavesTheReplayAlone) {
+  openAt(40);
+  const PathTypist typist(dialogs, "Map or floor plan", "");
+  press('M', wxMOD_CONTROL);
+  ASSERT_TRUE(happens([&] { return dialogs.titles.size() == 1 && !dialogs.open; }));
+  EXPECT_TRUE(stands(State::paused, 40));
+  EXPECT_EQ(now().run, 1u);
+}
+
 TEST_F(EarlierMapTest, IsLocalisedIn) {
   saveMapByKeys();
   playIn(Use::localise);

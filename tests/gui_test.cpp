@@ -1,4 +1,6 @@
 /// The window on a virtual screen, driven by menu events and checked pixel by pixel.
+#include <nlohmann/json.hpp>
+
 #include "GuiTest.h"
 
 namespace hybrid_slam {
@@ -251,7 +253,10 @@ TEST_F(GuiTest, ALiveRunThatEndsWithTheProgramHasItsResults) {
   publishLaps(server);
   ASSERT_TRUE(happens([&] { return frame->live()->session()->snapshot()->scans == 60; }));
   EXPECT_EQ(frame->live()->end(), "");
-  EXPECT_TRUE(std::filesystem::exists(folder.path("live/metrics.json")));
+  const auto metrics = nlohmann::json::parse(test::contentOf(folder.path("live/metrics.json")));
+  const auto last = frame->live()->session()->snapshot()->filter;
+  ASSERT_NE(last, nullptr);
+  EXPECT_EQ(last->updates, metrics["updates"].get<size_t>()) << "the caption is that of the end";
 
   frame->live()->setOutput(folder.path("empty"));
   frame->live()->connectOrStop();

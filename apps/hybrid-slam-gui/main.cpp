@@ -58,6 +58,11 @@ int displayLost(Display*) {
   std::_Exit(1);
 }
 
+/// Without a desktop, GTK prints a warning for each setting that it cannot keep.
+void keepNoGtkSettings() {
+  if (!std::getenv("DBUS_SESSION_BUS_ADDRESS")) setenv("GSETTINGS_BACKEND", "memory", 0);
+}
+
 class GuiApp : public wxApp {
  public:
   bool OnInit() override {

@@ -48,6 +48,9 @@ class LiveRun {
   void take(const mrpt::obs::CSensoryFrame::Ptr& cycle);
   /// Saves map and session to a dated subfolder after the next scan.
   void requestSave() { run_.requestSave(); }
+  /// Returns the filter as it is now: for use before the first cycle and after `finish`, between which
+  /// another thread has it.
+  const FilterView& view() const { return run_.view(); }
   /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
 

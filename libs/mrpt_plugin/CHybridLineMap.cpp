@@ -82,10 +82,11 @@ void CHybridLineMap::saveMetricMapRepresentationToFile(const std::string& prefix
 void CHybridLineMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {
   if (!genericMapParams.enableSaveAs3DObject) return;
   const auto lines = mrpt::opengl::CSetOfLines::Create();
-  lines->setColor_u8(0, 160, 0);
-  lines->setLineWidth(2);
+  constexpr double kHeight = 0.05;  // m; in its plane, a grid's texture hides them
+  lines->setColor_u8(0, 220, 0);
+  lines->setLineWidth(3);
   for (const DatabaseLine& line : database_.lines())
-    lines->appendLine(line.start.x, line.start.y, 0, line.end.x, line.end.y, 0);
+    lines->appendLine(line.start.x, line.start.y, kHeight, line.end.x, line.end.y, kHeight);
   objects.insert(lines);
 }
 

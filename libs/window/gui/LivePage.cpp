@@ -30,6 +30,7 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
   output_ = new wxTextCtrl(this, wxID_ANY, "out/live");
   add(output_, 1);
   button_ = new wxButton(this, wxID_ANY, "Connect");
+  button_->SetMinSize(button_->GetBestSize());  // of the longer name
   add(button_);
   text_ = new wxStaticText(this, wxID_ANY, "not connected", wxDefaultPosition, FromDIP(wxSize(170, -1)),
                            wxST_NO_AUTORESIZE);
@@ -41,15 +42,17 @@ LivePage::LivePage(wxWindow* parent) : wxPanel(parent) {
 
   canvas_ = new MapCanvas(this, "no map yet: Connect", view_, [this] { canvas_->Refresh(false); });
   plots_ = new PlotPanel(this);
-  events_ = new EventList(this, wxSize(-1, 90),
+  events_ = new EventList(this, wxSize(200, 60),
                           "What happened to the connection and in the filter, the newest last");
   explain(canvas_, kPaneHelp);
   explain(plots_, kPlotsHelp);
   auto* const column = new wxBoxSizer(wxVERTICAL);
   column->Add(row, 0, wxEXPAND);
   column->Add(canvas_, 1, wxEXPAND);
-  column->Add(plots_, 0, wxEXPAND);
-  column->Add(events_, wxSizerFlags().Expand().Border(wxALL, FromDIP(4)));
+  auto* const below = new wxBoxSizer(wxHORIZONTAL);
+  below->Add(plots_, wxSizerFlags(5).Expand());
+  below->Add(events_, wxSizerFlags(2).Expand().Border(wxRIGHT, FromDIP(4)));
+  column->Add(below, wxSizerFlags().Expand().Border(wxTOP, FromDIP(2)));
   SetSizer(column);
   button_->Bind(wxEVT_BUTTON, [this](wxCommandEvent&) { connectOrStop(); });
 }
@@ -104,6 +107,7 @@ void LivePage::refresh() {
   const bool isNews = !shown_ || shown_->state != now->state;
   shown_ = now;
   events_->show(now->events);
+  canvas_->setTitle(isRunning() ? "no map yet: waiting for scans" : "no map yet: Connect");
   canvas_->show(now->filter);
   plots_->show({now->filter});
   text_->SetLabel(now->state == State::running && !now->isConnected

@@ -5,11 +5,14 @@
 
 #include <filesystem>
 
+#include "bags/Bag.h"
 #include "base/Errors.h"
 #include "files/IniFile.h"
 #include "files/OutputFolder.h"
 #include "files/PartialFile.h"
 #include "readings/LogFormats.h"
+#include "readings/LogReader.h"
+#include "run/SessionFile.h"
 #include "window/gui/MainFrame.h"
 #include "window/gui/MapDialog.h"
 #include "window/gui/MessageDialogs.h"
@@ -22,6 +25,14 @@ std::string logFilter() {
   std::string names;
   for (const std::string& ending : readings::logEndings()) names += (names.empty() ? "*" : ";*") + ending;
   return "Logs|" + names + "|All files|*";
+}
+
+/// Rejects a file that is no log, before it replaces the open one. A bag, of which all would be read, is left
+/// to the replay.
+void expectLog(const std::string& file) {
+  if (run::isSession(file))
+    throw InputError("a session, not a log", file, "expected a log; Ctrl+M takes sessions");
+  if (!bags::isBag(file)) readings::LogReader(file).next();
 }
 
 /// Returns where a dialog for folders begins. GTK would begin in its list of recent folders, which takes only
@@ -65,7 +76,6 @@ void MainFrame::followLog() {
   const auto read = replay_->ofLog();
   if (!read || read == followed_) return;
   followed_ = read;
-  if (settings_->configuration.run.rawlog.empty()) return;  // an INI file without a log was opened since
   orTell(this, [&] { settings_ = settings_->withLog(read); });
 }
 
@@ -76,7 +86,11 @@ void MainFrame::openIni() {
 }
 
 void MainFrame::openIni(const std::string& ini) {
-  use(Settings::fromFile(ini));
+  auto settings = Settings::fromFile(ini);
+  const std::string& open = settings_->configuration.run.rawlog;
+  if (settings->configuration.run.rawlog.empty() && !open.empty())
+    settings = settings->copy({"run.rawlog=" + open});
+  use(settings);
   recent_->add(ini);
 }
 
@@ -96,7 +110,10 @@ bool MainFrame::FileDrop::OnDropFiles(wxCoord, wxCoord, const wxArrayString& nam
   return true;
 }
 
-void MainFrame::openLog(const std::string& log) { use(settings_->copy({"run.rawlog=" + log})); }
+void MainFrame::openLog(const std::string& log) {
+  expectLog(log);
+  use(settings_->copy({"run.rawlog=" + log}));
+}
 
 void MainFrame::openLog() {
   wxFileDialog dialog(this, "Open log", "", "", logFilter(), wxFD_OPEN | wxFD_FILE_MUST_EXIST);
@@ -160,7 +177,8 @@ void MainFrame::exportResultsTo(const std::string& folder) { replay_->session()-
 
 void MainFrame::openMap() {
   MapDialog dialog(this, settings_->map());
-  if (dialog.ShowModal() == wxID_OK) useMap(dialog.choice());
+  if (dialog.ShowModal() != wxID_OK) return;
+  if (const MapChoice chosen = dialog.choice(); !(chosen == settings_->map())) useMap(chosen);
 }
 
 void MainFrame::saveMap() {

@@ -57,6 +57,7 @@ MapDialog::MapDialog(wxWindow* parent, const MapChoice& now)
   column->Add(CreateButtonSizer(wxOK | wxCANCEL), wxSizerFlags().Expand().Border(wxALL, FromDIP(8)));
   SetSizerAndFit(column);
   set(now);
+  file_->GetTextCtrl()->SetFocus();
   Bind(
       wxEVT_BUTTON,
       [this](wxCommandEvent& event) {

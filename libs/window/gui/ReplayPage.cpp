@@ -61,7 +61,9 @@ void ReplayPage::addControls(wxSizer* to) {
   };
   restart_ = button("Restart", "Back to before the first scan (F7)");
   back_ = button("Back", "One scan back (left arrow)");
-  play_ = button("Play", "Play or pause (space bar, F5)");
+  play_ = button("Pause", "Play or pause (space bar, F5)");
+  play_->SetMinSize(play_->GetBestSize());  // of the longer name
+  play_->SetLabel("Play");
   step_ = button("Step", "One scan forward (right arrow, F6)");
   speed_ = new wxChoice(this, wxID_ANY);
   for (const Speed& speed : kSpeeds) speed_->Append(speed.name);

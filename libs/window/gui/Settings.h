@@ -21,6 +21,9 @@ struct MapChoice {
   std::optional<mrpt::math::TPose2D> start;  ///< in this map or plan (m, rad); empty: searched for
 
   static MapChoice of(const run::RunOptions& run);
+  bool operator==(const MapChoice& other) const {
+    return use == other.use && file == other.file && start == other.start;
+  }
 };
 
 /// A run's configuration with section [live]. Sessions in other threads keep the settings they started with.

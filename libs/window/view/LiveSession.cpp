@@ -120,7 +120,13 @@ std::string LiveSession::run() {
              });
   snapshot_.change([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   const std::string summary = live.finish(client.lost());
-  snapshot_.change([&](LiveSnapshot& next) { next.recording = live.recording(); });
+  const auto last = isOutdated ? watch.snapshot(live.view()) : nullptr;
+  snapshot_.change([&](LiveSnapshot& next) {
+    next.recording = live.recording();
+    if (!last) return;
+    if (next.filter && !last->place) last->verdict = next.filter->verdict;
+    next.filter = last;
+  });
   return summary;
 }
 
