@@ -3,9 +3,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
+#include "base/Errors.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
 #include "readings/LogFormats.h"
@@ -21,10 +23,19 @@ struct InputFiles {
     app.add_option("config", config, "INI file (doc/configuration.md); without one, the defaults apply");
     app.add_option("log", log, logMeans);
   }
-  /// Assigns the files to `config` and `log`; call it after parsing.
+  /// Assigns the files to `config` and `log`; call it after parsing. @throws InputError if the first of two
+  /// is no INI file
   void sort() {
     files::findInputFiles({&config, &log});
-    if (log.empty() && !config.empty() && !files::isIni(config)) log.swap(config);
+    if (config.empty()) return;
+    if (log.empty()) {
+      if (!files::isIni(config)) log.swap(config);
+      return;
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(config, ignored) && !files::isIni(config))  // a pipe would be read
+      throw InputError("not an INI file", config,
+                       "of two files, the first is the INI file and the second the log");
   }
   /// The file that an error is about.
   const std::string& main() const { return config.empty() ? log : config; }

@@ -12,6 +12,7 @@
 #include "base/Errors.h"
 #include "files/InstalledFiles.h"
 #include "run/Configuration.h"
+#include "run/SessionFile.h"
 
 namespace hybrid_slam {
 
@@ -30,13 +31,15 @@ struct SessionArguments {
   /// Adds --checkpoint-every and --resume.
   void addResume(CLI::App& app) {
     addCheckpoints(app);
-    app.add_option("--resume", resume,
-                   "resume the run that saved this session, with its configuration, log and output folder")
+    app.add_option(
+           "--resume", resume,
+           "resume the run that saved this session (or folder of results), with its configuration, log and\n"
+           "output folder")
         ->type_name("FILE");
   }
   /// Adds --continue, --localize, --prior-plan and --start.
   void addMap(CLI::App& app) {
-    const std::string maps = " this session, map.yaml or gridmap";
+    const std::string maps = " this session (or folder of results), map.yaml or gridmap";
     app.add_option("--continue", continueFrom, "continue mapping in" + maps)->type_name("FILE");
     app.add_option("--localize", localizeIn, "localise in" + maps + ", which does not change")
         ->type_name("FILE");
@@ -66,6 +69,8 @@ struct SessionArguments {
     run.resume = resume, run.continueFrom = continueFrom, run.localizeIn = localizeIn;
     run.priorPlan = priorPlan;
     files::findInputFiles({&run.resume, &run.continueFrom, &run.localizeIn, &run.priorPlan});
+    for (std::string* session : {&run.resume, &run.continueFrom, &run.localizeIn})
+      *session = run::sessionIn(*session);
     run.checkpointEvery = checkpointEvery;
     if (start.empty()) return;
     run.start.emplace(start[0], start[1], mrpt::DEG2RAD(start[2]));

@@ -89,7 +89,7 @@ TEST_F(HybridSlam, WrongLog) {
   expectError(replay(folder.write("empty", "")), "empty");
   expectError(replay(folder.write("text", "ODOM 1 2 3\nFLASER 4 5 6\n")), "no laser scan");
   expectError(replay(folder.write("text", "no log\n")), "not a robot log");
-  expectError(replay(HYBRID_SLAM), "not a rawlog");
+  expectError(replay(HYBRID_SLAM), "not a log");
   expectError(replay(test::Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");
   expectError(replay(test::Log{test::scan(1), test::scan(2)}, "--set input.require_odometry=true"),
               "require_odometry = false");

@@ -295,7 +295,7 @@ TEST_F(HybridSlam, TheIniFileIsOptional) {
   fs::remove_all(output);
   expectError(run("'" + folder.path("none.ini") + "' -o '" + output + "'"), "no such file");
   expectError(run("'" + folder.path("none.clf") + "' -o '" + output + "'"), "no such file");
-  expectError(run("'" + log + "' '" + log + "' -o '" + output + "'"), "not a text file");
+  expectError(run("'" + log + "' '" + log + "' -o '" + output + "'"), "not an INI file");
 }
 
 /// A CARMEN log of 10 m along a corridor, with one broken line. The fan of 180 beams is centred at -0.5 deg,

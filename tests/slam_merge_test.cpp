@@ -163,7 +163,7 @@ TEST_F(SlamMerge, WrongInput) {
   folder.write("text", "not a map\n");
   expectInputError("a text -o c", "text");
   fs::create_directory(folder.path("empty"));
-  expectInputError("a empty -o c", "empty/session.hslam");
+  expectInputError("a empty -o c", "a folder, not a file: empty");
   const std::string session = content("a/session.hslam");
   folder.write("cut.hslam", session.substr(0, session.size() / 2));
   expectInputError("a cut.hslam -o c", "cut.hslam");

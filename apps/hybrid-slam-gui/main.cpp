@@ -120,6 +120,7 @@ int main(int argc, char** argv) {
       return hybrid_slam::fail(
           1, "no display: DISPLAY is unset; expected an X11 or XWayland desktop, or xvfb-run");
     setenv("GDK_BACKEND", "x11", 0);
+    keepNoGtkSettings();
     hybrid_slam::stopOnSignals();
     int none = 1;  // wxWidgets gets no arguments
     return wxEntry(none, argv) == 0 ? 0 : 1;

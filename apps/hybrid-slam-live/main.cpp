@@ -109,10 +109,12 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
     (isTerminal() ? files::writePlainManual : files::writeManual)(sections, std::cout);
     return 0;
   }
-  if (line.config.empty()) return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini");
+  if (line.config.empty() && line.server.empty())
+    return fail(2, "no INI file: command line; expected hybrid-slam-live config.ini, or --server HOST:PORT");
   stopOnSignals();
   holdSaveSignal();
-  run::Configuration configuration(files::inputFile(line.config), settings, sections);
+  run::Configuration configuration(line.config.empty() ? "" : files::inputFile(line.config), settings,
+                                   sections);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   warn(configuration.warnings);
@@ -134,5 +136,5 @@ int main(int argc, char** argv) {
     return execute(line, settingsOf(line, app));
   };
   return leaveDrivers(
-      exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config, e); }));
+      exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config.empty() ? line.server : line.config, e); }));
 }

@@ -103,6 +103,9 @@ Json ateJson(const CommandLine& line) {
                           reference = files::loadTum(line.reference);
   const evaluation::AteErrors errors =
       evaluation::absoluteTrajectoryError(trajectory, reference, line.referenceTolerance);
+  if (2 * errors.pairs < trajectory.size())
+    warn({"only " + std::to_string(errors.pairs) + " of " + std::to_string(trajectory.size()) + " poses of " +
+          line.trajectory + " have a pose of " + line.reference + " at their times"});
   Json json{{"poses", trajectory.size()}, {"pairs", errors.pairs}};
   addStatistics(json, "trans", "m", errors.translation, 1);
   json["alignment"] = {{"x_m", errors.alignment.x},

@@ -12,10 +12,11 @@ namespace hybrid_slam::files {
 
 OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
   const std::string expected = "expected a folder that can be created and written to";
-  std::error_code error;
+  std::error_code error, ignored;
   std::filesystem::create_directories(folder_, error);
-  if (!std::filesystem::is_directory(folder_, error))
-    throw InputError("no such folder, and it cannot be created", folder, expected);
+  if (!std::filesystem::is_directory(folder_, ignored))
+    throw InputError("no such folder, and it cannot be created", folder,
+                     expected + (error ? ": " + error.message() : ""));
   if (::access(folder_.c_str(), W_OK | X_OK) != 0)
     throw InputError("output folder not writable", folder, expected);
 }

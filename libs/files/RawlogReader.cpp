@@ -10,12 +10,13 @@ namespace hybrid_slam::files {
 namespace {
 
 constexpr size_t kMostClasses = 100;  // that a warning may name
-constexpr const char* kExpected = "expected serialised MRPT objects (log2rawlog converts text logs)";
+constexpr const char* kExpected = "expected a rawlog, a bag or a text log";
 
 }  // namespace
 
 RawlogReader::RawlogReader(const std::string& file)
-    : file_(file), stream_(std::make_unique<ObjectFile>(file, "expected a readable log")) {}
+    : file_(file),
+      stream_(std::make_unique<ObjectFile>(file, "expected a log, or the folder of a ROS 2 recording")) {}
 
 RawlogReader::~RawlogReader() = default;
 
@@ -34,7 +35,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
       note(walk.passedOver());
       if (object) return object;  // otherwise an empty entry, or one that is passed over
     } catch (const std::exception& e) {
-      if (entry_ == 0) throw InputError("not a rawlog", file_, kExpected);
+      if (entry_ == 0) throw InputError("not a log", file_, kExpected);
       const bool isCut = dynamic_cast<const ObjectCut*>(&e) != nullptr;
       defect_ = !isCut                       ? "unreadable object (" + messageOf(e) + ")"
                 : !stream_->damage().empty() ? stream_->damage()

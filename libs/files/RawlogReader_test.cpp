@@ -64,7 +64,7 @@ TEST(RawlogReader, EveryCutOfAPlainLogIsDetected) {
     EXPECT_EQ(read.entries, static_cast<size_t>(next - ends.begin()));
     const bool isBetween = next != ends.begin() && *(next - 1) == cut;
     if (next == ends.begin()) {
-      EXPECT_THAT(read.error, HasSubstr(cut == 0 ? "empty" : "not a rawlog"));
+      EXPECT_THAT(read.error, HasSubstr(cut == 0 ? "empty" : "not a log"));
     } else {
       EXPECT_EQ(read.defect.empty(), isBetween) << read.defect;
       EXPECT_THAT(read.error, IsEmpty());
@@ -211,12 +211,12 @@ TEST(RawlogReader, AFileThatIsNotALogIsAnError) {
   EXPECT_THAT(readAll("/dev/null").error, HasSubstr("not a file"));
   EXPECT_THAT(readAll(folder.write("empty", "")).error, HasSubstr("empty"));
   EXPECT_THAT(readAll(folder.write("text", "Once upon a time there was a robot.\n")).error,
-              HasSubstr("not a rawlog"));
+              HasSubstr("not a log"));
   RandomStream random(1, 2, 3);
   for (int i = 0; i < 300; ++i) {
     std::string bytes(static_cast<size_t>(1 + i), '\0');
     for (char& c : bytes) c = static_cast<char>(random.bits());
-    EXPECT_THAT(readAll(folder.write("random", bytes)).error, HasSubstr("not a rawlog"));
+    EXPECT_THAT(readAll(folder.write("random", bytes)).error, HasSubstr("not a log"));
   }
 }
 

@@ -58,7 +58,8 @@ LogSetting maxRange(std::vector<float> ranges, double limit) {
   const double useful = std::clamp(10 * std::ceil(most / 10), kUsualRange, kLongestRange);
   if (code > 0 && code <= std::min(useful, limit)) return setting(code, codeText);
   if (limit <= useful) return setting(limit, "the log's limit for the laser");
-  return setting(useful, "95 % of the returns are within " + fixedText(most, 1) + " m");
+  return setting(useful, std::string(useful > kUsualRange ? "" : "the default: ") +
+                             "95 % of the returns are within " + fixedText(most, 1) + " m");
 }
 
 LogSetting directionNoise(const std::vector<float>& ranges) {

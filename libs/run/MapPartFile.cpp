@@ -1,7 +1,5 @@
 #include "run/MapPartFile.h"
 
-#include <filesystem>
-
 #include "run/KnownMap.h"
 #include "run/SessionFile.h"
 #include "slam/filter/HybridFilter.h"
@@ -9,8 +7,7 @@
 namespace hybrid_slam::run {
 
 MapPartFile readMapPart(const std::string& name) {
-  const bool isFolder = std::filesystem::is_directory(name);
-  const std::string file = isFolder ? name + "/" + kSessionName : name;
+  const std::string file = sessionIn(name);
   if (!isSession(file)) return {{readKnownMap(file), {}, {}}, {}, {}};
   SessionReader session(file);
   MapPartFile read;

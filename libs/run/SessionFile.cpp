@@ -51,6 +51,12 @@ void saveSession(const std::string& path, const std::string& bytes) {
   partial.commit();
 }
 
+std::string sessionIn(const std::string& name) {
+  std::error_code ignored;
+  const std::filesystem::path session = std::filesystem::path(name) / kSessionName;
+  return std::filesystem::exists(session, ignored) ? session.string() : name;
+}
+
 bool isSession(const std::string& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a pipe would wait

@@ -44,6 +44,9 @@ constexpr size_t kMostSessionBytes = size_t{1} << 33;
 /// @throws InputError if the file cannot be written
 void saveSession(const std::string& path, const std::string& bytes);
 
+/// Returns the session in a folder of results, or the name if it is not that of such a folder.
+std::string sessionIn(const std::string& name);
+
 /// Returns whether a file begins like a session.
 bool isSession(const std::string& file);
 
