@@ -43,6 +43,13 @@ TEST_F(HybridSlam, NamesThatAnIniFileCannotHold) {
     if (name[0] == ' ') output = name;
     expectError(replay(log), "wrong name `" + output + "`");
   }
+  output = "out\n[grid]\nresolution = 1";
+  expectError(replay(log), "line break in a setting");
+  output = folder.path("out");
+  expectError(replay(log, "--set 'grid.resolution=0.05\r'"), "line break in a setting");
+  const std::string broken = folder.path("l\nog.rawlog");
+  fs::copy_file(log, broken);
+  expectError(replay(broken), "line break in a setting");
 }
 
 TEST_F(HybridSlam, OutputThatCannotBeWritten) {

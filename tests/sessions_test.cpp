@@ -287,7 +287,8 @@ TEST_F(Sessions, AFolderOfResultsNamesItsSession) {
   ASSERT_EQ(replay(log), 0) << err;
   const std::string other = folder.path("other");
   EXPECT_EQ(run("'" + log + "' -o '" + other + "' --localize '" + output + "'"), 0) << err;
-  EXPECT_EQ(run("'" + log + "' --overwrite -o '" + other + "' --start 0,0,0 --continue '" + output + "/'"), 0) << err;
+  EXPECT_EQ(run("'" + log + "' --overwrite -o '" + other + "' --start 0,0,0 --continue '" + output + "/'"), 0)
+      << err;
   EXPECT_EQ(run("--resume '" + output + "' --overwrite -o '" + other + "'"), 0) << err;
 }
 

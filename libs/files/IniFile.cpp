@@ -165,6 +165,9 @@ std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, co
   }
   load(sections, source, file);
   for (const std::string& setting : settings) {
+    if (setting.find_first_of("\r\n") != std::string::npos)  // which config.ini could not hold
+      throw InputError("line break in a setting", "command line, setting `" + setting + "`",
+                       "expected names and values on one line");
     const auto equals = setting.find('='), dot = setting.find('.');
     if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
       throw InputError("wrong setting `" + setting + "`", "command line", "expected SECTION.KEY=VALUE");
