@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # Measures what grows with laps, days and kilometres in long runs: the tables of doc/reliability.md.
-#   scripts/long-runs.sh [laps | refinement | day | drive ...]      default: all four
+#   scripts/long-runs.sh [laps | refinement | day | drive | drive100 ...]      default: all five
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps` and `refinement`. The results and logs go to
 # OUT (out/long-runs; 5 GB). HOURS (24) and RATE (2500 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
 # with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
 source "$(dirname "$0")/lib.sh"
 if [[ $# -eq 0 && -z ${HYBRID_SLAM_DATASETS:-} ]]; then
   echo "HYBRID_SLAM_DATASETS is unset: no laps, no refinement" >&2
-  set -- day drive
+  set -- day drive drive100
 fi
-[[ $# -gt 0 ]] || set -- laps refinement day drive
+[[ $# -gt 0 ]] || set -- laps refinement day drive drive100
 install_packages "${packages[@]}"
 build release hybrid-slam hybrid-slam-live hybrid-slam-laps observation-server log2rawlog simul-floorplan >&2
 bin=$PWD/build/release/bin
@@ -105,7 +105,7 @@ day() {
   grep -E '"(scans|updates|skipped|lost_cycles|peak_rss_mb|wall_s|distance_m)"' "$out/day/metrics.json"
 }
 
-# floor_of KM: lanes of 500 m in a building, each entered from the end of the one before; pillars at irregular places.
+# floor_of KM [RATE]: RATE (5) scans per second and metre; lanes of 500 m in a building, each entered from the end of the one before; pillars at irregular places.
 floor_of() {
   awk -v lanes=$((2 * $1)) -v plan="$out/drive-$1.plan" -v route="$out/drive-$1.route" 'BEGIN {
     srand(1)
@@ -125,7 +125,7 @@ floor_of() {
   }'
   printf '[simulation]\nplan = drive-%s.plan\nroute = drive-%s.route\n' "$1" "$1" >"$out/drive-$1.ini"
   "$bin/simul-floorplan" "$out/drive-$1.ini" -q -o "$out/drive-$1.rawlog" --set laser.sensor=LMS-200 \
-    --set laser.resolution_deg=1 --set odometry.rate=5
+    --set laser.resolution_deg=1 --set laser.rate="${2:-5}" --set odometry.rate="${2:-5}"
 }
 
 # drive_row KM NAME OPTION...
@@ -139,10 +139,14 @@ drive_row() {
     'BEGIN { printf "| %s | %d | %d | %.1f | %.0f | %s | %s | %s |\n", name, km, scans, cpu / km, peak, session, simple, all }'
 }
 
-# Kilometres that the robot has never seen before, 5 scans a metre.
-drive() {
+drive_head() {
   echo "| filter | km | scans | CPU per km (s) | peak memory (MB) | session (MB) | map.simplemap.gz (MB) | all results (MB) |"
   echo "|---|---|---|---|---|---|---|---|"
+}
+
+# Kilometres that the robot has never seen before, 5 scans a metre.
+drive() {
+  drive_head
   local km
   for km in ${KM:-1 2 5 10}; do
     floor_of "$km"
@@ -152,6 +156,14 @@ drive() {
     floor_of "$km"
     drive_row "$km" default
   done
+}
+
+# 100 km, with two scans a metre.
+drive100() {
+  drive_head
+  floor_of 100 2
+  drive_row 100 paper "$config/csie-lms100.ini"
+  drive_row 100 general "$config/csie-lms100.ini" -m general
 }
 
 for what in "$@"; do "$what"; done
