@@ -4,6 +4,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -48,7 +49,14 @@ void writeTogether(const FilesAndWriters& filesAndWriters) {
   std::vector<std::unique_ptr<files::PartialFile>> parts;
   for (const auto& [file, write] : filesAndWriters)
     parts.push_back(std::make_unique<files::PartialFile>(file.string()));
-  for (size_t i = 0; i < parts.size(); ++i) filesAndWriters[i].second(parts[i]->path());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    errno = 0;
+    try {
+      filesAndWriters[i].second(parts[i]->path());
+    } catch (const std::exception&) {
+      parts[i]->fail(errno);
+    }
+  }
   for (const auto& part : parts) part->commit();
 }
 
