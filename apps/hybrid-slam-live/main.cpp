@@ -135,6 +135,7 @@ int main(int argc, char** argv) {
     if (const auto code = parse(app, argc, argv)) return *code;
     return execute(line, settingsOf(line, app));
   };
-  return leaveDrivers(
-      exitCodeOf(parseAndRun, [&](const std::exception& e) { return runFailed(line.config.empty() ? line.server : line.config, e); }));
+  return leaveDrivers(exitCodeOf(parseAndRun, [&](const std::exception& e) {
+    return runFailed(line.config.empty() ? line.server : line.config, e);
+  }));
 }

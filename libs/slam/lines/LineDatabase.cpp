@@ -72,7 +72,7 @@ void setDirections(std::vector<DatabaseLine>& lines, double window) {
   const auto theta =
       [&](size_t k) {  // of the n lines repeated every 90 deg: k in [n, 2 n) are the lines themselves
         const size_t turns = k / n;
-    return sorted[k % n].theta + (static_cast<double>(turns) - 1) * M_PI / 2;
+        return sorted[k % n].theta + (static_cast<double>(turns) - 1) * M_PI / 2;
       };
   Moments moments;
   size_t low = 0, high = 0;  // the window: low <= k < high
