@@ -130,6 +130,14 @@ TEST_F(LivePrograms, TheLiveMapEqualsThatOfTheLogAndOfTheRecording) {
   EXPECT_THAT(result("config.ini"), HasSubstr("max_waiting"));
 }
 
+TEST_F(LivePrograms, AServerNeedsNoIniFile) {
+  const auto robot = replaying(60, "500");
+  Program map(folder, "live", {HYBRID_SLAM_LIVE, "--server", "127.0.0.1:" + port, "-o", output});
+  EXPECT_EQ(map.wait(), 0) << map.err();
+  EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["scans"], 60);
+  EXPECT_EQ(robot->wait(), 0);
+}
+
 TEST_F(LivePrograms, ControlCWritesAllResults) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     SCOPED_TRACE(strsignal(signal));
