@@ -132,7 +132,9 @@ TEST_F(LivePrograms, TheLiveMapEqualsThatOfTheLogAndOfTheRecording) {
 
 TEST_F(LivePrograms, AServerNeedsNoIniFile) {
   const auto robot = replaying(60, "500");
-  Program map(folder, "live", {HYBRID_SLAM_LIVE, "--server", "127.0.0.1:" + port, "-o", output});
+  Program map(
+      folder, "live",
+      {HYBRID_SLAM_LIVE, "--server", "127.0.0.1:" + port, "-o", output, "--set", "live.max_waiting=10000"});
   EXPECT_EQ(map.wait(), 0) << map.err();
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["scans"], 60);
   EXPECT_EQ(robot->wait(), 0);
