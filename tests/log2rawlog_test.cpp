@@ -307,6 +307,16 @@ TEST_F(Log2Rawlog, OutputThatCannotBeWritten) {
 }
 
 /// A file size limit simulates a full disk: writing fails in the middle.
+TEST_F(Log2Rawlog, ALinkStaysAndItsFileGetsTheRawlog) {
+  const std::string path = folder.write("in.clf", scanRow("1") + scanRow("2")),
+                    real = folder.write("real.rawlog", "old");
+  fs::create_symlink(real, rawlog);
+  EXPECT_EQ(convert(path), 0) << err;
+  EXPECT_TRUE(fs::is_symlink(rawlog));
+  EXPECT_EQ(fs::read_symlink(rawlog), real);
+  EXPECT_NE(test::contentOf(real), "old");
+}
+
 TEST_F(Log2Rawlog, DiskFull) {
   std::string log;
   for (int i = 0; i < 3000; ++i) {

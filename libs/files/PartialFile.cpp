@@ -33,8 +33,12 @@ bool isNamed(int file, const std::string& path) {
 
 std::string PartialFile::partialName(const std::string& path) { return nameOf(path, ""); }
 
-PartialFile::PartialFile(const std::string& path) : final_(path), partial_(partialName(path)) {
+PartialFile::PartialFile(const std::string& path) : final_(path) {
   std::error_code ignored;
+  if (fs::is_symlink(path, ignored) &&
+      fs::exists(path, ignored))  // renaming would replace the link, such as a device's
+    final_ = fs::canonical(path, ignored).string();
+  partial_ = partialName(final_);
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
     throw InputError("cannot write", path, "expected a file name");
   claim();
