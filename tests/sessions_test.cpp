@@ -292,6 +292,13 @@ TEST_F(Sessions, AFolderOfResultsNamesItsSession) {
   EXPECT_EQ(run("--resume '" + output + "' --overwrite -o '" + other + "'"), 0) << err;
 }
 
+TEST_F(Sessions, ARunInsideAFolderOfResultsIsANewOne) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string other = folder.path("other"), expected = contentOf(output + "/trajectory.tum");
+  EXPECT_EQ(run("'" + ini + "' '" + log + "' -o '" + other + "'", "cd '" + output + "'; "), 0) << err;
+  EXPECT_EQ(contentOf(other + "/trajectory.tum"), expected);
+}
+
 TEST_F(Sessions, ASessionGivenAsTheLogIsNamed) {
   ASSERT_EQ(replay(log), 0) << err;
   for (const char* option : {"", "--list "}) {

@@ -35,8 +35,8 @@ std::string PartialFile::partialName(const std::string& path) { return nameOf(pa
 
 PartialFile::PartialFile(const std::string& path) : final_(path) {
   std::error_code ignored;
-  if (fs::is_symlink(path, ignored) &&
-      fs::exists(path, ignored))  // renaming would replace the link, such as a device's
+  // Renaming would replace a link, such as a device's.
+  if (fs::is_symlink(path, ignored) && fs::exists(path, ignored))
     final_ = fs::canonical(path, ignored).string();
   partial_ = partialName(final_);
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))

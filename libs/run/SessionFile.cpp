@@ -54,7 +54,8 @@ void saveSession(const std::string& path, const std::string& bytes) {
 std::string sessionIn(const std::string& name) {
   std::error_code ignored;
   const std::filesystem::path session = std::filesystem::path(name) / kSessionName;
-  return std::filesystem::exists(session, ignored) ? session.string() : name;
+  // An option that is not given has no name; it is not that of the working folder.
+  return !name.empty() && std::filesystem::exists(session, ignored) ? session.string() : name;
 }
 
 bool isSession(const std::string& file) {

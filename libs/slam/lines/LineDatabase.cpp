@@ -69,11 +69,11 @@ void setDirections(std::vector<DatabaseLine>& lines, double window) {
   for (DatabaseLine& line : lines) sorted.push_back({wrapToRightAngle(line.theta), evidence(line), &line});
   std::sort(sorted.begin(), sorted.end(), [](const Known& a, const Known& b) { return a.theta < b.theta; });
 
-  const auto theta =
-      [&](size_t k) {  // of the n lines repeated every 90 deg: k in [n, 2 n) are the lines themselves
-        const size_t turns = k / n;
-        return sorted[k % n].theta + (static_cast<double>(turns) - 1) * M_PI / 2;
-      };
+  // Of the n lines repeated every 90 deg: k in [n, 2 n) are the lines themselves.
+  const auto theta = [&](size_t k) {
+    const size_t turns = k / n;
+    return sorted[k % n].theta + (static_cast<double>(turns) - 1) * M_PI / 2;
+  };
   Moments moments;
   size_t low = 0, high = 0;  // the window: low <= k < high
   double last = 0;
