@@ -1,8 +1,6 @@
 #include "files/PartialFile.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +8,7 @@
 #include <filesystem>
 
 #include "base/Errors.h"
+#include "files/Locks.h"
 
 namespace hybrid_slam::files {
 
@@ -19,14 +18,6 @@ namespace {
 
 std::string nameOf(const fs::path& path, const std::string& number) {
   return (path.parent_path() / (".partial" + number + "." + path.filename().string())).string();
-}
-
-/// Returns whether an open file still has this name.
-bool isNamed(int file, const std::string& path) {
-  struct stat opened {
-  }, named{};
-  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-         opened.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -50,7 +41,7 @@ void PartialFile::claim() {
   for (int number = 1;;) {
     lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) return;
-    const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    const bool isLocked = lock(lock_) != Lock::ofAnother;
     if (isLocked && isNamed(lock_, partial_)) return;
     ::close(lock_);
     if (!isLocked) partial_ = nameOf(final_, "-" + std::to_string(++number));

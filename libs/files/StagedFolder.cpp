@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
+#include "files/Locks.h"
 
 namespace hybrid_slam::files {
 
@@ -66,7 +66,7 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
   for (const std::string& name : results_)
     if (overwrite_ && fs::is_directory(final_ / name))
       throw InputError("cannot write", finalPath(name), "expected a file name");
-  if (!overwrite_ && holdsResults()) takeDatedSubfolder();
+  claim();
   isBeside_ = isRenamable(final_);
   stageIn(isBeside_ ? final_.parent_path() : final_, prefix);
   files_ = std::make_unique<OutputFolder>(stage_.string());
@@ -75,13 +75,15 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
 StagedFolder::~StagedFolder() {
   std::error_code ignored;
   if (!isDone_) fs::remove_all(stage_, ignored);
-  if (lock_ >= 0) ::close(lock_);
+  for (const int lock : {claim_, lock_})
+    if (lock >= 0) ::close(lock);
   std::reverse(created_.begin(), created_.end());
   for (const fs::path& folder : created_) fs::remove(folder, ignored);  // only if empty
 }
 
 std::string StagedFolder::note() const {
   if (shown_ == asked_) return {};
+  if (isTaken_) return asked_ + " is in use by another run; the results of this one go to " + shown_;
   return asked_ + " has results of an earlier run; those of this run go to " + shown_ +
          " (--overwrite replaces them)";
 }
@@ -99,6 +101,19 @@ bool StagedFolder::holdsResults() const {
 bool StagedFolder::isOfAnother(const std::string& name) const {
   std::error_code ignored;
   return name != own_ && fs::is_regular_file(final_ / name, ignored);
+}
+
+/// Locks the final folder, so that no other run writes its checkpoints there or replaces it.
+void StagedFolder::claim() {
+  for (;;) {
+    claim_ = openFolder(final_);
+    const Lock state = claim_ < 0 ? Lock::unsupported : lock(claim_);
+    const bool isStale = claim_ >= 0 && !isNamed(claim_, final_);  // just replaced by the results of a run
+    if (state != Lock::ofAnother && !isStale && (overwrite_ || !holdsResults())) return;
+    if (claim_ >= 0) ::close(claim_);
+    isTaken_ |= state == Lock::ofAnother;
+    if (!isStale) takeDatedSubfolder();
+  }
 }
 
 void StagedFolder::takeDatedSubfolder() {
@@ -124,13 +139,13 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
       throw InputError("output folder not writable", asked_,
                        std::string("expected a folder that can be written to: ") + std::strerror(errno));
     lock_ = openFolder(name);
-    const bool isLocked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-    if (isLocked && fs::exists(name)) {  // otherwise another process has just removed it as abandoned
+    const bool isFree = lock_ < 0 || lock(lock_) != Lock::ofAnother;
+    if (isFree && fs::exists(name)) {  // otherwise another process has just removed it as abandoned
       stage_ = name;
       fs::permissions(stage_, fs::status(final_).permissions());
       return;
     }
-    ::close(lock_);
+    if (lock_ >= 0) ::close(lock_);
   }
 }
 
@@ -140,9 +155,9 @@ void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) 
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
     if (entry.path().filename().string().rfind(prefix, 0) != 0 || !entry.is_directory(ignored)) continue;
-    const int lock = openFolder(entry.path());
-    if (lock < 0) continue;
-    if (::flock(lock, LOCK_EX | LOCK_NB) == 0 && !fs::exists(entry.path() / results_.back(), ignored)) {
+    const int folder = openFolder(entry.path());
+    if (folder < 0) continue;
+    if (lock(folder) == Lock::held && !fs::exists(entry.path() / results_.back(), ignored)) {
       for (const std::string& name : results_) {
         fs::remove(entry.path() / name, ignored);
         fs::remove(entry.path() / (".partial." + name), ignored);
@@ -152,13 +167,13 @@ void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) 
           fs::remove(other.path(), ignored);
       fs::remove(entry.path(), ignored);
     }
-    ::close(lock);
+    ::close(folder);
   }
 }
 
 void StagedFolder::publish() {
   sync(stage_);
-  if (!overwrite_ && holdsResults()) takeDatedSubfolder();  // another run has finished here meanwhile
+  if (!overwrite_ && holdsResults()) takeDatedSubfolder();  // copied there meanwhile
   isDone_ = true;
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   if (isBeside_ && exchange())

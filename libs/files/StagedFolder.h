@@ -18,7 +18,7 @@ namespace hybrid_slam::files {
 class StagedFolder {
  public:
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
-  /// results and `overwrite` is false.
+  /// results and `overwrite` is false, or if another object, in any process, has chosen it.
   /// @param results  names of all files that a run may write; the last marks a complete run
   /// @param own        a result that may already exist, because the run continues from it
   /// @throws InputError if the folder cannot be created or written to
@@ -36,7 +36,7 @@ class StagedFolder {
   const OutputFolder& files() const { return *files_; }
   /// The final folder as the user wrote it, or its dated subfolder.
   const std::string& folder() const { return shown_; }
-  /// A file's path in the final folder, which may still change in `publish` if another run has finished
+  /// A file's path in the final folder, which may still change in `publish` if results have been copied
   /// there.
   std::string finalPath(const std::string& name) const { return shown_ + "/" + name; }
   /// Says in one line where the results go, if not to the requested folder; else empty.
@@ -49,6 +49,7 @@ class StagedFolder {
  private:
   bool holdsResults() const;
   bool isResult(const std::string& name) const;
+  void claim();
   void takeDatedSubfolder();
   void stageIn(const std::filesystem::path& place, const std::string& prefix);
   void removeDead(const std::filesystem::path& place, const std::string& prefix) const;
@@ -64,7 +65,8 @@ class StagedFolder {
   std::filesystem::path stage_;
   std::vector<std::filesystem::path> created_;  ///< removed again if they stay empty
   bool isBeside_ = false, isDone_ = false;
-  int lock_ = -1;  ///< held while this process lives
+  bool isTaken_ = false;        ///< the requested folder, by another run
+  int claim_ = -1, lock_ = -1;  ///< the locked final and hidden folder
   std::unique_ptr<OutputFolder> files_;
 };
 

@@ -118,14 +118,39 @@ TEST_F(StagedFolderTest, OtherFilesStayWithoutOverwrite) {
   EXPECT_EQ(inOut("robot.rawlog"), "log");
 }
 
-TEST_F(StagedFolderTest, ARunThatFinishesFirstIsNotReplaced) {
-  StagedFolder slow(out, kNames, false);
-  write(slow, "slow");
-  run("fast");
-  slow.publish();
-  EXPECT_EQ(inOut("map"), "fast");
-  EXPECT_EQ(contentOf(slow.finalPath("map")), "slow");
-  EXPECT_THAT(slow.note(), HasSubstr(out + "/20"));
+// Otherwise both would write their checkpoints to one file, and the last to end would replace the results of
+// the other.
+TEST_F(StagedFolderTest, AFolderBelongsToTheRunThatBeginsFirst) {
+  fs::create_directory(out);
+  for (const bool overwrite : {false, true}) {
+    SCOPED_TRACE(overwrite);
+    StagedFolder first(out, kNames, overwrite), second(out, kNames, overwrite);
+    EXPECT_EQ(first.note(), "");
+    EXPECT_THAT(second.note(),
+                MatchesRegex(out + " is in use by another run; the results of this one go to " + out + "/" +
+                             kDate + "(-[0-9])?"));
+    write(first, "first");
+    write(second, "second");
+    second.publish();
+    first.publish();
+    EXPECT_EQ(inOut("map"), "first");
+    EXPECT_EQ(contentOf(second.finalPath("map")), "second");
+    StagedFolder third(out, kNames, true);
+    EXPECT_THAT(third.note(), HasSubstr("in use")) << "until the objects of the first run are gone";
+  }
+  EXPECT_EQ(namesIn(out).size(), 4u);
+  run("third", true);
+  EXPECT_EQ(inOut("map"), "third");
+}
+
+TEST_F(StagedFolderTest, ResultsThatAreCopiedThereMeanwhileAreNotReplaced) {
+  StagedFolder staged(out, kNames, false);
+  write(staged, "run");
+  std::ofstream(out + "/map") << "copy";
+  staged.publish();
+  EXPECT_EQ(inOut("map"), "copy");
+  EXPECT_EQ(contentOf(staged.finalPath("map")), "run");
+  EXPECT_THAT(staged.note(), HasSubstr(out + "/20"));
 }
 
 TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {
@@ -182,8 +207,9 @@ TEST_F(StagedFolderTest, AKilledRunIsClearedAwayAndARunningOneIsNot) {
   EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the hidden folder";
   StagedFolder running(out, kNames, false);
   write(running, "1");
-  const StagedFolder next(out, kNames, false);
-  EXPECT_EQ(namesIn(root.path("")).size(), 3u);
+  const StagedFolder next(out, kNames, false), another(out, kNames, false);
+  EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the running one's";
+  EXPECT_EQ(namesIn(out).size(), 4u) << "a dated and a hidden folder each";
   running.publish();
   EXPECT_EQ(inOut("map"), "1");
 }

@@ -1,0 +1,19 @@
+/// @file Locks.h
+/// @brief Locks of open files and folders, which end with the process that holds them.
+#pragma once
+
+#include <string>
+
+namespace hybrid_slam::files {
+
+/// Whose the lock of an open file is; some network file systems have none.
+enum class Lock { held, ofAnother, unsupported };
+
+/// Locks an open file or folder until it is closed, unless another opening of it, in any process, has the
+/// lock.
+Lock lock(int file);
+
+/// Returns whether an open file or folder still has this name.
+bool isNamed(int file, const std::string& path);
+
+}  // namespace hybrid_slam::files
