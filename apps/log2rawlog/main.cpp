@@ -52,14 +52,15 @@ void warnOfShortRange(const std::string& input, const readings::LogSummary& s, d
           numberText(maxRange) + " m: " + input + "; --max-range makes them no returns"});
 }
 
-void warnOfJumps(const std::string& input, const readings::LogSummary& s) {
-  const auto warnOf = [&](size_t count, const std::string& what, size_t number) {
-    if (count > 0)
-      warn({std::to_string(count) + " " + what + ": first in " + input + ", " + s.unit + " " +
-            std::to_string(number) + "; kept as logged"});
+void warnOfOddities(const std::string& input, const readings::LogSummary& s) {
+  const auto warnOf = [&](const readings::Oddity& odd, const std::string& what) {
+    if (odd.count > 0)
+      warn({std::to_string(odd.count) + " " + what + ": first in " + input + ", " + s.unit + " " +
+            std::to_string(odd.first) + "; kept as logged"});
   };
-  warnOf(s.odometryJumps, "odometry jumps of over 100 m or far above the robot's speed", s.firstOdometryJump);
-  warnOf(s.timeJumps, "time jumps of over a day", s.firstTimeJump);
+  warnOf(s.impossibleOdometry, "odometry readings beyond 1e8 m or 1e6 rad");
+  warnOf(s.odometryJumps, "odometry jumps of over 100 m or far above the robot's speed");
+  warnOf(s.timeJumps, "time jumps of over a day");
 }
 
 void warnOfWrongSweeps(const std::string& input, const readings::LogSummary& s) {
@@ -155,7 +156,7 @@ int convert(int argc, char** argv) {
     warn({summary.format + " " + summary.defect + ": " + input + "; converted up to this point"});
   warnOfNoReturns(input, summary.longestRange);
   if (options.maxRange) warnOfShortRange(input, summary, *options.maxRange);
-  warnOfJumps(input, summary);
+  warnOfOddities(input, summary);
   warnOfWrongSweeps(input, summary);
   printSummary(output, summary);
   return 0;

@@ -13,7 +13,7 @@ namespace hybrid_slam::live {
 
 /// Counters restart from zero when a robot is power-cycled or a driver reconnects. The motion in between is
 /// unknown, so the pose continues from the last one as if the robot had stood still. The same applies to
-/// impossible jumps (readings::isJump, isFarAway).
+/// impossible jumps (readings::isJump).
 class OdometryContinuity {
  public:
   /// Announces that the next pose is in a new frame.
@@ -22,7 +22,7 @@ class OdometryContinuity {
   /// @param pose  as reported by the robot (m, rad)
   /// @return the pose in the first frame; bit-identical until the first restart
   mrpt::math::TPose2D operator()(const mrpt::math::TPose2D& pose) {
-    if (told_ ? isNewFrame_ || readings::isJump(*told_, pose) : readings::isFarAway(pose))
+    if (told_ && (isNewFrame_ || readings::isJump(*told_, pose)))
       start_ = Start{last_.value_or(mrpt::math::TPose2D()), pose};
     isNewFrame_ = false;
     told_ = pose;
@@ -40,7 +40,7 @@ class OdometryContinuity {
       last_;  ///< the previous pose, as reported and as returned
 };
 
-/// Transforms an odometry observation into the first frame; ignores others.
+/// Transforms an odometry observation into the first frame; ignores others, and impossible odometry.
 void rebase(mrpt::obs::CObservation& observation, OdometryContinuity& continuity);
 
 }  // namespace hybrid_slam::live

@@ -64,8 +64,8 @@ void LiveRun::takeObservation(const mrpt::obs::CObservation::Ptr& observation, C
   if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(observation))
     reportUse(*scan);
   const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation);
-  if (odometry && !hasWrongOdometry_ && !readings::isFinite(odometry->odometry.asTPose())) {
-    log_.report("odometry", "not a number; skipped, as are further ones");
+  if (odometry && !hasWrongOdometry_ && !readings::isPossible(odometry->odometry.asTPose())) {
+    log_.report("odometry", "not a number, or beyond 1e8 m or 1e6 rad; skipped, as are further ones");
     hasWrongOdometry_ = true;
   }
   const size_t jumps = assembler_.jumps(), dropped = assembler_.dropped();

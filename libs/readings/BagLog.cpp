@@ -44,9 +44,7 @@ mrpt::serialization::CSerializable::Ptr BagLog::next() {
       read(*message);
     }
     release(!message);
-    LogSummary& summary = objects_.summary;
-    if (summary.odometryJumps > 0 && summary.firstOdometryJump == 0) summary.firstOdometryJump = number_;
-    if (summary.timeJumps > 0 && summary.firstTimeJump == 0) summary.firstTimeJump = number_;
+    objects_.summary.areAt(number_);
     object = objects_.take();
     if (!message) break;
   }

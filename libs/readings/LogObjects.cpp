@@ -78,8 +78,10 @@ void LogObjects::operator()(const OdometryRecord& record) {
 
 void LogObjects::odometry(const OdometryRecord& record,
                           const mrpt::obs::CObservationOdometry::Ptr& observation) {
-  if (jumps_.isJump(record.pose, std::isnan(record.time) ? std::nullopt : std::optional(record.time)))
-    ++summary.odometryJumps;
+  if (!isPossible(record.pose))
+    ++summary.impossibleOdometry.count;
+  else if (jumps_.isJump(record.pose, std::isnan(record.time) ? std::nullopt : std::optional(record.time)))
+    ++summary.odometryJumps.count;
   else if (last_)
     summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
   last_ = record;
@@ -141,7 +143,7 @@ void LogObjects::writeActionUpTo(mrpt::Clock::time_point time) {
 void LogObjects::seenAt(double time) {
   if (std::isnan(time)) return;
   constexpr double kDay = 86400;  // s
-  if (lastTime_ && std::abs(time - *lastTime_) > kDay) ++summary.timeJumps;
+  if (lastTime_ && std::abs(time - *lastTime_) > kDay) ++summary.timeJumps.count;
   summary.earliest = lastTime_ ? std::min(summary.earliest, time) : time;
   summary.latest = lastTime_ ? std::max(summary.latest, time) : time;
   lastTime_ = time;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "readings/LogParser.h"
+#include "readings/Oddity.h"
 #include "readings/OdometryJumps.h"
 #include "readings/SweepTimes.h"
 
@@ -35,9 +36,13 @@ struct LogSummary {
   float longestRange = 0;                      ///< m, among the valid readings
   size_t wrongSweeps = 0;                      ///< scans that state an impossible scan time
   size_t ranges = 0, rangesBeyond = 0;         ///< readings above 0, and those at or beyond the maximum range
-  /// Jumps of the odometry (OdometryJumps) and rows over a day apart: number, and line, message or entry of
-  /// the first.
-  size_t odometryJumps = 0, firstOdometryJump = 0, timeJumps = 0, firstTimeJump = 0;
+  Oddity impossibleOdometry;                   ///< isPossible
+  Oddity odometryJumps;                        ///< OdometryJumps
+  Oddity timeJumps;                            ///< rows over a day apart
+  /// Says where the oddities since the last call are: line, message or entry.
+  void areAt(size_t entry) {
+    for (Oddity* oddity : {&impossibleOdometry, &odometryJumps, &timeJumps}) oddity->isAt(entry);
+  }
 };
 
 /// Returns odometry as an observation, labelled `ODOMETRY`.

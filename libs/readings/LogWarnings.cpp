@@ -22,7 +22,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
   add(log.repeatedStamps, "timestamps equal that of the previous scan", "kept");
   add(log.stepsBack, "timestamps step back", "log order kept");
-  add(log.wrongOdometry, "odometry readings that are not numbers", "skipped");
+  add(log.wrongOdometry, "odometry readings that are not numbers, or beyond 1e8 m or 1e6 rad", "skipped");
   add(log.noOdometry, "actions without odometry", "taken as no motion");
   add(log.jumps, "odometry jumps of over 100 m or far above the robot's speed", "taken as no motion");
   add(log.wrongSweeps, "scan times (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",

@@ -20,7 +20,7 @@ constexpr double kSimilar = 0.5;     // of the previous speed, between steps of 
 }  // namespace
 
 bool OdometryJumps::isJump(const TPose2D& reading, std::optional<double> time) {
-  const Reading now{TPoint2D(reading), time, isHeading(reading.phi)};
+  const Reading now{TPoint2D(reading), time};
   const Reading before = std::exchange(last_, now).value_or(now);
   const TPoint2D fastBefore = std::exchange(fast_, TPoint2D(0, 0));
   const TPoint2D step = now.at - before.at;
@@ -28,7 +28,7 @@ bool OdometryJumps::isJump(const TPose2D& reading, std::optional<double> time) {
   const TPoint2D velocity = step * (1 / (passed > 0 ? std::max(passed, kLeastTime) : kUnknownTime));
   const bool isTooFast = step.norm() > kShortest && velocity.norm() > kAcceleration * fastest_;
   const bool continues = (velocity - fastBefore).norm() < kSimilar * fastBefore.norm();
-  if (!now.hasHeading || !before.hasHeading || !(step.norm() <= kMaxStep) || (isTooFast && !continues)) {
+  if (step.norm() > kMaxStep || (isTooFast && !continues)) {
     fast_ = velocity, moved_ = {0, 0}, elapsed_ = 0;
     return true;
   }

@@ -26,7 +26,7 @@ bool hasOdometryReadings(const std::string& file) {
   while (const auto object = hasSome ? nullptr : reader.next())
     forEachObservation(object, [&](const CObservation::Ptr& observation) {
       const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
-      hasSome = hasSome || (odometry && isFinite(odometry->odometry.asTPose()));
+      hasSome = hasSome || (odometry && isPossible(odometry->odometry.asTPose()));
     });
   return hasSome;
 }
@@ -57,10 +57,7 @@ mrpt::serialization::CSerializable::Ptr RawlogLog::next() {
     const auto read = reader_.next();
     if (!read) break;
     take(read);
-    LogSummary& summary = objects_.summary;
-    if (summary.odometryJumps > 0 && summary.firstOdometryJump == 0)
-      summary.firstOdometryJump = reader_.entry();
-    if (summary.timeJumps > 0 && summary.firstTimeJump == 0) summary.firstTimeJump = reader_.entry();
+    objects_.summary.areAt(reader_.entry());
     object = objects_.take();
   }
   if (!object && summary().scans == 0)

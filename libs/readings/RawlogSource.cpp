@@ -105,8 +105,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   Uses uses;
   std::map<std::string, double> last;  // timestamp of each laser's previous scan
   double earliest = 0, latest = 0;
-  const auto noteOdometry = [&](const TPose2D& pose, bool& hasSome) {
-    if (isFinite(pose))
+  const auto noteOdometry = [&](bool isRight, bool& hasSome) {
+    if (isRight)
       hasSome = true;
     else
       note(summary.wrongOdometry, reader.entry());
@@ -116,8 +116,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
-    noteOdometry(pose, summary.hasOdometryReadings);
-    if (!isFinite(pose)) return;
+    noteOdometry(isPossible(pose), summary.hasOdometryReadings);
+    if (!isPossible(pose)) return;
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
     readingsMove |= pose != *first;
@@ -146,7 +146,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   while (const auto object = reader.next()) {
     if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
     if (const auto increment = incrementOf(object)) {
-      noteOdometry(*increment, summary.hasActions);
+      noteOdometry(isFinite(*increment), summary.hasActions);
       actionsMove |= isFinite(*increment) && *increment != TPose2D();
       if (isFinite(*increment) && isJump({}, *increment)) note(summary.jumps, reader.entry());
     } else if (isAction(object)) {

@@ -11,6 +11,7 @@
 #include "base/Options.h"
 #include "readings/LaserPose.h"
 #include "readings/LogReader.h"
+#include "readings/Oddity.h"
 #include "readings/ReadingAssembler.h"
 
 namespace hybrid_slam::readings {
@@ -36,11 +37,6 @@ struct InputOptions : Options {
 /// Returns the times of the lasers' sweeps; none without odometry, which the correction of beams needs.
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry);
 
-/// Number of occurrences of an anomaly in a log, and the first entry (from 1).
-struct Oddity {
-  size_t count = 0, first = 0;
-};
-
 /// Summary of a log, from one pass before the filter runs.
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
@@ -48,7 +44,7 @@ struct RawlogSummary {
   size_t scans = 0;  ///< readings, without `early`: scans that several lasers take at one time count as one
   Oddity early;      ///< readings that ReadingAssembler drops before the first odometry
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
-  Oddity wrongOdometry;                                                   ///< NaN or infinite
+  Oddity wrongOdometry;                                                   ///< impossible (isPossible)
   Oddity noOdometry;                                                      ///< actions
   Oddity wrongSweeps;                                                     ///< impossible scan times
   Oddity jumps;                                                           ///< of the odometry (OdometryJumps)

@@ -90,7 +90,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (hasOdometryReadings_ && isFinite(odometry->odometry.asTPose())) takeOdometry(*odometry);
+      if (hasOdometryReadings_ && isPossible(odometry->odometry.asTPose())) takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
@@ -153,12 +153,10 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
 
 TPose2D ReadingAssembler::withoutJumps(const CObservationOdometry& odometry) {
   const TPose2D reading = odometry.odometry.asTPose();
-  const bool isFirst = !lastReading_;
   const TPose2D before = lastReading_.value_or(reading);
   lastReading_ = reading;
-  const bool isAJump = odometryJumps_.isJump(reading, timeOf(odometry)) || (isFirst && isFarAway(reading));
+  const bool isAJump = odometryJumps_.isJump(reading, timeOf(odometry));
   jumps_ += isAJump ? 1 : 0;
-  if (isFirst && isAJump) return {};
   if (jumps_ == 0 || !lastOdometry_) return reading;
   return isAJump ? *lastOdometry_ : *lastOdometry_ + (reading - before);
 }

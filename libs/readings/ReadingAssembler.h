@@ -39,11 +39,11 @@ constexpr size_t kMostEarly = 5;
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
 /// previous odometry reading is used; the last five readings before the first odometry reading use that one,
-/// and earlier ones are dropped. A jump of the odometry (OdometryJumps), or a first reading beyond 1e8 m,
-/// counts as no motion; the odometry continues from the new value. Scans taken over 10 m apart never form one
-/// reading. Scans without beams or with a sensor pose that is not finite are dropped. Beams that are NaN,
-/// infinite, not positive, or at or beyond the scan's maximum range are marked invalid. ScanGrouper decides
-/// which scans are used and which of them form one reading.
+/// and earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the
+/// odometry (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over
+/// 10 m apart never form one reading. Scans without beams or with a sensor pose that is not finite are
+/// dropped. Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked
+/// invalid. ScanGrouper decides which scans are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its

@@ -95,7 +95,7 @@ TEST(ReadingAssembler, ScansFarApartAreNoReading) {
 }
 
 /// The reading after a wrong first one begins the path; map coordinates are no error.
-TEST(ReadingAssembler, AWrongFirstOdometryIsAJump) {
+TEST(ReadingAssembler, ImpossibleOdometryIsSkipped) {
   const auto readings = assembled(
       {odometry(1, {1e20, 0, 0}), scan(1), odometry(2, {5, 0, 0}), scan(2), odometry(3, {6, 0, 0}), scan(3)});
   ASSERT_EQ(readings.size(), 3u);

@@ -65,10 +65,7 @@ mrpt::serialization::CSerializable::Ptr TextLog::next() {
 void TextLog::convert(const std::string& line) {
   try {
     std::visit(*objects_, parser_->parse(line));
-    LogSummary& summary = objects_->summary;
-    if (summary.odometryJumps > 0 && summary.firstOdometryJump == 0)
-      summary.firstOdometryJump = lines_.number();
-    if (summary.timeJumps > 0 && summary.firstTimeJump == 0) summary.firstTimeJump = lines_.number();
+    objects_->summary.areAt(lines_.number());
   } catch (const BrokenLine& broken) {
     if (strict_)
       throw InputError("broken line", lines_.path() + ", line " + std::to_string(lines_.number()),

@@ -69,6 +69,17 @@ bool isThere(const fs::path& file) {
   return fs::exists(file, none);
 }
 
+/// Opens a file; opening a pipe would wait for its writer.
+std::ifstream opened(const fs::path& file) {
+  std::error_code none;
+  std::ifstream in;
+  if (fs::is_regular_file(file, none))
+    in.open(file);
+  else
+    in.setstate(std::ios::failbit);
+  return in;
+}
+
 }  // namespace
 
 void noteLog(RunIdentity& identity, const std::string& log) {
@@ -82,7 +93,7 @@ void noteLog(RunIdentity& identity, const std::string& log) {
 void expectLog(const fs::path& runs, const RunIdentity& identity) {
   std::error_code none;  // no runs yet
   for (const auto& entry : fs::directory_iterator(runs, none)) {
-    std::ifstream config(entry.path() / "config.ini");
+    std::ifstream config = opened(entry.path() / "config.ini");
     if (!config || entry.path().filename().string()[0] == '.') continue;  // failed or unfinished
     const std::string log = settingsOf(config)["[run] rawlog"];
     if (canonical(log) != identity.log) differs(entry.path(), "log " + log + ", now " + identity.log);
@@ -90,7 +101,7 @@ void expectLog(const fs::path& runs, const RunIdentity& identity) {
 }
 
 void RunFolder::expect(const RunIdentity& identity) const {
-  std::ifstream config(file("config.ini"));
+  std::ifstream config = opened(file("config.ini"));
   std::istringstream expectedConfig(identity.configuration);
   auto found = settingsOf(config), expected = settingsOf(expectedConfig);
   if (canonical(found["[run] rawlog"]) != identity.log)
@@ -139,6 +150,9 @@ void RunFolder::finish() const {
 }
 
 std::string RunFolder::damage() const {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder_, none))
+    if (!entry.is_regular_file(none) && !entry.is_directory(none)) return entry.path().filename().string();
   if (isThere(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
   if (!isThere(file(kChecksums))) return {};
   const auto checksums = readJson(file(kChecksums));
@@ -166,7 +180,7 @@ void RunFolder::abandon() const {
 }
 
 std::string RunFolder::error() const {
-  std::ifstream in(file(kError));
+  std::ifstream in = opened(file(kError));
   std::string line;
   std::getline(in, line);
   return line;

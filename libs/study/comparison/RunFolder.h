@@ -48,8 +48,8 @@ class RunFolder {
   void begin(const RunIdentity& identity) const;
   /// Records checksums of the partial folder's files, and renames it to its final name.
   void finish() const;
-  /// The first file of the run that is broken or has changed since; empty if there is none. Without
-  /// checksums, only origin.json is checked.
+  /// The first entry of the folder that is broken, has changed since, or is a pipe or the like; empty if
+  /// there is none. Without checksums, the contents of origin.json alone are checked.
   std::string damage() const;
   /// Removes the run.
   void discard() const { std::filesystem::remove_all(folder_); }

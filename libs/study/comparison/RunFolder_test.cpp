@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <functional>
 
@@ -145,6 +146,24 @@ TEST_F(RunFolderTest, AnEmptyConfigurationIsAnotherRuns) {
   finishRun();
   std::ofstream(folder.file("config.ini")) << "";
   EXPECT_THAT(difference(identity), HasSubstr("log "));
+}
+
+// Opening a pipe waits for its writer.
+TEST_F(RunFolderTest, APipeInPlaceOfAFileIsDamage) {
+  finishRun();
+  for (const char* name : {"config.ini", "steps.csv", "origin.json", "checksums.json", "error.txt"}) {
+    SCOPED_TRACE(name);
+    fs::rename(folder.path(), temporary.path("other"));
+    fs::copy(temporary.path("other"), folder.path());
+    fs::remove(folder.file(name));
+    ASSERT_EQ(mkfifo(folder.file(name).c_str(), 0600), 0);
+    EXPECT_NO_THROW(expectLog(folder.path().parent_path(), identity));
+    EXPECT_EQ(folder.damage(), name);
+    EXPECT_EQ(folder.error(), "");
+    difference(identity);  // returns
+    folder.discard();
+    fs::rename(temporary.path("other"), folder.path());
+  }
 }
 
 TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {
