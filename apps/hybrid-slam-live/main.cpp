@@ -84,7 +84,7 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
   const auto finish = [&] {
     const size_t lost = client ? client->lost() : 0;
     source.reset();  // else observations would pile up unread
-    return run.finish(lost);
+    return run.finish(lost, live::kPatience);
   };
   try {
     source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { run.take(cycle); },

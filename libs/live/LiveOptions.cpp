@@ -15,7 +15,7 @@ void LiveOptions::describe(OptionTable& t) {
   t.add("cycle_rate", cycleRate, 0, 1000, "1/s", "cycle rate of this file's sensors; 0: one cycle per scan");
   t.add("sensor_timeout", sensorTimeout, 0.1, 3600, "s",
         "restart a sensor of this file after this long without data");
-  t.add("max_waiting", maxWaiting, 1, 1000000,
+  t.add("max_waiting", maxWaiting, 1, 100000,
         "largest number of scans waiting for the filter; beyond it all but the newest are skipped, their "
         "motion is kept");
   t.add("recording", recording,

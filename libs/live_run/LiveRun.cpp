@@ -50,7 +50,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
 }
 
 LiveRun::~LiveRun() {
-  stopFilter();
+  stopFilter(Clock::now());
   run_.finishCheckpoint();  // it uses the recording
 }
 
@@ -155,16 +155,18 @@ void LiveRun::tellVerdict() try {
   log_.report("map", "not judged: " + messageOf(e));
 }
 
-void LiveRun::stopFilter() {
+void LiveRun::stopFilter(Clock::time_point deadline) {
   if (!thread_.joinable()) return;
-  queue_.close();
+  queue_.close(deadline);
   thread_.join();
 }
 
-std::string LiveRun::finish(size_t lost) {
+std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
   assembler_.finish();
   while (const auto reading = assembler_.next()) queue_.push(*reading, Clock::now());
-  stopFilter();
+  stopFilter(patience ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(*patience))
+                      : Clock::time_point::max());
   recording_.finish();
   if (run_.scans() == 0 && failure_) std::rethrow_exception(failure_);
   if (run_.scans() == 0) throw std::runtime_error("no scan with odometry received");

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -22,6 +23,9 @@
 #include "run/VerdictCheck.h"
 
 namespace hybrid_slam::live {
+
+/// How long (s) the results wait for the readings that the filter has not processed when a user ends the run.
+constexpr double kPatience = 10;
 
 /// The caller's thread records and pairs readings; a second thread filters. Replaying the recording with
 /// hybrid-slam gives the same readings and, if none was skipped, identical results.
@@ -54,13 +58,14 @@ class LiveRun {
   /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
 
-  /// Filters the waiting readings, then writes all results; if the recording cannot be read (full disk),
+  /// Filters the waiting readings, of those after `patience` the newest, then writes all results; if the recording cannot be read (full disk),
   /// those that do not need it.
-  /// @param lost  number of lost cycles, for metrics.json
+  /// @param lost      number of lost cycles, for metrics.json
+  /// @param patience  s, for the waiting readings; empty: as long as they take
   /// @return the summary and the verdict, a line each
   /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results
   ///         up to it have been written; the recording is kept
-  std::string finish(size_t lost);
+  std::string finish(size_t lost, std::optional<double> patience = {});
 
   const std::string& recording() const { return recording_.path(); }  ///< the rawlog of this run
   size_t skipped() const { return skipped_; }
@@ -72,7 +77,7 @@ class LiveRun {
   /// Reports once for each laser whether it is used.
   void reportUse(const mrpt::obs::CObservation2DRangeScan& scan);
   void filter();
-  void stopFilter();
+  void stopFilter(Clock::time_point deadline);
   void tellSkipped();
   void tellNotes();
   void tellState();

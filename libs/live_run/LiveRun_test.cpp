@@ -147,6 +147,25 @@ TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
       << "the recording has all";
 }
 
+// Otherwise a run with a long queue has no results for minutes after Ctrl-C.
+TEST_F(LiveRunTest, TheResultsWaitForTheQueueAsLongAsTheyMay) {
+  options.maxWaiting = 1000;
+  run::Configuration c = configuration("live");
+  LiveRun run(c, options, events.log(), true);
+  run.setWatcher([](const FilterView&, const readings::Reading&, bool) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  });
+  CycleGrouper grouper(0, [&](const CSensoryFrame::Ptr& cycle) { run.take(cycle); });
+  for (const auto& object : test::laps(50))
+    grouper.add(std::dynamic_pointer_cast<mrpt::obs::CObservation>(object));
+  grouper.finish();
+  run.finish(0, 0.1);
+  const auto metrics = nlohmann::json::parse(result("live/metrics.json"));
+  EXPECT_GT(metrics["skipped"], 10);
+  EXPECT_EQ(metrics["scans"].get<size_t>() + metrics["skipped"].get<size_t>(), 50u);
+  EXPECT_NEAR(files::loadTum(folder.path("live/trajectory.tum")).back().timestamp, 1000 + 0.2 * 49, 1e-6);
+}
+
 TEST_F(LiveRunTest, AFilterThatIsAlwaysLateDoesNotFloodTheLog) {
   options.maxWaiting = 1;
   run::Configuration c = configuration("live");

@@ -23,9 +23,11 @@ struct QueuedReading {
 /// filter thus lags by at most the time for `limit` scans and never processes a backlog.
 class ReadingQueue {
  public:
+  using Clock = std::chrono::steady_clock;
+
   explicit ReadingQueue(size_t limit) : limit_(limit) {}
 
-  void push(const readings::Reading& reading, std::chrono::steady_clock::time_point arrival) {
+  void push(const readings::Reading& reading, Clock::time_point arrival) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       waiting_.push_back({reading, 0, arrival});
@@ -33,11 +35,12 @@ class ReadingQueue {
     }
     changed_.notify_one();
   }
-  /// Announces the end of the readings.
-  void close() {
+  /// Announces the end of the readings. Of those that still wait at the deadline, only the newest is kept.
+  void close(Clock::time_point deadline = Clock::time_point::max()) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       isClosed_ = true;
+      deadline_ = deadline;
     }
     changed_.notify_all();
   }
@@ -46,6 +49,7 @@ class ReadingQueue {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return isClosed_ || !waiting_.empty(); });
     if (waiting_.empty()) return std::nullopt;
+    if (waiting_.size() > 1 && Clock::now() >= deadline_) keepNewest();
     QueuedReading next = waiting_.front();
     waiting_.pop_front();
     return next;
@@ -63,6 +67,7 @@ class ReadingQueue {
   }
 
   size_t limit_;
+  Clock::time_point deadline_ = Clock::time_point::max();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<QueuedReading> waiting_;

@@ -43,6 +43,19 @@ TEST(ReadingQueue, BeyondTheLimitTheNewestCarriesTheMotionOfAll) {
   EXPECT_FALSE(queue.pop());
 }
 
+TEST(ReadingQueue, AfterTheDeadlineTheNewestCarriesTheMotionOfAll) {
+  ReadingQueue queue(10);
+  for (int i = 0; i < 5; ++i) queue.push(reading(i), {});
+  EXPECT_EQ(queue.pop()->reading.timestamp, 0);
+  queue.close(ReadingQueue::Clock::now());
+  const auto newest = queue.pop();
+  ASSERT_TRUE(newest);
+  EXPECT_EQ(newest->reading.timestamp, 4);
+  EXPECT_EQ(newest->skipped, 3u);
+  EXPECT_EQ(newest->reading.motion, TPose2D(4, 0, 0));
+  EXPECT_FALSE(queue.pop());
+}
+
 TEST(ReadingQueue, EveryReadingIsTakenOrSkipped) {
   ReadingQueue queue(2);
   constexpr int kCount = 20000;

@@ -18,14 +18,7 @@ constexpr int kAttempts = 5;
 }  // namespace
 
 void PioneerOptions::describe(OptionTable& t) {
-  t.add("driver", driver, "PioneerOdometry");
-  t.add("sensorLabel", sensorLabel, "label of the observations");
-  t.add("process_rate", processRate, 0.1, 1000, "1/s",
-        "polling rate of the port; the robot sends 10 packets per second");
-  t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: maximum number of queued observations");
-  t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: keep one observation in this many; 0: all");
-  t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: ignore this sensor");
-  t.add("time_offset", timeOffset, -10, 10, "s", "added to the observations' timestamps");
+  describeCommon(t, "PioneerOdometry", "the robot sends 10 packets per second");
   t.add("serial_port", serialPort, "serial device, such as ttyUSB0; empty: TCP");
   t.add("baud_rate", baudRate, 1200, 230400, "baud rate of the serial line");
   t.add("host", host, "host of a serial-to-TCP bridge or of a simulator");

@@ -11,18 +11,14 @@
 #include <optional>
 #include <string>
 
-#include "base/Options.h"
 #include "live/SipOdometry.h"
 #include "live/TcpSocket.h"
+#include "sensors/SensorOptions.h"
 
 namespace hybrid_slam::sensors {
 
-/// The keys of the sensor's INI section, including those common to all sensors.
-struct PioneerOptions : Options {
-  std::string driver, sensorLabel = "ODOMETRY";
-  double processRate = 20, timeOffset = 0;
-  int maxQueueLength = 200, grabDecimation = 0;
-  bool isIgnored = false;
+struct PioneerOptions : SensorOptions {
+  PioneerOptions() { sensorLabel = "ODOMETRY", processRate = 20; }
   std::string serialPort, host;
   int baudRate = 9600, tcpPort = 8101;
   double millimetresPerUnit = 1;

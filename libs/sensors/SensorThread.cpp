@@ -16,6 +16,7 @@
 #include "base/Errors.h"
 #include "files/ObjectReader.h"
 #include "live/OdometryContinuity.h"
+#include "sensors/Lms100.h"
 #include "sensors/PioneerOdometry.h"
 
 namespace hybrid_slam::sensors {
@@ -189,6 +190,7 @@ SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const 
                            double timeout, std::shared_ptr<ObservationInbox> inbox,
                            std::shared_ptr<live::EventLog> log)
     : work_(std::make_shared<Work>()) {
+  Lms100::doRegister();
   PioneerOdometry::doRegister();
   const std::string where = "section [" + section + "]";
   work_->config.setContent(config.getContent());  // copies would share the content between threads
@@ -200,7 +202,7 @@ SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const 
   if (!CGenericSensor::createSensorPtr(work_->driver))
     throw InputError(
         "unknown driver `" + work_->driver + "`", where + ", key `driver`",
-        "expected PioneerOdometry or one of MRPT's, such as CLMS100Eth, CHokuyoURG, CSickLaserSerial");
+        "expected Lms100, PioneerOdometry or one of MRPT's, such as CHokuyoURG, CSickLaserSerial");
   if (work_->driver == "CLMS100Eth") checkLaserAddress(config, section);
   try {
     work_->timeOffset = config.read_double(section, "time_offset", 0);

@@ -119,7 +119,7 @@ std::string LiveSession::run() {
                return isStopping_ || live.hasFailed();
              });
   snapshot_.change([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
-  const std::string summary = live.finish(client.lost());
+  const std::string summary = live.finish(client.lost(), live::kPatience);
   const auto last = isOutdated ? watch.snapshot(live.view()) : nullptr;
   snapshot_.change([&](LiveSnapshot& next) {
     next.recording = live.recording();
