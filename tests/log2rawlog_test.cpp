@@ -74,6 +74,16 @@ TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
                      log + ", line 6; kept as logged\n");
 }
 
+/// The rawlog must not get the descriptor of standard error, and with it the warnings.
+TEST_F(Log2Rawlog, ClosedStandardDescriptorsHarmNoResult) {
+  const std::string log = folder.write("in.clf", odometryRow("10", "1e30") + scanRow("10") + "SYNC tag\n");
+  EXPECT_EQ(convert(log), 0);
+  const std::string expected = contentOf(rawlog);
+  test::shell(folder, "('" LOG2RAWLOG "' '" + log + "' '" + rawlog + "' <&- >&- 2>&-; echo $? >code); true");
+  EXPECT_EQ(contentOf(folder.path("code")), "0\n");
+  EXPECT_EQ(contentOf(rawlog), expected);
+}
+
 TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5") + "SYNC tag\n");
   EXPECT_EQ(convert(log), 0);

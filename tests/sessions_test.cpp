@@ -143,6 +143,8 @@ TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
   std::string damaged = bytes;
   damaged[bytes.size() / 2] = static_cast<char>(~damaged[bytes.size() / 2]);
   expectRefused(write("damaged", damaged), "damaged");
+  expectRefused(write("longer", bytes + 'x'), "damaged");
+  expectRefused(write("twice", bytes + bytes), "damaged");
   std::string newer = plain;
   newer[8] = 2;
   expectRefused(write("newer", files::gzipped(newer)), "session of format 2");

@@ -13,6 +13,7 @@
 #include "InputFiles.h"
 #include "NumberRange.h"
 #include "Program.h"
+#include "Stop.h"
 #include "TopicArguments.h"
 #include "base/Numbers.h"
 #include "readings/LogConversion.h"
@@ -128,6 +129,8 @@ int convert(int argc, char** argv) {
                "fail at the first broken line or message, or where a bag or rawlog is cut off");
 
   if (const auto code = parse(app, argc, argv)) return *code;
+  stopOnSignals();
+  options.isStopped = [] { return stop.load(); };
   options.format = readings::formatNamed(format);  // null: detected
   options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
   if (angularStepDeg) options.angularStep = mrpt::DEG2RAD(*angularStepDeg);

@@ -17,6 +17,11 @@ std::string withoutCallStacks(const std::string& text) {
 
 }  // namespace
 
+std::string InputError::visible(std::string text) {
+  for (size_t at = 0; (at = text.find('\0', at)) != std::string::npos; at += 4) text.replace(at, 1, "\\x00");
+  return text;
+}
+
 std::string messageOf(const std::exception& exception) {
   const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
   std::string text = mrpt ? mrpt->originalWhat : exception.what();

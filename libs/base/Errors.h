@@ -16,7 +16,11 @@ class InputError : public std::runtime_error {
   /// @param where     file, section, key, entry number
   /// @param expected  what was expected instead
   InputError(const std::string& what, const std::string& where, const std::string& expected)
-      : std::runtime_error(what + ": " + where + "; " + expected) {}
+      : std::runtime_error(visible(what + ": " + where + "; " + expected)) {}
+
+ private:
+  /// Writes zero bytes of a file as `\x00`: they would end the message.
+  static std::string visible(std::string text);
 };
 
 /// The message of an exception on one line, without the code location and call stack that MRPT adds.

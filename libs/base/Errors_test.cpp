@@ -29,6 +29,11 @@ TEST(MessageOf, AQuotedExceptionIsWithoutItsCallStack) {
   }
 }
 
+TEST(InputError, AZeroByteDoesNotEndTheMessage) {
+  EXPECT_STREQ(InputError("no such file", std::string("a\0b\0", 4), "expected one").what(),
+               "no such file: a\\x00b\\x00; expected one");
+}
+
 TEST(MessageOf, OtherMessagesAreUnchanged) {
   EXPECT_EQ(messageOf(std::runtime_error("one\ntwo\n")), "one two");
   EXPECT_EQ(messageOf(std::bad_alloc()), "std::bad_alloc");

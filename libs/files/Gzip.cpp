@@ -70,6 +70,8 @@ std::string readGzip(const std::string& path, const std::string& what, size_t mo
       throw InputError("too large", path,
                        expected + " of at most " + std::to_string(mostBytes >> 20) + " MiB");
   }
+  if (stream.avail_in > 0 || in.peek() != std::ifstream::traits_type::eof())
+    throw InputError("damaged", path, expected + ", with no bytes behind its end");
   return out;
 }
 

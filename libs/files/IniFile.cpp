@@ -151,9 +151,6 @@ std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, co
   source.getAllSections(present);
 
   const auto isOurs = [&ours](const std::string& section) { return contains(ours, section); };
-  if (!file.empty() && std::none_of(present.begin(), present.end(), isOurs) &&
-      (otherwise.empty() || !source.sectionExists(otherwise)))
-    throw InputError("missing section", file, expected);
   for (const std::string& section : present) {
     const std::string nearest = nearestName(section, ours);
     if (isOurs(section)) continue;
@@ -163,6 +160,9 @@ std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, co
     if (!isOfOthers(source, section))
       warnings.push_back("unknown section [" + section + "]: " + file + "; ignored, " + known);
   }
+  if (!file.empty() && std::none_of(present.begin(), present.end(), isOurs) &&
+      (otherwise.empty() || !source.sectionExists(otherwise)))
+    throw InputError("missing section", file, expected);
   load(sections, source, file);
   for (const std::string& setting : settings) {
     if (setting.find_first_of("\r\n") != std::string::npos)  // which config.ini could not hold

@@ -1,6 +1,7 @@
 #include "readings/LogConversion.h"
 
 #include <filesystem>
+#include <stdexcept>
 
 #include "base/Errors.h"
 #include "files/LineReader.h"
@@ -13,14 +14,25 @@ namespace hybrid_slam::readings {
 
 namespace {
 
-/// Writes the objects of a bag or rawlog.
+/// Writes the objects of a log. @throws std::runtime_error if stopped
 template <class Log>
-LogSummary convert(Log& log, const std::string& file, const std::string& rawlog, bool isStrict) {
+void write(Log& log, const std::string& file, files::RawlogWriter& writer,
+           const LogConversionOptions& options) {
+  while (const auto object = log.next()) {
+    if (options.isStopped()) throw std::runtime_error("interrupted: " + file + "; nothing was written");
+    writer.write(*object);
+  }
+}
+
+/// Converts a bag or rawlog.
+template <class Log>
+LogSummary convert(Log& log, const std::string& file, const std::string& rawlog,
+                   const LogConversionOptions& options) {
   files::RawlogWriter writer(rawlog);
-  while (const auto object = log.next()) writer.write(*object);
+  write(log, file, writer, options);
   LogSummary summary = log.summary();
   summary.defect = log.defect();
-  if (isStrict && !summary.defect.empty())
+  if (options.strict && !summary.defect.empty())
     throw InputError(summary.format + " " + summary.defect, file, "expected a whole file");
   writer.finish();
   return summary;
@@ -44,20 +56,20 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
   if (bags::isBag(logPath)) {
-    BagLog log(logPath, planOf(contentsOf(logPath), bag, logPath), options, report);
-    LogSummary summary = convert(log, logPath, rawlogPath, options.strict);
+    BagLog log(logPath, planOf(contentsOf(logPath, options.isStopped), bag, logPath), options, report);
+    LogSummary summary = convert(log, logPath, rawlogPath, options);
     summary.notes = log.plan().notes;
     return summary;
   }
   if (isRawlog(logPath)) {
     RawlogLog log(logPath, options);
-    LogSummary summary = convert(log, logPath, rawlogPath, options.strict);
+    LogSummary summary = convert(log, logPath, rawlogPath, options);
     summary.notes = log.notes();
     return summary;
   }
   TextLog log(logPath, options, report);
   files::RawlogWriter writer(rawlogPath);
-  while (const auto object = log.next()) writer.write(*object);
+  write(log, logPath, writer, options);
   writer.finish();
   LogSummary summary = log.summary();
   summary.notes = log.ignoredLasers();

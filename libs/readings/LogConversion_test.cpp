@@ -81,6 +81,22 @@ Converted convert(const std::string& log, const LogConversionOptions& options = 
   return convertFile(folder.write("in.log", log), options);
 }
 
+TEST(LogConversion, AStoppedOneLeavesNothing) {
+  const files::TemporaryFolder folder, out;
+  const std::string text =
+                        folder.write("in.log", odom("0 0 0", "100") + laser("FLASER", 181, "1 0 0", "103")),
+                    rawlog = folder.path("in.rawlog");
+  const auto ignore = [](size_t, const std::string&) {};
+  convertLog(text, rawlog, {}, ignore);
+  LogConversionOptions options;
+  options.isStopped = [] { return true; };
+  for (const std::string& log : {text, rawlog}) {
+    EXPECT_THAT([&] { convertLog(log, out.path("out.rawlog"), options, ignore); },
+                testing::ThrowsMessage<std::runtime_error>("interrupted: " + log + "; nothing was written"));
+    EXPECT_TRUE(std::filesystem::is_empty(out.path("")));
+  }
+}
+
 TEST(LogConversion, KeepsOrderAndTimesThatStepBack) {
   auto result =
       convert(odom("0 0 0", "100.25") + laser("FLASER", 181, "1 0 0", "103.123456") + odom("2 0 0", "101.5") +

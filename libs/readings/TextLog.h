@@ -26,6 +26,7 @@ struct LogConversionOptions : LogParserOptions {
   SweepSetting sweep;              ///< scan times in place of those that the log states
   bool actionObservation = false;  ///< (action, sensory frame) pairs instead of one observation per row
   bool strict = false;             ///< fail at the first broken line or message
+  std::function<bool()> isStopped = [] { return false; };  ///< asked after each object
 };
 
 /// Called for each broken line with its number and error.

@@ -72,6 +72,7 @@ TEST_F(ConfigurationTest, MisspeltSection) {
   EXPECT_EQ(errorOf("[run]\n[particlefilter]\nparticles = 3\n"),
             "unknown section [particlefilter]: " + ini + "; the nearest known section is [particle_filter]");
   EXPECT_THAT(errorOf("[run]\n[gird]\n"), HasSubstr("[grid]"));
+  EXPECT_THAT(errorOf("[gird]\n"), HasSubstr("[grid]")) << "alone";
   EXPECT_THAT(errorOf("[grid]\n[rnu]\n"), HasSubstr("[run]"));
   EXPECT_EQ(errorOf("[run]\n[gui]\nx=1\n[grab]\n[laser]\n[MappingApplication_pointsMap_00_insertOpts]\n"),
             "no error")
