@@ -223,7 +223,7 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
 TEST_F(HybridSlam, ScansWithoutBeamsAreSkipped) {
   test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
-  expectDone(replay(log), "1 scans without beams (or aperture or sensor pose): first at entry 4 of " +
+  expectDone(replay(log), "1 scan without beams (or aperture or sensor pose): first at entry 4 of " +
                               folder.path("log.rawlog"));
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 9u);
 }
@@ -287,7 +287,7 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   for (const double jump : {60., 101., 1e5, 1e7}) {
     SCOPED_TRACE(jump);
     expectDone(replay(withJump(jump)),
-               "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 11 of " +
+               "1 odometry jump of over 100 m or far above the robot's speed: first at entry 11 of " +
                    folder.path("log.rawlog"));
     const auto poses = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(poses.size(), 10u);
@@ -300,9 +300,10 @@ TEST_F(HybridSlam, ImpossibleOdometryIsSkipped) {
   for (const double jump : {1e9, 1e30, 1e300}) {
     SCOPED_TRACE(jump);
     EXPECT_EQ(replay(withJump(jump)), 0);
-    EXPECT_THAT(err, HasSubstr("5 odometry readings that are not numbers, or beyond 1e8 m or 1e6 rad: first "
-                               "at entry 11 of " +
-                               folder.path("log.rawlog") + "; skipped\n"));
+    EXPECT_THAT(err,
+                HasSubstr("5 impossible odometry readings: not a number, or beyond 1e8 m or 1e6 rad: first "
+                          "at entry 11 of " +
+                          folder.path("log.rawlog") + "; skipped\n"));
     EXPECT_THAT(err, HasSubstr("scan matching replaced it"));
     const auto poses = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(poses.size(), 10u);
@@ -312,7 +313,7 @@ TEST_F(HybridSlam, ImpossibleOdometryIsSkipped) {
   test::Log log = test::laps(10);
   for (size_t i = 0; i < 20; i += 2)
     std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(log[i])->odometry = {1e30, 0, 0};
-  expectDone(replay(log), "10 odometry readings that are not numbers");
+  expectDone(replay(log), "10 impossible odometry readings");
   EXPECT_THAT(out, HasSubstr("no odometry: motion is predicted from the previous steps"));
 }
 
@@ -326,13 +327,13 @@ TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
   for (const double far : {101., 3270., 1e5, 1e300}) {
     SCOPED_TRACE(far);
     expectDone(replay(with({far, far, 0, 0, 0, 0})),
-               "1 scans with a sensor pose over 100 m from the robot: first at entry 22 of");
+               "1 scan with a sensor pose over 100 m from the robot: first at entry 22 of");
     EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["skipped_readings"], 1);
     EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 39u);
   }
   for (const std::string options : {"", "--set input.sensor_label=LASER"})
     expectDone(replay(with({0, 0, 0, 0, 0.5, 0}), options),
-               "1 scans of a tilted plane: first at entry 22 of " + folder.path("log.rawlog"));
+               "1 scan of a tilted plane: first at entry 22 of " + folder.path("log.rawlog"));
   EXPECT_EQ(nlohmann::json::parse(result("metrics.json"))["complete"], true);
 }
 
@@ -373,7 +374,7 @@ TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
   expectDone(replay(log));
   expectDone(replay(log, "--set particle_filter.update_distance=100"));
   log[4] = test::action({1e30, 0, 0});
-  expectDone(replay(log), "1 odometry jumps of over 100 m or far above the robot's speed: first at entry 5");
+  expectDone(replay(log), "1 odometry jump of over 100 m or far above the robot's speed: first at entry 5");
 }
 
 TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
@@ -391,12 +392,12 @@ TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
     }
     return log;
   };
-  expectDone(replay(withTimes({0, 1, test::kNoTime, 3})), "1 scans without timestamp: first at entry 6");
+  expectDone(replay(withTimes({0, 1, test::kNoTime, 3})), "1 scan without timestamp: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
   expectDone(replay(withTimes({0, 1, 1, 3})),
-             "1 timestamps equal that of the previous scan: first at entry 6");
+             "1 timestamp equal to that of the previous scan: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 1, 1, 3));
-  expectDone(replay(withTimes({0, 2, 1, 3})), "1 timestamps step back: first at entry 6");
+  expectDone(replay(withTimes({0, 2, 1, 3})), "1 step back of the timestamps: first at entry 6");
   EXPECT_THAT(timesOf(), testing::ElementsAre(0, 2, 1, 3));
   expectDone(replay(withTimes(std::vector<double>(4, test::kNoTime))),
              "4 scans without timestamp: first at entry 2");

@@ -325,11 +325,11 @@ TEST_F(HybridSlam, ATextLogGivesWhatItsRawlogGives) {
   EXPECT_THAT(out, AllOf(HasSubstr("laser FLASER: 180 beams every 1 deg, at x 0.40 m"),
                          HasSubstr("line_weight.sigma_deg = 0.5")));
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 40u);
-  EXPECT_EQ(trajectoryOf(log, "1 broken lines: first at line 3 of " + log + "; skipped"), expected);
+  EXPECT_EQ(trajectoryOf(log, "1 broken line: first at line 3 of " + log + "; skipped"), expected);
   for (const files::Compression compression : test::kCompressions) {
     SCOPED_TRACE(files::nameOf(compression));
     const std::string packed = folder.write("packed", test::compressed(compression, contentOf(log)));
-    EXPECT_EQ(trajectoryOf(packed, "1 broken lines"), expected);
+    EXPECT_EQ(trajectoryOf(packed, "1 broken line"), expected);
   }
 
   const std::string bytes = test::compressed(files::Compression::gzip, contentOf(log));

@@ -64,13 +64,14 @@ TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
       "in.clf", odometryRow("10", "10") + scanRow("10") + odometryRow("11", "1e30") +
                     odometryRow("12", "11") + odometryRow("13", "200") + odometryRow("100000013", "201"));
   EXPECT_EQ(convert(log), 0);
-  EXPECT_EQ(err, "log2rawlog: warning: 1 odometry readings beyond 1e8 m or 1e6 rad: first in " + log +
+  EXPECT_EQ(err, "log2rawlog: warning: 1 impossible odometry reading: beyond 1e8 m or 1e6 rad: first in " +
+                     log +
                      ", line 3; kept as logged\n"
-                     "log2rawlog: warning: 1 odometry jumps of over 100 m or far above the robot's speed: "
+                     "log2rawlog: warning: 1 odometry jump of over 100 m or far above the robot's speed: "
                      "first in " +
                      log +
                      ", line 5; kept as logged\n"
-                     "log2rawlog: warning: 1 time jumps of over a day: first in " +
+                     "log2rawlog: warning: 1 time jump of over a day: first in " +
                      log + ", line 6; kept as logged\n");
 }
 

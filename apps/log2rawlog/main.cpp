@@ -56,17 +56,17 @@ void warnOfShortRange(const std::string& input, const readings::LogSummary& s, d
 void warnOfOddities(const std::string& input, const readings::LogSummary& s) {
   const auto warnOf = [&](const readings::Oddity& odd, const std::string& what) {
     if (odd.count > 0)
-      warn({std::to_string(odd.count) + " " + what + ": first in " + input + ", " + s.unit + " " +
+      warn({counted(odd.count, what) + ": first in " + input + ", " + s.unit + " " +
             std::to_string(odd.first) + "; kept as logged"});
   };
-  warnOf(s.impossibleOdometry, "odometry readings beyond 1e8 m or 1e6 rad");
-  warnOf(s.odometryJumps, "odometry jumps of over 100 m or far above the robot's speed");
-  warnOf(s.timeJumps, "time jumps of over a day");
+  warnOf(s.impossibleOdometry, "impossible odometry reading(s): beyond 1e8 m or 1e6 rad");
+  warnOf(s.odometryJumps, "odometry jump(s) of over 100 m or far above the robot's speed");
+  warnOf(s.timeJumps, "time jump(s) of over a day");
 }
 
 void warnOfWrongSweeps(const std::string& input, const readings::LogSummary& s) {
   if (s.wrongSweeps > 0)
-    warn({std::to_string(s.wrongSweeps) + " scans with an impossible time from beam to beam: " + input +
+    warn({counted(s.wrongSweeps, "scan(s) with an impossible time from beam to beam: ") + input +
           "; they will not be corrected for the robot's motion"});
 }
 

@@ -37,4 +37,12 @@ std::string numberText(double value) {
   return text;
 }
 
+std::string counted(size_t number, std::string what) {
+  constexpr std::string_view kMark = "(s)";
+  const std::string ending = number == 1 ? "" : "s";
+  for (size_t at = 0; (at = what.find(kMark, at)) != std::string::npos; at += ending.size())
+    what.replace(at, kMark.size(), ending);
+  return std::to_string(number) + " " + what;
+}
+
 }  // namespace hybrid_slam

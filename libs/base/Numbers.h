@@ -5,6 +5,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ std::optional<double> parseFinite(std::string_view text);
 std::string numberText(double value, std::chars_format format, int precision);
 /// Formats like printf's %.Nf.
 std::string fixedText(double value, int decimals);
+/// Returns a number and what it counts, in which `(s)` marks the plural: counted(1, "scan(s) skipped").
+std::string counted(size_t number, std::string what);
 /// Decimal text with at least 6 significant digits that parses back to the same number.
 std::string numberText(double value);
 

@@ -53,5 +53,11 @@ TEST(Numbers, AreTheSameInEveryLocale) {
   EXPECT_EQ(fixedText(1234.5, 2), "1234.50");
 }
 
+TEST(Numbers, Counted) {
+  EXPECT_EQ(counted(0, "scan(s) skipped"), "0 scans skipped");
+  EXPECT_EQ(counted(1, "scan(s) skipped"), "1 scan skipped");
+  EXPECT_EQ(counted(2, "scan(s), or turn(s)"), "2 scans, or turns");
+}
+
 }  // namespace
 }  // namespace hybrid_slam

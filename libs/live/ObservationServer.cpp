@@ -14,6 +14,7 @@
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "live/Token.h"
 
 namespace hybrid_slam::live {
@@ -219,7 +220,7 @@ void ObservationServer::write(Client& client) {
   if (secondsSince(client.lastTaken) > limits_.patience) throw std::runtime_error("does not read");
   if (client.dropped == 0) return;
   if (client.queue.empty()) {
-    log_.report(client.name, "keeps up again; missed " + std::to_string(client.dropped) + " cycles");
+    log_.report(client.name, "keeps up again; missed " + counted(client.dropped, "cycle(s)"));
     client.dropped = 0;
   } else {
     log_.report(client.name, "too slow: oldest cycles dropped");

@@ -55,7 +55,7 @@ TEST(RawlogPlayer, SaysWhatIsWrongWithTheLog) {
       std::dynamic_pointer_cast<mrpt::obs::CObservation>(log[9])->timestamp;
   const std::string file = test::writeGzipped(folder.path("log"), log);
   EXPECT_THAT(RawlogPlayer(file, 5, kFast).warnings(),
-              testing::ElementsAre("1 timestamps equal that of the previous scan: first at entry 12 of " +
+              testing::ElementsAre("1 timestamp equal to that of the previous scan: first at entry 12 of " +
                                    file + "; kept"));
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   EXPECT_THAT(RawlogPlayer(file, 5, kFast).warnings().back(), testing::HasSubstr("served up to this point"));

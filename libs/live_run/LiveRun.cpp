@@ -121,7 +121,7 @@ void LiveRun::filter() {
 void LiveRun::tellSkipped() {
   if (skipped_ < 2 * toldSkipped_) return;
   toldSkipped_ = skipped_;
-  log_.report("filter", "late: " + std::to_string(skipped_) + " scans skipped so far");
+  log_.report("filter", "late: " + counted(skipped_, "scan(s) skipped so far"));
 }
 
 void LiveRun::tellNotes() {

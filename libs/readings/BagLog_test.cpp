@@ -101,7 +101,7 @@ TEST_F(BagLogTest, AnImpossibleTimeFromBeamToBeamIsReportedAndNotUsed) {
   EXPECT_EQ(log.wrongSweeps.count, 1);
   EXPECT_TRUE(log.sweeps.empty());
   EXPECT_THAT(warningsOf(log, file),
-              testing::Contains(HasSubstr("1 scan times (first beam to last) below 0 or over 1 s")));
+              testing::Contains(HasSubstr("1 scan time (first beam to last) below 0 or over 1 s")));
 }
 
 TEST_F(BagLogTest, WithoutOdometryAWarningSaysThatBeamsAreNotCorrected) {
@@ -253,7 +253,7 @@ TEST_F(BagLogTest, BrokenMessagesAreCountedAndSkipped) {
   EXPECT_EQ(summary.brokenLines.count, 1u);
   EXPECT_EQ(summary.brokenLines.first, 2u);
   EXPECT_THAT(warningsOf(summary, file),
-              testing::Contains(HasSubstr("1 broken messages: first at message 2 of ")));
+              testing::Contains(HasSubstr("1 broken message: first at message 2 of ")));
 }
 
 TEST_F(BagLogTest, ACutBagIsReadUpToTheCut) {

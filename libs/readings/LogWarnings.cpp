@@ -9,23 +9,26 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   std::vector<std::string> all;
   const auto add = [&](const Oddity& odd, const std::string& what, const std::string& done) {
     if (odd.count > 0)
-      all.push_back(std::to_string(odd.count) + " " + what + ": first at " + log.unit + " " +
-                    std::to_string(odd.first) + " of " + file + "; " + done);
+      all.push_back(counted(odd.count, what) + ": first at " + log.unit + " " + std::to_string(odd.first) +
+                    " of " + file + "; " + done);
   };
-  add(log.brokenLines, "broken " + log.unit + "s", "skipped");
-  add(log.passedOver, "observations of classes that are not read (" + log.passedOverClasses + ")", "skipped");
-  add(log.early, "scans before the last " + std::to_string(kMostEarly) + " that precede the first odometry",
+  add(log.brokenLines, "broken " + log.unit + "(s)", "skipped");
+  add(log.passedOver, "observation(s) of classes that are not read (" + log.passedOverClasses + ")",
       "skipped");
-  add(log.empty, "scans without beams (or aperture or sensor pose)", "skipped");
-  add(log.misplaced, "scans with a sensor pose over 100 m from the robot", "skipped");
-  add(log.tilted, "scans of a tilted plane", "skipped");
-  add(log.unstamped, "scans without timestamp", "previous scan's timestamp used");
-  add(log.repeatedStamps, "timestamps equal that of the previous scan", "kept");
-  add(log.stepsBack, "timestamps step back", "log order kept");
-  add(log.wrongOdometry, "odometry readings that are not numbers, or beyond 1e8 m or 1e6 rad", "skipped");
-  add(log.noOdometry, "actions without odometry", "taken as no motion");
-  add(log.jumps, "odometry jumps of over 100 m or far above the robot's speed", "taken as no motion");
-  add(log.wrongSweeps, "scan times (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",
+  add(log.early, "scan(s) before the first odometry, other than the last " + std::to_string(kMostEarly),
+      "skipped");
+  add(log.empty, "scan(s) without beams (or aperture or sensor pose)", "skipped");
+  add(log.misplaced, "scan(s) with a sensor pose over 100 m from the robot", "skipped");
+  add(log.tilted, "scan(s) of a tilted plane", "skipped");
+  add(log.unstamped, "scan(s) without timestamp", "previous scan's timestamp used");
+  add(log.repeatedStamps, "timestamp(s) equal to that of the previous scan", "kept");
+  add(log.stepsBack, "step(s) back of the timestamps", "log order kept");
+  add(log.wrongOdometry, "impossible odometry reading(s): not a number, or beyond 1e8 m or 1e6 rad",
+      "skipped");
+  add(log.noOdometry, "action(s) without odometry", "taken as no motion");
+  add(log.jumps, "odometry jump(s) of over 100 m or far above the robot's speed", "taken as no motion");
+  add(log.wrongSweeps,
+      "scan time(s) (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",
       "these scans are not corrected for the robot's motion");
   for (const auto& [label, seconds] : log.sweeps)
     if (!log.isDeskewed)

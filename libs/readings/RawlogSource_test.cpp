@@ -54,10 +54,10 @@ TEST(RawlogSource, ScansLongBeforeTheFirstOdometryAreCounted) {
   EXPECT_EQ(r.summary.early.count, 1495u);
   EXPECT_EQ(r.summary.early.first, 1u);
   EXPECT_EQ(r.summary.skippedReadings(), 1495u);
-  EXPECT_THAT(warningsOf(r.summary, "FILE"),
-              testing::ElementsAre(
-                  "1495 scans before the last 5 that precede the first odometry: first at entry 1 of "
-                  "FILE; skipped"));
+  EXPECT_THAT(
+      warningsOf(r.summary, "FILE"),
+      testing::ElementsAre("1495 scans before the first odometry, other than the last 5: first at entry 1 of "
+                           "FILE; skipped"));
   EXPECT_EQ(replayed(ofTwo).summary.scans, 105u) << "readings of both lasers";
   InputOptions ignores;
   ignores.requireOdometry = false;

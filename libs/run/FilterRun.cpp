@@ -159,7 +159,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   search_->process(reading.motion, reading.scans);
   if (!search_->isLocalized()) return;
   const mrpt::math::TPose2D pose = search_->bestPath().back();
-  notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(pose.x, 2) + ", " +
+  notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(pose.x, 2) + ", " +
                    fixedText(pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(pose.phi), 1) +
                    " deg in the map of " + configuration_.run.continueFrom);
   hybrid_->joinMap(*earlierMap_, pose);
@@ -173,17 +173,16 @@ void FilterRun::searchPlan(const readings::Reading& reading) {
   const std::unique_ptr<PlanSearch> search = std::move(planSearch_);
   const auto& found = search->found();
   if (!found) return hybrid_->expectNoMap();
-  notes_.push_back("place found after " + std::to_string(scans_) + " scans: (" + fixedText(found->pose.x, 2) +
-                   ", " + fixedText(found->pose.y, 2) + ") m, " +
-                   fixedText(mrpt::RAD2DEG(found->pose.phi), 1) + " deg in " + configuration_.run.priorPlan +
-                   ", scaled by " + fixedText(found->scale, 3));
+  notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(found->pose.x, 2) + ", " +
+                   fixedText(found->pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(found->pose.phi), 1) +
+                   " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 3));
   hybrid_->joinMap(found->map, found->pose);
 }
 
 std::string FilterRun::placeNote() const {
   if (hybrid_ && !configuration_.run.priorPlan.empty() && !hybrid_->base())
     return "place not found in the floor plan " + configuration_.run.priorPlan + ": " +
-           std::to_string(scans_) + " scans, mapped in their own frame; --start X,Y,DEG gives the place";
+           counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
   if (!search_) return {};
   return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
          " scans, mapped in their own frame; --start X,Y,DEG gives the place";
@@ -213,13 +212,13 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
 
 std::string FilterRun::slipNote() const {
   if (slips_ == 0) return {};
-  return std::to_string(slips_) + " updates whose odometry was rejected: first at " +
-         fixedText(firstSlip_, 3) + " s" + "; scan matching replaced it";
+  return counted(slips_, "update(s) with rejected odometry: first at ") + fixedText(firstSlip_, 3) + " s" +
+         "; scan matching replaced it";
 }
 
 std::string FilterRun::stuckNote() const {
   if (stuckScans_ == 0) return {};
-  return std::to_string(stuckScans_) + " scans whose odometry stood still while they moved: first at " +
+  return counted(stuckScans_, "scan(s) with odometry that stood still while the robot moved: first at ") +
          fixedText(firstStuck_, 3) + " s; scan matching replaced it";
 }
 

@@ -156,7 +156,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   staged_.publish();
 
   const double wall = all.at("wall_s");
-  return std::to_string(scans_) + " scans, " + std::to_string(result.path.size()) + " updates, " +
+  return counted(scans_, "scan(s), ") + counted(result.path.size(), "update(s), ") +
          fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
          fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
 }

@@ -133,7 +133,7 @@ Verdict verdictOf(const Evidence& evidence) {
     find(Level::doubtful,
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
   if (verdict.level != Level::consistent && evidence.slips > 0)
-    find(Level::doubtful, "odometry rejected in " + std::to_string(evidence.slips) + " updates");
+    find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
   if (evidence.beams < kFewBeams)
     find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
                               fixedText(evidence.beams, 0) + " on average");

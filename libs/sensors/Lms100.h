@@ -14,6 +14,7 @@
 
 namespace hybrid_slam::sensors {
 
+/// The keys of the sensor's INI section.
 struct Lms100Options : SensorOptions {
   Lms100Options() { sensorLabel = "LASER", processRate = 100; }
   std::string address = "192.168.0.1";

@@ -17,6 +17,7 @@
 
 namespace hybrid_slam::sensors {
 
+/// The keys of the sensor's INI section.
 struct PioneerOptions : SensorOptions {
   PioneerOptions() { sensorLabel = "ODOMETRY", processRate = 20; }
   std::string serialPort, host;

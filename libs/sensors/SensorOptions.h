@@ -8,6 +8,7 @@
 
 namespace hybrid_slam::sensors {
 
+/// The keys that MRPT or `SensorThread` read of every sensor.
 struct SensorOptions : Options {
   std::string driver, sensorLabel;
   double processRate = 0, timeOffset = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "files/StagedFolder.h"
 #include "readings/LogWarnings.h"
 #include "window/view/ReplayPass.h"
@@ -253,8 +254,7 @@ void ReplaySession::exportPass(ReplayPass& pass, const std::string& folder) {
     staged.publish();
     for (const auto& lane : pass.lanes)
       if (const std::string place = lane->run.placeNote(); !place.empty()) note(place);
-    tell("Results of " + std::to_string(pass.scans) + " scans written: " + staged.folder(), false,
-         State::ended);
+    tell("Results of " + counted(pass.scans, "scan(s) written: ") + staged.folder(), false, State::ended);
   } catch (const std::exception& e) {
     tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
   }
