@@ -402,6 +402,8 @@ TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
   expectDone(replay(withTimes(std::vector<double>(4, test::kNoTime))),
              "4 scans without timestamp: first at entry 2");
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 4u);
+  expectDone(replay(withTimes({0, 1, 9e4, 90001})),
+             "1 timestamp over a day after that of the previous scan: first at entry 6");
 }
 
 }  // namespace

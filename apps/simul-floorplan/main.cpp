@@ -74,7 +74,8 @@ void run(const CommandLine& line) {
   if (output.extension() != ".rawlog")
     throw InputError("wrong output name `" + line.output + "`", "option -o",
                      "expected a name ending in .rawlog");
-  if (output.has_parent_path() && !fs::is_directory(output.parent_path()))
+  std::error_code ignored;  // such as a folder that may not be entered
+  if (output.has_parent_path() && !fs::is_directory(output.parent_path(), ignored))
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 

@@ -25,7 +25,8 @@ std::string InputError::visible(std::string text) {
 std::string messageOf(const std::exception& exception) {
   const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
   std::string text = mrpt ? mrpt->originalWhat : exception.what();
-  if (mrpt) text.erase(0, text.find("] ") + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
+  if (const auto end = text.find("] "); mrpt && end != std::string::npos)
+    text.erase(0, end + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
   if (text.find("==== MRPT") != std::string::npos) text = withoutCallStacks(text);
   text.erase(text.find_last_not_of(" \n") + 1);
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -101,7 +101,7 @@ void checkLines(const std::string& text, const std::string& file, const std::vec
     const auto end = line.find(']'), equals = line.find('=');
     if (line.front() == '[' && end != std::string::npos)
       section = line.substr(1, end - 1);
-    else if (!section || (equals == std::string::npos && contains(sections, *section)))
+    else if (!section || ((equals == std::string::npos || equals == 0) && contains(sections, *section)))
       throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
   }
 }

@@ -7,10 +7,18 @@
 
 namespace hybrid_slam::files {
 
-Lock lock(int file) {
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return Lock::held;
+namespace {
+
+Lock lockAs(int file, int kind) {
+  if (::flock(file, kind | LOCK_NB) == 0) return Lock::held;
   return errno == EWOULDBLOCK ? Lock::ofAnother : Lock::unsupported;
 }
+
+}  // namespace
+
+Lock lock(int file) { return lockAs(file, LOCK_EX); }
+
+Lock lockShared(int file) { return lockAs(file, LOCK_SH); }
 
 bool isNamed(int file, const std::string& path) {
   struct stat opened {

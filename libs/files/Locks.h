@@ -12,6 +12,8 @@ enum class Lock { held, ofAnother, unsupported };
 /// Locks an open file or folder until it is closed, unless another opening of it, in any process, has the
 /// lock.
 Lock lock(int file);
+/// The same, for a lock that several may hold at a time, but not beside one that `lock` gives.
+Lock lockShared(int file);
 
 /// Returns whether an open file or folder still has this name.
 bool isNamed(int file, const std::string& path);

@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string prefixOf(const fs::path& folder) { return "." + folder.filename().string() + ".part-"; }
+
 int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
 
 /// Returns whether a folder can be renamed within its parent.
@@ -32,6 +34,17 @@ bool isRenamable(const fs::path& folder) {
          ::stat(folder.parent_path().c_str(), &parent) == 0 && own.st_dev == parent.st_dev &&
          own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
 }
+
+/// Returns whether an entry is a folder, not a link to one.
+bool isFolder(const fs::directory_entry& entry) { return fs::is_directory(entry.symlink_status()); }
+
+/// Renames a file or folder with the flags of renameat2. Returns false if that fails.
+bool renameAs(const fs::path& from, const fs::path& to, unsigned flags) {
+  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
+}
+
+/// What a link in the final folder to a folder in a hidden one beside it contains.
+fs::path linkTo(const fs::path& folder) { return ".." / folder.parent_path().filename() / folder.filename(); }
 
 /// Syncs a file or a folder's entries to disk.
 /// @throws InputError if that fails
@@ -62,7 +75,7 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
   const OutputFolder probe(folder);
   final_ = fs::canonical(folder);
   if (isNew) created_.push_back(final_);
-  const std::string prefix = "." + final_.filename().string() + ".part-";
+  const std::string prefix = prefixOf(final_);
   for (const std::string& name : results_)
     if (overwrite_ && fs::is_directory(final_ / name))
       throw InputError("cannot write", finalPath(name), "expected a file name");
@@ -75,7 +88,8 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
 StagedFolder::~StagedFolder() {
   std::error_code ignored;
   if (!isDone_) fs::remove_all(stage_, ignored);
-  for (const int lock : {claim_, lock_})
+  locks_.push_back(lock_);
+  for (const int lock : locks_)
     if (lock >= 0) ::close(lock);
   std::reverse(created_.begin(), created_.end());
   for (const fs::path& folder : created_) fs::remove(folder, ignored);  // only if empty
@@ -92,9 +106,9 @@ bool StagedFolder::isResult(const std::string& name) const {
   return std::find(results_.begin(), results_.end(), name) != results_.end();
 }
 
-bool StagedFolder::holdsResults() const {
-  return std::any_of(results_.begin(), results_.end(), [this](const std::string& name) {
-    return name != own_ && fs::exists(fs::symlink_status(final_ / name));
+bool StagedFolder::holdsResults(const fs::path& folder) const {
+  return std::any_of(results_.begin(), results_.end(), [&](const std::string& name) {
+    return name != own_ && fs::exists(fs::symlink_status(folder / name));
   });
 }
 
@@ -103,17 +117,48 @@ bool StagedFolder::isOfAnother(const std::string& name) const {
   return name != own_ && fs::is_regular_file(final_ / name, ignored);
 }
 
-/// Locks the final folder, so that no other run writes its checkpoints there or replaces it.
+/// Chooses the final folder and locks it, so that no other run writes its checkpoints there or replaces it. A
+/// run in a subfolder of results shares the lock of the folder above, which nobody may replace meanwhile.
 void StagedFolder::claim() {
   for (;;) {
-    claim_ = openFolder(final_);
-    const Lock state = claim_ < 0 ? Lock::unsupported : lock(claim_);
-    const bool isStale = claim_ >= 0 && !isNamed(claim_, final_);  // just replaced by the results of a run
-    if (state != Lock::ofAnother && !isStale && (overwrite_ || !holdsResults())) return;
-    if (claim_ >= 0) ::close(claim_);
-    isTaken_ |= state == Lock::ofAnother;
-    if (!isStale) takeDatedSubfolder();
+    const int folder = openFolder(final_);
+    const bool isOwn = overwrite_ || !holdsResults(final_);
+    const Lock state = folder < 0 ? Lock::unsupported : isOwn ? lock(folder) : lockShared(folder);
+    const bool isStale = folder >= 0 && !isNamed(folder, final_);  // just replaced by the results of a run
+    if (state != Lock::ofAnother && !isStale && isOwn == (overwrite_ || !holdsResults(final_))) {
+      locks_.push_back(folder);
+      if (locks_.size() == 1)
+        for (const fs::path& place : {final_.parent_path(), final_}) removeDead(place);
+      if (!isOwn) {
+        takeDatedSubfolder();
+        continue;
+      }
+      if (!holdsResults(final_.parent_path())) return;
+      locks_.push_back(openFolder(final_.parent_path()));
+      if (locks_.back() >= 0) lockShared(locks_.back());
+      return;
+    }
+    if (folder >= 0) ::close(folder);
+    if (state == Lock::ofAnother) takeFolderBeside();
   }
+}
+
+/// Takes DIR-DATE: a subfolder would move when the other run puts its results in place of DIR.
+void StagedFolder::takeFolderBeside() {
+  std::error_code ignored;
+  const fs::path asked = fs::absolute(shown_, ignored);
+  const std::string shown = asked == final_ ? shown_ : final_.string();
+  const std::string date = claimDatedName([this](const std::string& name) {
+    if (::mkdir((final_.string() + "-" + name).c_str(), 0777) == 0) return true;
+    if (errno == EEXIST) return false;
+    throw InputError(
+        "output folder in use by another run", asked_,
+        std::string("expected another folder, since none can be created beside it: ") + std::strerror(errno));
+  });
+  final_ += "-" + date;
+  shown_ = shown + "-" + date;
+  created_.push_back(final_);
+  isTaken_ = true;
 }
 
 void StagedFolder::takeDatedSubfolder() {
@@ -132,7 +177,6 @@ void StagedFolder::takeDatedSubfolder() {
 /// Creates and locks the hidden folder. The lock distinguishes the folders of running programs from those of
 /// killed ones.
 void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
-  removeDead(place, prefix);
   for (;;) {
     std::string name = (place / (prefix + "XXXXXX")).string();
     if (!::mkdtemp(name.data()))
@@ -151,19 +195,23 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
 
 /// Removes the unfinished results of killed programs and no other file; other files in their folders are
 /// links. Complete results that could not be renamed stay.
-void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) const {
+void StagedFolder::removeDead(const fs::path& place) const {
+  const std::string prefix = prefixOf(final_);
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
     if (entry.path().filename().string().rfind(prefix, 0) != 0 || !entry.is_directory(ignored)) continue;
     const int folder = openFolder(entry.path());
     if (folder < 0) continue;
-    if (lock(folder) == Lock::held && !fs::exists(entry.path() / results_.back(), ignored)) {
+    const bool isDead = lock(folder) == Lock::held;
+    if (isDead) returnLinked(entry.path());  // it was killed amid its exchange
+    if (isDead && !fs::exists(entry.path() / results_.back(), ignored)) {
       for (const std::string& name : results_) {
         fs::remove(entry.path() / name, ignored);
         fs::remove(entry.path() / (".partial." + name), ignored);
       }
       for (const auto& other : fs::directory_iterator(entry.path(), ignored))  // links to files of the folder
-        if (fs::equivalent(other.path(), final_ / other.path().filename(), ignored))
+        if (fs::read_symlink(other.path(), ignored) == linkTo(other.path()) ||
+            (!isFolder(other) && fs::equivalent(other.path(), final_ / other.path().filename(), ignored)))
           fs::remove(other.path(), ignored);
       fs::remove(entry.path(), ignored);
     }
@@ -173,37 +221,53 @@ void StagedFolder::removeDead(const fs::path& place, const std::string& prefix) 
 
 void StagedFolder::publish() {
   sync(stage_);
-  if (!overwrite_ && holdsResults()) takeDatedSubfolder();  // copied there meanwhile
+  if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
   isDone_ = true;
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
-  if (isBeside_ && exchange())
-    returnOthers();
-  else
-    moveOneByOne();
+  if (!isBeside_ || !exchange()) return moveOneByOne();
+  returnLinked(stage_);
+  if (returnOthers()) removeOld();
 }
 
-/// Swaps both folders in one step. Links other files first, so that they are never missing.
+/// Swaps both folders in one step. First links the other files and folders, so that they are never missing,
+/// also if the program is killed.
 bool StagedFolder::exchange() const {
   std::error_code isMovedLater;
-  for (const auto& entry : fs::directory_iterator(final_))
-    if (const std::string name = entry.path().filename().string(); !entry.is_directory() && !isResult(name))
+  for (const auto& entry : fs::directory_iterator(final_)) {
+    const fs::path name = entry.path().filename();
+    if (isResult(name.string())) continue;
+    if (isFolder(entry))
+      fs::create_directory_symlink(linkTo(stage_ / name), stage_ / name, isMovedLater);
+    else
       fs::create_hard_link(entry.path(), stage_ / name, isMovedLater);
-  return ::renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0;
+  }
+  return renameAs(stage_, final_, RENAME_EXCHANGE);
 }
 
-/// After the exchange: moves what could not be linked, then removes the rest of the old folder.
-void StagedFolder::returnOthers() const {
-  std::error_code error;
-  bool hasOthers = false;
-  for (const auto& entry : fs::directory_iterator(stage_))
-    if (const fs::path name = entry.path().filename();
-        !isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name))) {
-      fs::rename(entry.path(), final_ / name, error);
-      hasOthers |= static_cast<bool>(error);
-    }
-  if (hasOthers) return;
-  fs::remove(stage_ / results_.back(), error);  // first, so that removeDead ends what a kill interrupts
-  fs::remove_all(stage_, error);
+/// After the exchange: moves the other folders in place of the links to them.
+void StagedFolder::returnLinked(const fs::path& hidden) const {
+  std::error_code isNoLink;
+  for (const auto& entry : fs::directory_iterator(hidden))
+    if (const fs::path there = final_ / entry.path().filename();
+        isFolder(entry) && fs::read_symlink(there, isNoLink) == linkTo(entry.path()))
+      renameAs(entry.path(), there, RENAME_EXCHANGE);
+}
+
+/// Then moves what could not be linked. Returns false if something is left.
+bool StagedFolder::returnOthers() const {
+  bool isDone = true;
+  for (const auto& entry : fs::directory_iterator(stage_)) {
+    const fs::path name = entry.path().filename();
+    if (isResult(name.string()) || fs::exists(fs::symlink_status(final_ / name))) continue;
+    isDone &= renameAs(entry.path(), final_ / name, RENAME_NOREPLACE);
+  }
+  return isDone;
+}
+
+void StagedFolder::removeOld() const {
+  std::error_code ignored;
+  fs::remove(stage_ / results_.back(), ignored);  // first, so that removeDead ends what a kill interrupts
+  fs::remove_all(stage_, ignored);
 }
 
 void StagedFolder::moveOneByOne() const {

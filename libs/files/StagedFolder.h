@@ -18,7 +18,8 @@ namespace hybrid_slam::files {
 class StagedFolder {
  public:
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
-  /// results and `overwrite` is false, or if another object, in any process, has chosen it.
+  /// results and `overwrite` is false. If another object, in any process, has chosen it, or a subfolder that
+  /// replacing it would move: a dated folder beside it.
   /// @param results  names of all files that a run may write; the last marks a complete run
   /// @param own        a result that may already exist, because the run continues from it
   /// @throws InputError if the folder cannot be created or written to
@@ -47,15 +48,18 @@ class StagedFolder {
   void publish();
 
  private:
-  bool holdsResults() const;
+  bool holdsResults(const std::filesystem::path& folder) const;
   bool isResult(const std::string& name) const;
   void claim();
   void takeDatedSubfolder();
+  void takeFolderBeside();
   void stageIn(const std::filesystem::path& place, const std::string& prefix);
-  void removeDead(const std::filesystem::path& place, const std::string& prefix) const;
+  void removeDead(const std::filesystem::path& place) const;
   bool exchange() const;
+  void returnLinked(const std::filesystem::path& hidden) const;
+  bool returnOthers() const;
+  void removeOld() const;
   void moveOneByOne() const;
-  void returnOthers() const;
 
   std::vector<std::string> results_;
   bool overwrite_;
@@ -65,8 +69,9 @@ class StagedFolder {
   std::filesystem::path stage_;
   std::vector<std::filesystem::path> created_;  ///< removed again if they stay empty
   bool isBeside_ = false, isDone_ = false;
-  bool isTaken_ = false;        ///< the requested folder, by another run
-  int claim_ = -1, lock_ = -1;  ///< the locked final and hidden folder
+  bool isTaken_ = false;    ///< the requested folder, by another run
+  std::vector<int> locks_;  ///< of the final folder, and of that above a dated subfolder
+  int lock_ = -1;           ///< of the hidden folder, which becomes the final one
   std::unique_ptr<OutputFolder> files_;
 };
 

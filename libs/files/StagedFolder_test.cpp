@@ -124,23 +124,84 @@ TEST_F(StagedFolderTest, AFolderBelongsToTheRunThatBeginsFirst) {
   fs::create_directory(out);
   for (const bool overwrite : {false, true}) {
     SCOPED_TRACE(overwrite);
-    StagedFolder first(out, kNames, overwrite), second(out, kNames, overwrite);
+    StagedFolder first(out, kNames, overwrite), second(out, kNames, overwrite), third(out, kNames, false);
     EXPECT_EQ(first.note(), "");
     EXPECT_THAT(second.note(),
-                MatchesRegex(out + " is in use by another run; the results of this one go to " + out + "/" +
+                MatchesRegex(out + " is in use by another run; the results of this one go to " + out + "-" +
                              kDate + "(-[0-9])?"));
+    EXPECT_NE(second.folder(), third.folder());
     write(first, "first");
     write(second, "second");
     second.publish();
     first.publish();
     EXPECT_EQ(inOut("map"), "first");
     EXPECT_EQ(contentOf(second.finalPath("map")), "second");
-    StagedFolder third(out, kNames, true);
-    EXPECT_THAT(third.note(), HasSubstr("in use")) << "until the objects of the first run are gone";
+    EXPECT_THAT(StagedFolder(out, kNames, true).note(), HasSubstr("in use")) << "until the first is gone";
   }
-  EXPECT_EQ(namesIn(out).size(), 4u);
+  EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics"));
   run("third", true);
   EXPECT_EQ(inOut("map"), "third");
+}
+
+// Replacing the folder would move the subfolder away under the other run.
+TEST_F(StagedFolderTest, AFolderIsNotReplacedWhileARunUsesItsSubfolder) {
+  run("1");
+  StagedFolder beneath(out, kNames, false);
+  EXPECT_THAT(beneath.folder(), MatchesRegex(out + "/" + kDate));
+  StagedFolder above(out, kNames, true);
+  EXPECT_THAT(above.folder(), MatchesRegex(out + "-" + kDate));
+  const StagedFolder another(out, kNames, false);
+  EXPECT_THAT(another.folder(), MatchesRegex(out + "/" + kDate + "(-[0-9])?"));
+  const StagedFolder named(beneath.folder() + "/own", kNames, false);
+  EXPECT_EQ(named.note(), "");
+  write(beneath, "2");
+  write(above, "3");
+  above.publish();
+  beneath.publish();
+  EXPECT_EQ(inOut("map"), "1");
+  EXPECT_EQ(contentOf(beneath.finalPath("map")), "2");
+  EXPECT_EQ(contentOf(above.finalPath("map")), "3");
+}
+
+TEST_F(StagedFolderTest, AFolderInUseByAnyOfItsNames) {
+  fs::create_directory(out);
+  fs::create_directory(root.path("other"));
+  fs::create_directory_symlink(out, root.path("other/link"));
+  const StagedFolder first(out, kNames, false);
+  for (const std::string name : {"/other/link", "/out/", "/other/../out", "/out/."})
+    EXPECT_THAT(StagedFolder(root.path("") + name, kNames, false).folder(),
+                MatchesRegex(out + "-" + kDate + "(-[0-9])?"))
+        << name;
+}
+
+TEST_F(StagedFolderTest, ARunThatIsKilledInTheExchangeHidesNothing) {
+  run("1");
+  fs::create_directory(out + "/folder");
+  std::ofstream(out + "/folder/file") << "other";
+  std::ofstream(out + "/notes") << "mine";
+  for (const char* const moment : {"links", "exchange"}) {  // after which it is killed
+    SCOPED_TRACE(moment);
+    const std::string hidden = root.path(".out.part-killed");
+    fs::create_directory(hidden);
+    std::ofstream(hidden + "/map") << "2";
+    std::ofstream(hidden + (moment == std::string("links") ? "/.partial.metrics" : "/metrics")) << "2";
+    fs::create_directory_symlink("../.out.part-killed/folder", hidden + "/folder");
+    fs::create_hard_link(out + "/notes", hidden + "/notes");
+    if (moment == std::string("exchange")) {
+      fs::rename(out, root.path("old"));
+      fs::rename(hidden, out);
+      fs::rename(root.path("old"), hidden);
+      EXPECT_EQ(inOut("folder/file"), "other") << "through a link";
+    }
+    const std::string before = inOut("map");
+    { const StagedFolder next(out, kNames, false); }
+    EXPECT_TRUE(fs::is_directory(fs::symlink_status(out + "/folder")));
+    EXPECT_EQ(inOut("folder/file"), "other");
+    EXPECT_EQ(inOut("notes"), "mine");
+    EXPECT_EQ(inOut("map"), before);
+    EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics", "notes", "folder"));
+    fs::remove_all(hidden);
+  }
 }
 
 TEST_F(StagedFolderTest, ResultsThatAreCopiedThereMeanwhileAreNotReplaced) {
@@ -207,9 +268,8 @@ TEST_F(StagedFolderTest, AKilledRunIsClearedAwayAndARunningOneIsNot) {
   EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the hidden folder";
   StagedFolder running(out, kNames, false);
   write(running, "1");
-  const StagedFolder next(out, kNames, false), another(out, kNames, false);
-  EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the running one's";
-  EXPECT_EQ(namesIn(out).size(), 4u) << "a dated and a hidden folder each";
+  const StagedFolder next(out, kNames, false);
+  EXPECT_EQ(namesIn(root.path("")).size(), 4u) << "two folders, and a hidden one each";
   running.publish();
   EXPECT_EQ(inOut("map"), "1");
 }

@@ -11,6 +11,7 @@
 
 #include "files/ObjectWalk.h"
 #include "readings/ReadingAssembler.h"
+#include "readings/Timestamps.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -78,12 +79,14 @@ void LogObjects::operator()(const OdometryRecord& record) {
 
 void LogObjects::odometry(const OdometryRecord& record,
                           const mrpt::obs::CObservationOdometry::Ptr& observation) {
-  if (!isPossible(record.pose))
+  const bool isRight = isPossible(record.pose);
+  if (!isRight)
     ++summary.impossibleOdometry.count;
   else if (jumps_.isJump(record.pose, std::isnan(record.time) ? std::nullopt : std::optional(record.time)))
     ++summary.odometryJumps.count;
-  else if (last_)
-    summary.pathLength += std::hypot(record.pose.x - last_->pose.x, record.pose.y - last_->pose.y);
+  else if (lastPossible_)
+    summary.pathLength += std::hypot(record.pose.x - lastPossible_->x, record.pose.y - lastPossible_->y);
+  if (isRight) lastPossible_ = record.pose;
   last_ = record;
   ++summary.odometryReadings;
   seenAt(record.time);
@@ -142,7 +145,6 @@ void LogObjects::writeActionUpTo(mrpt::Clock::time_point time) {
 
 void LogObjects::seenAt(double time) {
   if (std::isnan(time)) return;
-  constexpr double kDay = 86400;  // s
   if (lastTime_ && std::abs(time - *lastTime_) > kDay) ++summary.timeJumps.count;
   summary.earliest = lastTime_ ? std::min(summary.earliest, time) : time;
   summary.latest = lastTime_ ? std::max(summary.latest, time) : time;

@@ -96,6 +96,7 @@ class LogObjects {
   SweepSetting sweepSetting_;
   std::map<std::string, double> sweeps_;  ///< s, last written for each laser, of 100 labels
   std::optional<OdometryRecord> last_;
+  std::optional<mrpt::math::TPose2D> lastPossible_;  ///< of the odometry
   OdometryJumps jumps_;
   std::optional<double> lastTime_;                  ///< s, of the previous record
   std::optional<mrpt::poses::CPose2D> atLastScan_;  ///< odometry

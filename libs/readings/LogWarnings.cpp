@@ -23,6 +23,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.unstamped, "scan(s) without timestamp", "previous scan's timestamp used");
   add(log.repeatedStamps, "timestamp(s) equal to that of the previous scan", "kept");
   add(log.stepsBack, "step(s) back of the timestamps", "log order kept");
+  add(log.timeJumps, "timestamp(s) over a day after that of the previous scan", "kept");
   add(log.wrongOdometry, "impossible odometry reading(s): not a number, or beyond 1e8 m or 1e6 rad",
       "skipped");
   add(log.noOdometry, "action(s) without odometry", "taken as no motion");

@@ -138,6 +138,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     const bool isFirst = last.empty();
     const auto [before, isNew] = last.try_emplace(scan.sensorLabel, t);
     if (!isNew && t < before->second) note(summary.stepsBack, reader.entry());
+    if (!isNew && t - before->second > kDay) note(summary.timeJumps, reader.entry());
     if (!isNew && t == before->second) note(summary.repeatedStamps, reader.entry());
     earliest = isFirst ? t : std::min(earliest, t);
     latest = isFirst ? t : std::max(latest, t);

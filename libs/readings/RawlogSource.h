@@ -44,6 +44,7 @@ struct RawlogSummary {
   size_t scans = 0;  ///< readings, without `early`: scans that several lasers take at one time count as one
   Oddity early;      ///< readings that ReadingAssembler drops before the first odometry
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
+  Oddity timeJumps;                                                       ///< over a day after the one before
   Oddity wrongOdometry;                                                   ///< impossible (isPossible)
   Oddity noOdometry;                                                      ///< actions
   Oddity wrongSweeps;                                                     ///< impossible scan times

@@ -9,6 +9,9 @@
 
 namespace hybrid_slam::readings {
 
+/// A longer step (s) between successive readings is reported.
+constexpr double kDay = 86400;
+
 /// Returns whether an observation has a time.
 inline bool isStamped(const mrpt::obs::CObservation& observation) {
   return observation.timestamp != INVALID_TIMESTAMP;

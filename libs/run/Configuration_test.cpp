@@ -138,6 +138,7 @@ TEST_F(ConfigurationTest, TheTimeOfAScanIsSetInOneWay) {
 TEST_F(ConfigurationTest, LinesThatTheParserIgnoresAreErrors) {
   EXPECT_EQ(errorOf("[particle_filter]\nparticles 7\n"),
             "wrong line `particles 7`: " + ini + "; expected [section], key = value, or # comment");
+  EXPECT_THAT(errorOf("[grid]\n= 0.05\n"), StartsWith("wrong line `= 0.05`"));
   EXPECT_THAT(errorOf("particles\n[run]\n"), StartsWith("wrong line `particles`"));
   EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));
   EXPECT_THAT(errorOf("[run\nmethod = general\n[grid]\n"), StartsWith("wrong line `[run`"));

@@ -78,7 +78,8 @@ class FilterRun {
   /// Says in one line that the place in the earlier map has not been found; else empty.
   std::string placeNote() const;
 
-  size_t scans() const { return scans_; }  ///< processed
+  size_t scans() const { return scans_; }           ///< processed
+  size_t readings() const { return uses_.size(); }  ///< of the log, processed or skipped
   /// One line on the updates with rejected odometry; empty if there were none.
   std::string slipNote() const;
   /// One line on the scans during which the odometry was stuck; empty if there were none.

@@ -84,6 +84,9 @@ class Pass {
     }
     progress_.finish();
     if (stop) return "interrupted: " + source.place();
+    if (run.readings() < log_.scans)
+      return "log has become shorter while it was read: " + source.place() + ", after " +
+             counted(run.readings(), "of " + std::to_string(log_.scans) + " scan(s)");
     return log_.defect.empty() ? "" : "log " + log_.defect + ": " + log_.defectPlace(file);
   }
 

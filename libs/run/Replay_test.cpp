@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <thread>
 
 #include "files/TemporaryFolder.h"
 #include "run/MotionModelText.h"
@@ -47,6 +49,36 @@ TEST(Replay, TheResultsAreTheSameInEveryLocale) {
     EXPECT_EQ(text, expected.at(name)) << name;
     EXPECT_GT(text.size(), 50u) << name;
   }
+}
+
+/// As a log that its robot overwrites.
+TEST(Replay, ALogThatIsCutWhileItIsReadGivesItsBeginningAndAMessage) {
+  const files::TemporaryFolder folder;
+  std::string rows;
+  for (int i = 0; i < 4000; ++i) {
+    rows += "FLASER 181";
+    for (int beam = 0; beam < 181; ++beam) rows += " 2.5";
+    const std::string time = std::to_string(100 + i);
+    rows += " 0 0 " + std::to_string(0.3 * i) + " 0 0 0 " + time + " host " + time + "\n";
+  }
+  const std::string log = folder.write("in.clf", rows);
+  Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"),
+                       "particle_filter.particles=20", "particle_filter.proposal=standard", "run.refine=0"});
+  std::thread robot([&] {
+    const auto hasBegun = [&] {
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+        if (entry.path().filename().string().rfind(".out.part-", 0) == 0) return true;
+      return false;
+    };
+    while (!hasBegun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::filesystem::resize_file(log, rows.size() / 4);
+  });
+  const std::atomic<bool> stop{false};
+  const ReplayOutcome outcome = replay(c, true, stop);
+  robot.join();
+  EXPECT_THAT(outcome.incomplete, testing::MatchesRegex("log has become shorter while it was read: .*in.clf, "
+                                                        "after [0-9]+ of 4000 scans; results cover.*"));
+  EXPECT_GT(std::filesystem::file_size(folder.path("out/trajectory.tum")), 1000u);
 }
 
 TEST(Replay, ARunThatIsStoppedBeforeItsFirstScanReplacesNothing) {

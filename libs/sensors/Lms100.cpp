@@ -2,7 +2,6 @@
 
 #include <mrpt/core/bits_math.h>
 
-#include <chrono>
 #include <stdexcept>
 
 #include "base/Clock.h"
@@ -15,8 +14,8 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose3D;
 
-constexpr double kConnectTimeout = 3, kAnswerTimeout = 2;  // s
-constexpr float kNoise = 0.012F;                           // m, one sigma (data sheet)
+constexpr double kConnectTimeout = 3, kAnswerTimeout = 2, kAskAgain = 0.3;  // s
+constexpr float kNoise = 0.012F;                                            // m, one sigma (data sheet)
 const char* const kMeasuring = "sRA STlms 7";
 
 bool startsWith(const std::string& text, const std::string& head) {
@@ -70,6 +69,7 @@ void Lms100::initialize() {
   m_state = ssInitializing;
   decoder_ = {};
   isSending_ = false;
+  lastAsked_ = {};
   socket_ =
       live::TcpSocket::connectTo(options_.address, static_cast<uint16_t>(options_.port), kConnectTimeout);
   if (!startsWith(ask("sMN SetAccessMode 03 F4724744", "sAN SetAccessMode"), "sAN SetAccessMode 1"))
@@ -87,7 +87,10 @@ bool Lms100::isReady() {
 }
 
 void Lms100::doProcess() {
-  if (!isSending_) isSending_ = isReady();
+  if (!isSending_ && secondsSince(lastAsked_) > kAskAgain) {
+    isSending_ = isReady();
+    lastAsked_ = Clock::now();
+  }
   if (!isSending_) return;
   decoder_.feed(socket_.receive(0.01));
   while (const auto telegram = decoder_.next()) {
@@ -106,7 +109,7 @@ void Lms100::doProcess() {
 /// Sends a telegram and waits for its answer; skips others, such as scans.
 std::string Lms100::ask(const std::string& telegram, const std::string& answer) {
   socket_.send(live::cola::encode(telegram), kAnswerTimeout);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   do {
     while (const auto received = decoder_.next()) {
       if (startsWith(*received, answer)) return *received;

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/system/COutputLogger.h>
 
+#include <chrono>
 #include <string>
 
 #include "live/ColaTelegram.h"
@@ -54,6 +55,8 @@ class Lms100 : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COut
                                  const std::string& section) override;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   std::string ask(const std::string& telegram, const std::string& answer);
   bool isReady();
 
@@ -61,6 +64,7 @@ class Lms100 : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COut
   live::TcpSocket socket_;
   live::cola::Decoder decoder_;
   bool isSending_ = false;
+  Clock::time_point lastAsked_{};  ///< for the state
   size_t damaged_ = 0;
 };
 

@@ -69,11 +69,12 @@ bool isThere(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-/// Opens a file; opening a pipe would wait for its writer.
+/// Opens a small file; opening a pipe would wait for its writer, and a line of gigabytes fill the memory.
 std::ifstream opened(const fs::path& file) {
+  constexpr uintmax_t kMostBytes = 10'000'000;
   std::error_code none;
   std::ifstream in;
-  if (fs::is_regular_file(file, none))
+  if (fs::is_regular_file(file, none) && fs::file_size(file, none) <= kMostBytes)
     in.open(file);
   else
     in.setstate(std::ios::failbit);
@@ -93,8 +94,10 @@ void noteLog(RunIdentity& identity, const std::string& log) {
 void expectLog(const fs::path& runs, const RunIdentity& identity) {
   std::error_code none;  // no runs yet
   for (const auto& entry : fs::directory_iterator(runs, none)) {
+    const std::string name = entry.path().filename().string();
     std::ifstream config = opened(entry.path() / "config.ini");
-    if (!config || entry.path().filename().string()[0] == '.') continue;  // failed or unfinished
+    const bool isUsable = config && name[0] != '.' && RunFolder(runs, name).damage().empty();
+    if (!isUsable) continue;  // failed, unfinished or damaged
     const std::string log = settingsOf(config)["[run] rawlog"];
     if (canonical(log) != identity.log) differs(entry.path(), "log " + log + ", now " + identity.log);
   }
@@ -149,12 +152,19 @@ void RunFolder::finish() const {
   fs::rename(partial_, folder_);
 }
 
+void RunFolder::discard() const {
+  std::error_code error;
+  fs::remove_all(folder_, error);
+  if (error)
+    throw InputError("cannot remove", folder_.string(), "expected a writable folder: " + error.message());
+}
+
 std::string RunFolder::damage() const {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder_, none))
     if (!entry.is_regular_file(none) && !entry.is_directory(none)) return entry.path().filename().string();
   if (isThere(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
-  if (!isThere(file(kChecksums))) return {};
+  if (!isThere(file(kChecksums))) return isThere(file(kOrigin)) ? kChecksums : "";
   const auto checksums = readJson(file(kChecksums));
   if (!checksums.is_object()) return kChecksums;
   for (const auto& [name, sum] : checksums.items())

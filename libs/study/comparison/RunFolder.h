@@ -49,10 +49,10 @@ class RunFolder {
   /// Records checksums of the partial folder's files, and renames it to its final name.
   void finish() const;
   /// The first entry of the folder that is broken, has changed since, or is a pipe or the like; empty if
-  /// there is none. Without checksums, the contents of origin.json alone are checked.
+  /// there is none. A run without origin.json, not started by slam-compare, has no checksums.
   std::string damage() const;
-  /// Removes the run.
-  void discard() const { std::filesystem::remove_all(folder_); }
+  /// Removes the run. @throws InputError if that fails
+  void discard() const;
   /// Removes everything except a record of the error.
   void fail(const std::string& error) const;
   /// Removes everything.

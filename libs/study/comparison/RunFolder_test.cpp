@@ -74,8 +74,6 @@ TEST_F(RunFolderTest, NoticesAFileThatHasChanged) {
   EXPECT_EQ(folder.damage(), "map.gridmap.gz");
   std::ofstream(folder.file("checksums.json")) << "{";
   EXPECT_EQ(folder.damage(), "checksums.json");
-  fs::remove(folder.file("checksums.json"));
-  EXPECT_EQ(folder.damage(), "") << "a run that slam-compare did not start";
 }
 
 TEST_F(RunFolderTest, ExpectsTheSameSettingsAndLog) {
@@ -146,6 +144,27 @@ TEST_F(RunFolderTest, AnEmptyConfigurationIsAnotherRuns) {
   finishRun();
   std::ofstream(folder.file("config.ini")) << "";
   EXPECT_THAT(difference(identity), HasSubstr("log "));
+}
+
+TEST_F(RunFolderTest, ARunOfOursWithoutChecksumsIsDamaged) {
+  finishRun();
+  fs::remove(folder.file("checksums.json"));
+  EXPECT_EQ(folder.damage(), "checksums.json");
+  fs::remove(folder.file("origin.json"));
+  EXPECT_EQ(folder.damage(), "") << "not started by slam-compare";
+}
+
+// Otherwise one broken run prevents the report of all others.
+TEST_F(RunFolderTest, ADamagedConfigurationIsNoOtherLog) {
+  finishRun();
+  for (const std::string& text :
+       {std::string(), std::string(100, '\0'), std::string("[run]\nrawlog = other\n")}) {
+    std::ofstream(folder.file("config.ini")) << text;
+    EXPECT_EQ(folder.damage(), "config.ini");
+    EXPECT_NO_THROW(expectLog(folder.path().parent_path(), identity));
+  }
+  fs::resize_file(folder.file("config.ini"), 20'000'000);
+  EXPECT_THAT(difference(identity), HasSubstr("log"));
 }
 
 // Opening a pipe waits for its writer.
