@@ -58,8 +58,8 @@ class LiveRun {
   /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
 
-  /// Filters the waiting readings, of those after `patience` the newest, then writes all results; if the recording cannot be read (full disk),
-  /// those that do not need it.
+  /// Filters the waiting readings, of those after `patience` the newest, then writes all results; if the
+  /// recording cannot be read (full disk), those that do not need it.
   /// @param lost      number of lost cycles, for metrics.json
   /// @param patience  s, for the waiting readings; empty: as long as they take
   /// @return the summary and the verdict, a line each
