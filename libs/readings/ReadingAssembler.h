@@ -104,6 +104,7 @@ class ReadingAssembler {
   OdometryTrack track_;
   bool isInTrack_ = false;  ///< the odometry of this pair
   bool hasOdometryReadings_;
+  bool first_ = true;  ///< reading
   double maxOdometryGap_;
   std::deque<Reading> ready_;
   std::deque<Waiting> waiting_;  ///< until odometry after them arrives
@@ -117,7 +118,6 @@ class ReadingAssembler {
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
-  bool first_ = true;
   double lastTimestamp_ = 0;
 };
 
