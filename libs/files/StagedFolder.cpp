@@ -38,6 +38,22 @@ bool isRenamable(const fs::path& folder) {
 /// Returns whether an entry is a folder, not a link to one.
 bool isFolder(const fs::directory_entry& entry) { return fs::is_directory(entry.symlink_status()); }
 
+/// Returns whether two names are of one file, or of one symbolic link.
+bool isSame(const fs::path& one, const fs::path& other) {
+  struct stat first {
+  }, second{};
+  return ::lstat(one.c_str(), &first) == 0 && ::lstat(other.c_str(), &second) == 0 &&
+         first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+/// Returns whether a folder can be moved to another one: it is writable, and no mount point.
+bool isMovable(const fs::directory_entry& folder) {
+  struct stat own {
+  }, parent{};
+  return ::access(folder.path().c_str(), W_OK) == 0 && ::stat(folder.path().c_str(), &own) == 0 &&
+         ::stat(folder.path().parent_path().c_str(), &parent) == 0 && own.st_dev == parent.st_dev;
+}
+
 /// Renames a file or folder with the flags of renameat2. Returns false if that fails.
 bool renameAs(const fs::path& from, const fs::path& to, unsigned flags) {
   return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
@@ -96,6 +112,7 @@ StagedFolder::~StagedFolder() {
 }
 
 std::string StagedFolder::note() const {
+  if (hasLeft_) return "files of " + shown_ + " that cannot be moved back are in " + stage_.string();
   if (shown_ == asked_) return {};
   if (isTaken_) return asked_ + " is in use by another run; the results of this one go to " + shown_;
   return asked_ + " has results of an earlier run; those of this run go to " + shown_ +
@@ -133,13 +150,20 @@ void StagedFolder::claim() {
         takeDatedSubfolder();
         continue;
       }
-      if (!holdsResults(final_.parent_path())) return;
-      locks_.push_back(openFolder(final_.parent_path()));
-      if (locks_.back() >= 0) lockShared(locks_.back());
+      const fs::path above = final_.parent_path();
+      locks_.push_back(openFolder(above));
+      if (locks_.back() >= 0 && lockShared(locks_.back()) == Lock::ofAnother && isRenamable(above))
+        throw InputError("the folder above is in use by another run", finalPath(""),
+                         "expected an output folder that is not in the other's");
       return;
     }
     if (folder >= 0) ::close(folder);
-    if (state == Lock::ofAnother) takeFolderBeside();
+    if (state != Lock::ofAnother) continue;
+    isTaken_ = true;
+    if (isRenamable(final_))
+      takeFolderBeside();
+    else
+      takeDatedSubfolder();  // which stays where it is
   }
 }
 
@@ -158,7 +182,6 @@ void StagedFolder::takeFolderBeside() {
   final_ += "-" + date;
   shown_ = shown + "-" + date;
   created_.push_back(final_);
-  isTaken_ = true;
 }
 
 void StagedFolder::takeDatedSubfolder() {
@@ -204,17 +227,7 @@ void StagedFolder::removeDead(const fs::path& place) const {
     if (folder < 0) continue;
     const bool isDead = lock(folder) == Lock::held;
     if (isDead) returnLinked(entry.path());  // it was killed amid its exchange
-    if (isDead && !fs::exists(entry.path() / results_.back(), ignored)) {
-      for (const std::string& name : results_) {
-        fs::remove(entry.path() / name, ignored);
-        fs::remove(entry.path() / (".partial." + name), ignored);
-      }
-      for (const auto& other : fs::directory_iterator(entry.path(), ignored))  // links to files of the folder
-        if (fs::read_symlink(other.path(), ignored) == linkTo(other.path()) ||
-            (!isFolder(other) && fs::equivalent(other.path(), final_ / other.path().filename(), ignored)))
-          fs::remove(other.path(), ignored);
-      fs::remove(entry.path(), ignored);
-    }
+    if (isDead && !fs::exists(entry.path() / results_.back(), ignored)) removeHidden(entry.path());
     ::close(folder);
   }
 }
@@ -226,12 +239,15 @@ void StagedFolder::publish() {
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   if (!isBeside_ || !exchange()) return moveOneByOne();
   returnLinked(stage_);
-  if (returnOthers()) removeOld();
+  returnOthers();
+  hasLeft_ = !removeHidden(stage_);
 }
 
 /// Swaps both folders in one step. First links the other files and folders, so that they are never missing,
 /// also if the program is killed.
 bool StagedFolder::exchange() const {
+  for (const auto& entry : fs::directory_iterator(final_))
+    if (isFolder(entry) && !isMovable(entry)) return false;
   std::error_code isMovedLater;
   for (const auto& entry : fs::directory_iterator(final_)) {
     const fs::path name = entry.path().filename();
@@ -253,21 +269,28 @@ void StagedFolder::returnLinked(const fs::path& hidden) const {
       renameAs(entry.path(), there, RENAME_EXCHANGE);
 }
 
-/// Then moves what could not be linked. Returns false if something is left.
-bool StagedFolder::returnOthers() const {
-  bool isDone = true;
+/// Then moves what could not be linked.
+void StagedFolder::returnOthers() const {
   for (const auto& entry : fs::directory_iterator(stage_)) {
     const fs::path name = entry.path().filename();
-    if (isResult(name.string()) || fs::exists(fs::symlink_status(final_ / name))) continue;
-    isDone &= renameAs(entry.path(), final_ / name, RENAME_NOREPLACE);
+    if (!isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name)))
+      renameAs(entry.path(), final_ / name, RENAME_NOREPLACE);
   }
-  return isDone;
 }
 
-void StagedFolder::removeOld() const {
+/// Removes results and links from a hidden folder, and the folder if nothing else is in it.
+bool StagedFolder::removeHidden(const fs::path& hidden) const {
   std::error_code ignored;
-  fs::remove(stage_ / results_.back(), ignored);  // first, so that removeDead ends what a kill interrupts
-  fs::remove_all(stage_, ignored);
+  fs::remove(hidden / results_.back(), ignored);  // first, so that the next run ends what a kill interrupts
+  for (const std::string& name : results_) {
+    fs::remove(hidden / name, ignored);
+    fs::remove(hidden / (".partial." + name), ignored);
+  }
+  for (const auto& other : fs::directory_iterator(hidden, ignored))
+    if (fs::read_symlink(other.path(), ignored) == linkTo(other.path()) ||
+        (!isFolder(other) && isSame(other.path(), final_ / other.path().filename())))
+      fs::remove(other.path(), ignored);
+  return fs::remove(hidden, ignored);
 }
 
 void StagedFolder::moveOneByOne() const {

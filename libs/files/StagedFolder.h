@@ -57,8 +57,8 @@ class StagedFolder {
   void removeDead(const std::filesystem::path& place) const;
   bool exchange() const;
   void returnLinked(const std::filesystem::path& hidden) const;
-  bool returnOthers() const;
-  void removeOld() const;
+  void returnOthers() const;
+  bool removeHidden(const std::filesystem::path& hidden) const;
   void moveOneByOne() const;
 
   std::vector<std::string> results_;
@@ -69,6 +69,7 @@ class StagedFolder {
   std::filesystem::path stage_;
   std::vector<std::filesystem::path> created_;  ///< removed again if they stay empty
   bool isBeside_ = false, isDone_ = false;
+  bool hasLeft_ = false;    ///< files in the hidden folder
   bool isTaken_ = false;    ///< the requested folder, by another run
   std::vector<int> locks_;  ///< of the final folder, and of that above a dated subfolder
   int lock_ = -1;           ///< of the hidden folder, which becomes the final one

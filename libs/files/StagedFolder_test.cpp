@@ -152,8 +152,7 @@ TEST_F(StagedFolderTest, AFolderIsNotReplacedWhileARunUsesItsSubfolder) {
   EXPECT_THAT(above.folder(), MatchesRegex(out + "-" + kDate));
   const StagedFolder another(out, kNames, false);
   EXPECT_THAT(another.folder(), MatchesRegex(out + "/" + kDate + "(-[0-9])?"));
-  const StagedFolder named(beneath.folder() + "/own", kNames, false);
-  EXPECT_EQ(named.note(), "");
+  EXPECT_THROW(StagedFolder(beneath.folder() + "/own", kNames, false), InputError) << "it would move";
   write(beneath, "2");
   write(above, "3");
   above.publish();
@@ -161,6 +160,25 @@ TEST_F(StagedFolderTest, AFolderIsNotReplacedWhileARunUsesItsSubfolder) {
   EXPECT_EQ(inOut("map"), "1");
   EXPECT_EQ(contentOf(beneath.finalPath("map")), "2");
   EXPECT_EQ(contentOf(above.finalPath("map")), "3");
+}
+
+// A mount point, or a folder of another user, cannot be moved into the new one.
+TEST_F(StagedFolderTest, AFolderThatCannotBeMovedKeepsItsFiles) {
+  run("1");
+  fs::create_directories(out + "/own/file");
+  fs::create_directory(root.path(".out.part-left"));
+  fs::create_directories(root.path(".out.part-left/folder/file"));  // as if it could not be moved back
+  fs::create_directory_symlink("../.out.part-left/folder", out + "/folder");
+  run("2", true);
+  EXPECT_EQ(inOut("map"), "2");
+  EXPECT_TRUE(fs::exists(out + "/folder/file"));
+  EXPECT_TRUE(fs::exists(out + "/own/file"));
+  if (::geteuid() == 0) GTEST_SKIP() << "root may move every folder";
+  fs::permissions(out + "/own", fs::perms::owner_read | fs::perms::owner_exec);
+  run("3", true);
+  EXPECT_EQ(inOut("map"), "3");
+  EXPECT_TRUE(fs::exists(out + "/own/file"));
+  fs::permissions(out + "/own", fs::perms::owner_all);
 }
 
 TEST_F(StagedFolderTest, AFolderInUseByAnyOfItsNames) {

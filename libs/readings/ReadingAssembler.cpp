@@ -64,8 +64,8 @@ ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool 
       sweeps_(std::move(sweeps)),
       laserPose_(std::move(laserPose)),
       track_(maxOdometryGap),
-      hasOdometryReadings_(hasOdometryReadings),
-      maxOdometryGap_(maxOdometryGap) {}
+      maxOdometryGap_(maxOdometryGap),
+      hasOdometryReadings_(hasOdometryReadings) {}
 
 std::optional<Reading> ReadingAssembler::next() {
   if (ready_.empty()) return std::nullopt;

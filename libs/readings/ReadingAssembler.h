@@ -102,9 +102,6 @@ class ReadingAssembler {
   SweepTimes sweeps_;
   std::optional<mrpt::poses::CPose3D> laserPose_;
   OdometryTrack track_;
-  bool isInTrack_ = false;  ///< the odometry of this pair
-  bool hasOdometryReadings_;
-  bool first_ = true;  ///< reading
   double maxOdometryGap_;
   std::deque<Reading> ready_;
   std::deque<Waiting> waiting_;  ///< until odometry after them arrives
@@ -119,6 +116,9 @@ class ReadingAssembler {
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
   double lastTimestamp_ = 0;
+  bool isInTrack_ = false;  ///< the odometry of this pair
+  bool hasOdometryReadings_;
+  bool first_ = true;  ///< reading
 };
 
 /// Calls visit(mrpt::obs::CObservation::Ptr) for every observation in a rawlog object.
