@@ -95,15 +95,22 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
   for (const std::string& name : results_)
     if (overwrite_ && fs::is_directory(final_ / name))
       throw InputError("cannot write", finalPath(name), "expected a file name");
-  claim();
-  isBeside_ = isRenamable(final_);
-  stageIn(isBeside_ ? final_.parent_path() : final_, prefix);
-  files_ = std::make_unique<OutputFolder>(stage_.string());
+  try {
+    claim();
+    isBeside_ = isRenamable(final_);
+    stageIn(isBeside_ ? final_.parent_path() : final_, prefix);
+    files_ = std::make_unique<OutputFolder>(stage_.string());
+  } catch (...) {
+    release();
+    throw;
+  }
 }
 
-StagedFolder::~StagedFolder() {
+StagedFolder::~StagedFolder() { release(); }
+
+void StagedFolder::release() {
   std::error_code ignored;
-  if (!isDone_) fs::remove_all(stage_, ignored);
+  if (!isDone_ && !stage_.empty()) fs::remove_all(stage_, ignored);
   locks_.push_back(lock_);
   for (const int lock : locks_)
     if (lock >= 0) ::close(lock);

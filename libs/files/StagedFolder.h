@@ -50,6 +50,7 @@ class StagedFolder {
  private:
   bool holdsResults(const std::filesystem::path& folder) const;
   bool isResult(const std::string& name) const;
+  void release();
   void claim();
   void takeDatedSubfolder();
   void takeFolderBeside();

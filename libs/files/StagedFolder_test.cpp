@@ -153,6 +153,7 @@ TEST_F(StagedFolderTest, AFolderIsNotReplacedWhileARunUsesItsSubfolder) {
   const StagedFolder another(out, kNames, false);
   EXPECT_THAT(another.folder(), MatchesRegex(out + "/" + kDate + "(-[0-9])?"));
   EXPECT_THROW(StagedFolder(beneath.folder() + "/own", kNames, false), InputError) << "it would move";
+  EXPECT_FALSE(fs::exists(beneath.folder() + "/own"));
   write(beneath, "2");
   write(above, "3");
   above.publish();
