@@ -52,7 +52,7 @@ constexpr size_t kMostEarly = 5;
 ///
 /// The same objects in the same order give bit-identical readings, from a file or a robot: the replay of a
 /// recording equals the live run.
-class ReadingAssembler {
+class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): there is one of it
  public:
   /// @param lasers               labels of the lasers to use; none: all
   /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it, and actions
