@@ -307,7 +307,9 @@ void StagedFolder::moveOneByOne() const {
   for (const std::string& name : results_)
     if (!fs::exists(stage_ / name)) fs::remove(final_ / name, error);
   std::vector<fs::path> names;
-  for (const auto& entry : fs::directory_iterator(stage_)) names.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(stage_))  // without the links of an exchange that failed
+    if (fs::read_symlink(entry.path(), error) != linkTo(entry.path()))
+      names.push_back(entry.path().filename());
   std::stable_partition(names.begin(), names.end(), [&last](const fs::path& name) { return name != last; });
   for (const fs::path& name : names) {
     fs::rename(stage_ / name, final_ / name, error);

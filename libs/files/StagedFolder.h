@@ -22,7 +22,7 @@ class StagedFolder {
   /// replacing it would move: a dated folder beside it.
   /// @param results  names of all files that a run may write; the last marks a complete run
   /// @param own        a result that may already exist, because the run continues from it
-  /// @throws InputError if the folder cannot be created or written to
+  /// @throws InputError if the folder cannot be created or written to, or is inside one in use
   StagedFolder(const std::string& folder, const std::vector<std::string>& results, bool overwrite,
                const std::string& own = {});
   ~StagedFolder();
@@ -72,7 +72,7 @@ class StagedFolder {
   bool isBeside_ = false, isDone_ = false;
   bool hasLeft_ = false;    ///< files in the hidden folder
   bool isTaken_ = false;    ///< the requested folder, by another run
-  std::vector<int> locks_;  ///< of the final folder, and of that above a dated subfolder
+  std::vector<int> locks_;  ///< of the final folder, and of those above it
   int lock_ = -1;           ///< of the hidden folder, which becomes the final one
   std::unique_ptr<OutputFolder> files_;
 };
