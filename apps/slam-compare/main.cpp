@@ -312,7 +312,8 @@ int execute(const CommandLine& line, const std::string& command) {
     expectNoStop("folder " + line.output);
     report.results.push_back(comparison::evaluateRun(r.run, r.folder, report.truth));
     if (const comparison::RunResult& result = report.results.back();
-        r.folder.isFinished() && result.status == comparison::RunResult::Status::failed)
+        result.status == comparison::RunResult::Status::failed &&
+        (r.folder.isFinished() || line.isReportOnly))
       warn({"run cannot be evaluated: " + r.folder.path().string() + "; " + result.error});
     if (r.folder.isFinished()) r.folder.dropLargeFiles();
   }

@@ -1,5 +1,7 @@
 #include "files/CompressedFile.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -21,10 +23,16 @@ std::FILE* openForReading(const std::string& path, const std::string& expected) 
   return file;
 }
 
+/// Returns the size of an open file.
+off_t sizeOf(std::FILE& file) {
+  struct stat status {};
+  return ::fstat(fileno(&file), &status) == 0 ? status.st_size : 0;
+}
+
 }  // namespace
 
 CompressedFile::CompressedFile(const std::string& path, const std::string& expected)
-    : file_(openForReading(path, expected), std::fclose), buffer_(kBufferSize) {
+    : file_(openForReading(path, expected), std::fclose), size_(sizeOf(*file_)), buffer_(kBufferSize) {
   rewind();
 }
 
@@ -45,7 +53,11 @@ void CompressedFile::refill() {
   if (!unread_.empty()) return;
   errno = 0;
   unread_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_.get())};
-  if (unread_.empty() && std::ferror(file_.get())) fail("cannot read", std::strerror(errno));
+  if (!unread_.empty()) return;
+  if (std::ferror(file_.get()))
+    fail("cannot read", std::strerror(errno));
+  else if (sizeOf(*file_) < size_)
+    fail("shortened while it was read", "");
 }
 
 size_t CompressedFile::read(char* to, size_t count) {

@@ -2,6 +2,8 @@
 /// @brief The bytes of a file, plain or compressed.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -25,7 +27,8 @@ class CompressedFile {
   /// Reads at most `count` bytes.
   /// @return the number read; 0 at the end of the content, or where the file is defective
   size_t read(char* to, size_t count);
-  /// "gzip file cut off", "damaged gzip file", "cannot read"; empty while the file is intact.
+  /// "gzip file cut off", "damaged gzip file", "cannot read", "shortened while it was read"; empty while the
+  /// file is intact.
   const std::string& defect() const { return defect_; }
   const std::string& reason() const { return reason_; }  ///< of the defect; may be empty
   std::optional<Compression> compression() const { return compression_; }
@@ -36,6 +39,7 @@ class CompressedFile {
   void fail(const std::string& defect, const std::string& reason);
 
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  off_t size_;  ///< when it was opened
   std::vector<char> buffer_;
   std::string_view unread_;  ///< part of the buffer
   std::optional<Compression> compression_;

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "testing/CompressedBytes.h"
@@ -69,6 +72,28 @@ TEST(CompressedFile, StreamsOneAfterAnotherAreOneContent) {
     EXPECT_EQ(outcome.content, "onetwo") << nameOf(compression);
     EXPECT_EQ(outcome.defect, "");
   }
+}
+
+TEST(CompressedFile, AFileThatIsShortenedWhileItIsReadIsDefective) {
+  const TemporaryFolder folder;
+  const std::string text = noise(300000);
+  const std::string path = folder.write("plain", text);
+  CompressedFile file(path, "");
+  std::string block(text.size(), ' ');
+  size_t got = file.read(block.data(), 100);
+  std::filesystem::resize_file(path, 200000);
+  while (const size_t more = file.read(block.data(), block.size())) got += more;
+  EXPECT_EQ(got, 200000u);
+  EXPECT_EQ(file.defect(), "shortened while it was read");
+  file.rewind();
+  EXPECT_EQ(file.defect(), "") << "until its end is read";
+
+  CompressedFile growing(path, "");
+  growing.read(block.data(), 100);
+  std::ofstream(path, std::ios::app) << "more";
+  while (growing.read(block.data(), block.size())) {
+  }
+  EXPECT_EQ(growing.defect(), "");
 }
 
 TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "base/Errors.h"
@@ -91,19 +92,34 @@ std::string parsed(const std::string& text, const std::string& file) {
 }
 
 /// Rejects malformed lines and keys before the first section, which the parser ignores.
-void checkLines(const std::string& text, const std::string& file, const std::vector<std::string>& sections) {
+/// @return a line for each key that a section has twice. A second section of the same name overrides the
+///         first: an INI file may be joined from two.
+std::vector<std::string> checkLines(const std::string& text, const std::string& file,
+                                    const std::vector<std::string>& sections) {
   std::istringstream in(text);
   std::optional<std::string> section;
+  std::set<std::string> keys;  // of the section
+  std::vector<std::string> warnings;
   for (std::string line; std::getline(in, line);) {
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
     if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // byte order mark of some editors
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
     const auto end = line.find(']'), equals = line.find('=');
-    if (line.front() == '[' && end != std::string::npos)
+    if (line.front() == '[' && end != std::string::npos) {
       section = line.substr(1, end - 1);
-    else if (!section || ((equals == std::string::npos || equals == 0) && contains(sections, *section)))
+      keys.clear();
+      continue;
+    }
+    const bool isOurs = section && contains(sections, *section);
+    if (!section || (isOurs && (equals == std::string::npos || equals == 0)))
       throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
+    if (!isOurs) continue;
+    const std::string key = mrpt::system::trim(line.substr(0, equals));
+    if (!keys.insert(mrpt::system::lowerCase(key)).second)
+      warnings.push_back("repeated key `" + key + "`: " + file + ", section [" + *section +
+                         "]; its last value is used");
   }
+  return warnings;
 }
 
 /// Returns whether another of our programs, a sensor driver or MRPT's rbpf-slam uses a section.
@@ -143,9 +159,9 @@ std::vector<std::string> loadIniText(mrpt::config::CConfigFileMemory& source, co
                                      const std::string& file, const std::vector<std::string>& settings,
                                      const Sections& sections, const std::string& otherwise,
                                      const std::string& expected) {
-  std::vector<std::string> present, ours, warnings;
+  std::vector<std::string> present, ours;
   for (const auto& [name, options] : sections) ours.push_back(name);
-  checkLines(text, file, ours);
+  std::vector<std::string> warnings = checkLines(text, file, ours);
   checkMacros(text, file);
   source.setContent(text);  // expands macros once more
   source.getAllSections(present);

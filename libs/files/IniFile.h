@@ -21,7 +21,8 @@ using Sections = std::vector<std::pair<std::string, Options*>>;
 /// @param settings   `SECTION.KEY=VALUE` each; override the file
 /// @param otherwise  a section that suffices if the file has none of ours; empty: none
 /// @param expected   end of the error for a file without any of these
-/// @return a line for each section that neither we nor, as far as known, MRPT's programs use
+/// @return a line for each section that neither we nor, as far as known, MRPT's programs use, and for each
+///         key that a section has twice
 /// @throws InputError for a missing file, a file without any of our sections, a misspelt section, a malformed
 ///         or overlong line, $eval{...} or $env{...}, a setting of a section neither ours nor in the file,
 ///         and as Options::loadFromConfigFile

@@ -13,6 +13,7 @@
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
+#include "files/FolderReplacement.h"
 #include "files/Locks.h"
 
 namespace hybrid_slam::files {
@@ -34,33 +35,6 @@ bool isRenamable(const fs::path& folder) {
          ::stat(folder.parent_path().c_str(), &parent) == 0 && own.st_dev == parent.st_dev &&
          own.st_ino != parent.st_ino && !fs::equivalent(folder, fs::current_path(ignored), ignored);
 }
-
-/// Returns whether an entry is a folder, not a link to one.
-bool isFolder(const fs::directory_entry& entry) { return fs::is_directory(entry.symlink_status()); }
-
-/// Returns whether two names are of one file, or of one symbolic link.
-bool isSame(const fs::path& one, const fs::path& other) {
-  struct stat first {
-  }, second{};
-  return ::lstat(one.c_str(), &first) == 0 && ::lstat(other.c_str(), &second) == 0 &&
-         first.st_dev == second.st_dev && first.st_ino == second.st_ino;
-}
-
-/// Returns whether a folder can be moved to another one: it is writable, and no mount point.
-bool isMovable(const fs::directory_entry& folder) {
-  struct stat own {
-  }, parent{};
-  return ::access(folder.path().c_str(), W_OK) == 0 && ::stat(folder.path().c_str(), &own) == 0 &&
-         ::stat(folder.path().parent_path().c_str(), &parent) == 0 && own.st_dev == parent.st_dev;
-}
-
-/// Renames a file or folder with the flags of renameat2. Returns false if that fails.
-bool renameAs(const fs::path& from, const fs::path& to, unsigned flags) {
-  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0;
-}
-
-/// What a link in the final folder to a folder in a hidden one beside it contains.
-fs::path linkTo(const fs::path& folder) { return ".." / folder.parent_path().filename() / folder.filename(); }
 
 /// Syncs a file or a folder's entries to disk.
 /// @throws InputError if that fails
@@ -89,6 +63,8 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
   std::error_code ignored;
   const bool isNew = !fs::exists(folder, ignored);
   const OutputFolder probe(folder);
+  if (::access(folder.c_str(), R_OK) != 0)
+    throw InputError("output folder not readable", folder, "expected a folder whose files can be listed");
   final_ = fs::canonical(folder);
   if (isNew) created_.push_back(final_);
   const std::string prefix = prefixOf(final_);
@@ -124,10 +100,6 @@ std::string StagedFolder::note() const {
   if (isTaken_) return asked_ + " is in use by another run; the results of this one go to " + shown_;
   return asked_ + " has results of an earlier run; those of this run go to " + shown_ +
          " (--overwrite replaces them)";
-}
-
-bool StagedFolder::isResult(const std::string& name) const {
-  return std::find(results_.begin(), results_.end(), name) != results_.end();
 }
 
 bool StagedFolder::holdsResults(const fs::path& folder) const {
@@ -233,8 +205,9 @@ void StagedFolder::removeDead(const fs::path& place) const {
     const int folder = openFolder(entry.path());
     if (folder < 0) continue;
     const bool isDead = lock(folder) == Lock::held;
-    if (isDead) returnLinked(entry.path());  // it was killed amid its exchange
-    if (isDead && !fs::exists(entry.path() / results_.back(), ignored)) removeHidden(entry.path());
+    const FolderReplacement replacement(entry.path(), final_, results_);
+    if (isDead) replacement.returnLinked();  // it was killed amid its exchange
+    if (isDead && !fs::exists(entry.path() / results_.back(), ignored)) replacement.removeHidden();
     ::close(folder);
   }
 }
@@ -244,80 +217,11 @@ void StagedFolder::publish() {
   if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
   isDone_ = true;
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
-  if (!isBeside_ || !exchange()) return moveOneByOne();
-  returnLinked(stage_);
-  returnOthers();
-  hasLeft_ = !removeHidden(stage_);
-}
-
-/// Swaps both folders in one step. First links the other files and folders, so that they are never missing,
-/// also if the program is killed.
-bool StagedFolder::exchange() const {
-  for (const auto& entry : fs::directory_iterator(final_))
-    if (isFolder(entry) && !isMovable(entry)) return false;
-  std::error_code isMovedLater;
-  for (const auto& entry : fs::directory_iterator(final_)) {
-    const fs::path name = entry.path().filename();
-    if (isResult(name.string())) continue;
-    if (isFolder(entry))
-      fs::create_directory_symlink(linkTo(stage_ / name), stage_ / name, isMovedLater);
-    else
-      fs::create_hard_link(entry.path(), stage_ / name, isMovedLater);
-  }
-  return renameAs(stage_, final_, RENAME_EXCHANGE);
-}
-
-/// After the exchange: moves the other folders in place of the links to them.
-void StagedFolder::returnLinked(const fs::path& hidden) const {
-  std::error_code isNoLink;
-  for (const auto& entry : fs::directory_iterator(hidden))
-    if (const fs::path there = final_ / entry.path().filename();
-        isFolder(entry) && fs::read_symlink(there, isNoLink) == linkTo(entry.path()))
-      renameAs(entry.path(), there, RENAME_EXCHANGE);
-}
-
-/// Then moves what could not be linked.
-void StagedFolder::returnOthers() const {
-  for (const auto& entry : fs::directory_iterator(stage_)) {
-    const fs::path name = entry.path().filename();
-    if (!isResult(name.string()) && !fs::exists(fs::symlink_status(final_ / name)))
-      renameAs(entry.path(), final_ / name, RENAME_NOREPLACE);
-  }
-}
-
-/// Removes results and links from a hidden folder, and the folder if nothing else is in it.
-bool StagedFolder::removeHidden(const fs::path& hidden) const {
-  std::error_code ignored;
-  fs::remove(hidden / results_.back(), ignored);  // first, so that the next run ends what a kill interrupts
-  for (const std::string& name : results_) {
-    fs::remove(hidden / name, ignored);
-    fs::remove(hidden / (".partial." + name), ignored);
-  }
-  for (const auto& other : fs::directory_iterator(hidden, ignored))
-    if (fs::read_symlink(other.path(), ignored) == linkTo(other.path()) ||
-        (!isFolder(other) && isSame(other.path(), final_ / other.path().filename())))
-      fs::remove(other.path(), ignored);
-  return fs::remove(hidden, ignored);
-}
-
-void StagedFolder::moveOneByOne() const {
-  std::error_code error;
-  const std::string& last = results_.back();
-  fs::remove(final_ / last, error);
-  for (const std::string& name : results_)
-    if (!fs::exists(stage_ / name)) fs::remove(final_ / name, error);
-  std::vector<fs::path> names;
-  for (const auto& entry : fs::directory_iterator(stage_))  // without the links of an exchange that failed
-    if (fs::read_symlink(entry.path(), error) != linkTo(entry.path()))
-      names.push_back(entry.path().filename());
-  std::stable_partition(names.begin(), names.end(), [&last](const fs::path& name) { return name != last; });
-  for (const fs::path& name : names) {
-    fs::rename(stage_ / name, final_ / name, error);
-    if (error)
-      throw InputError("results cannot be renamed", shown_,
-                       "they are in " + stage_.string() + ": " + error.message());
-  }
-  fs::remove_all(stage_, error);
+  const FolderReplacement replacement(stage_, final_, results_);
+  if (isBeside_ && replacement.exchange())
+    hasLeft_ = !replacement.removeHidden();
+  else
+    replacement.moveOneByOne(shown_);
 }
 
 }  // namespace hybrid_slam::files

@@ -49,18 +49,12 @@ class StagedFolder {
 
  private:
   bool holdsResults(const std::filesystem::path& folder) const;
-  bool isResult(const std::string& name) const;
   void release();
   void claim();
   void takeDatedSubfolder();
   void takeFolderBeside();
   void stageIn(const std::filesystem::path& place, const std::string& prefix);
   void removeDead(const std::filesystem::path& place) const;
-  bool exchange() const;
-  void returnLinked(const std::filesystem::path& hidden) const;
-  void returnOthers() const;
-  bool removeHidden(const std::filesystem::path& hidden) const;
-  void moveOneByOne() const;
 
   std::vector<std::string> results_;
   bool overwrite_;

@@ -6,11 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
 #include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
+#include "testing/Restricted.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::files {
@@ -174,12 +177,52 @@ TEST_F(StagedFolderTest, AFolderThatCannotBeMovedKeepsItsFiles) {
   EXPECT_EQ(inOut("map"), "2");
   EXPECT_TRUE(fs::exists(out + "/folder/file"));
   EXPECT_TRUE(fs::exists(out + "/own/file"));
-  if (::geteuid() == 0) GTEST_SKIP() << "root may move every folder";
-  fs::permissions(out + "/own", fs::perms::owner_read | fs::perms::owner_exec);
-  run("3", true);
-  EXPECT_EQ(inOut("map"), "3");
-  EXPECT_TRUE(fs::exists(out + "/own/file"));
-  fs::permissions(out + "/own", fs::perms::owner_all);
+}
+
+TEST_F(StagedFolderTest, AWriteProtectedFolderKeepsItsFiles) {
+  EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
+    run("1");
+    fs::create_directories(out + "/own/file");
+    fs::permissions(out + "/own", fs::perms::owner_read | fs::perms::owner_exec);
+    run("2", true);
+    const bool isKept = fs::exists(out + "/own/file");
+    fs::permissions(out + "/own", fs::perms::owner_all);
+    return isKept && inOut("map") == "2" && inOut("metrics") == "2";
+  }));
+}
+
+TEST_F(StagedFolderTest, AFolderThatCannotBeListedIsRefusedBeforeTheRun) {
+  EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
+    fs::create_directory(out);
+    fs::permissions(out, fs::perms::owner_write | fs::perms::owner_exec);
+    const std::string error =
+        test::errorOf<InputError>([&] { const StagedFolder staged(out, kNames, false); });
+    fs::permissions(out, fs::perms::owner_all);
+    return error == "output folder not readable: " + out + "; expected a folder whose files can be listed";
+  }));
+}
+
+// Some file systems, such as those of networks, lack one of these calls.
+TEST_F(StagedFolderTest, WithoutAnExchangeFilesAreRenamedOneByOne) {
+  EXPECT_TRUE(test::holdsWithout(SYS_renameat2, EINVAL, [&] {
+    run("1", false, true);
+    fs::create_directories(out + "/own/file");
+    std::ofstream(out + "/notes") << "mine";
+    run("2", true);
+    return inOut("map") == "2" && inOut("metrics") == "2" && !fs::exists(out + "/extra") &&
+           inOut("notes") == "mine" && !fs::is_symlink(out + "/own") && fs::exists(out + "/own/file") &&
+           namesIn(root.path("")) == std::vector<std::string>{"out"};
+  }));
+}
+
+TEST_F(StagedFolderTest, WithoutLocksResultsAppearAsWell) {
+  EXPECT_TRUE(test::holdsWithout(SYS_flock, ENOLCK, [&] {
+    run("1");
+    run("2", true);
+    run("3");  // to a dated subfolder
+    return inOut("map") == "2" && namesIn(out).size() == 3 &&
+           namesIn(root.path("")) == std::vector<std::string>{"out"};
+  }));
 }
 
 TEST_F(StagedFolderTest, AFolderInUseByAnyOfItsNames) {

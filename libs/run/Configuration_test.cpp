@@ -91,6 +91,18 @@ TEST_F(ConfigurationTest, SectionsThatNobodyUsesGiveAWarning) {
               testing::IsEmpty());
 }
 
+TEST_F(ConfigurationTest, ARepeatedKeyGivesAWarning) {
+  folder.write("run.ini", "[grid]\nresolution = 0.2\nmax_range = 9\nresolution=0.1\n[x]\na=1\na=2\n");
+  const Configuration configuration(ini, {});
+  EXPECT_THAT(configuration.warnings, testing::Contains("repeated key `resolution`: " + ini +
+                                                        ", section [grid]; its last value is used"));
+  EXPECT_EQ(configuration.filter.grid.resolution, 0.1);
+  folder.write("run.ini", "[grid]\nresolution = 0.2\n[run]\n[grid]\nresolution = 0.1\n");
+  const Configuration joined(ini, {});
+  EXPECT_THAT(joined.warnings, testing::IsEmpty());
+  EXPECT_EQ(joined.filter.grid.resolution, 0.1);
+}
+
 TEST_F(ConfigurationTest, OverlongLines) {
   EXPECT_EQ(errorOf("[run]\noutput = " + std::string(10000, 'x') + "\n"),
             "line too long: " + ini + ", line 2; expected at most 10000 characters");

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "run/Progress.h"
 #include "slam/filter/HybridFilter.h"
 
@@ -57,6 +58,9 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
     logLikelihoods += step.logLikelihood;
     ++updates;
   }
+  if (scans < log.scans)
+    throw InputError("log has become shorter while it was read", source.place(),
+                     "expected " + counted(log.scans, "scan(s)"));
   expectation.logLikelihood = logLikelihoods / static_cast<double>(std::max<size_t>(updates, 1));
   return expectation;
 }

@@ -81,6 +81,17 @@ std::ifstream opened(const fs::path& file) {
   return in;
 }
 
+/// Returns whether a file has the recorded size and checksum. The size is compared first: damage may make a
+/// small file terabytes long. In folders of earlier builds the record is the checksum alone.
+bool isIntact(const fs::path& file, const nlohmann::json& record) {
+  std::error_code missing;
+  const auto sum = record.is_object() ? record.value("crc32", nlohmann::json()) : record;
+  if (!sum.is_number_unsigned()) return false;
+  if (record.is_object() && record.value("bytes", nlohmann::json()) != fs::file_size(file, missing))
+    return false;
+  return files::checksumOf(file.string()) == sum.get<uint32_t>();
+}
+
 }  // namespace
 
 void noteLog(RunIdentity& identity, const std::string& log) {
@@ -143,7 +154,7 @@ void RunFolder::finish() const {
   nlohmann::ordered_json checksums;
   for (const auto& entry : fs::directory_iterator(partial_))
     if (const auto sum = files::checksumOf(entry.path().string()))
-      checksums[entry.path().filename().string()] = *sum;
+      checksums[entry.path().filename().string()] = {{"bytes", entry.file_size()}, {"crc32", *sum}};
   std::ofstream out(partial_ / kChecksums);
   out << checksums.dump(2) << '\n';
   out.close();
@@ -167,9 +178,8 @@ std::string RunFolder::damage() const {
   if (!isThere(file(kChecksums))) return isThere(file(kOrigin)) ? kChecksums : "";
   const auto checksums = readJson(file(kChecksums));
   if (!checksums.is_object()) return kChecksums;
-  for (const auto& [name, sum] : checksums.items())
-    if (!sum.is_number_unsigned() || files::checksumOf(file(name).string()) != sum.get<uint32_t>())
-      return name;
+  for (const auto& [name, record] : checksums.items())
+    if (!isIntact(file(name), record)) return name;
   return {};
 }
 

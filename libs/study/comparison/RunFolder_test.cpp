@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
@@ -74,6 +76,24 @@ TEST_F(RunFolderTest, NoticesAFileThatHasChanged) {
   EXPECT_EQ(folder.damage(), "map.gridmap.gz");
   std::ofstream(folder.file("checksums.json")) << "{";
   EXPECT_EQ(folder.damage(), "checksums.json");
+}
+
+// Reading it whole would take minutes.
+TEST_F(RunFolderTest, AFileThatHasGrownToATerabyteIsDamagedAtOnce) {
+  finishRun();
+  fs::resize_file(folder.file("map.gridmap.gz"), uintmax_t{1} << 40);
+  EXPECT_EQ(folder.damage(), "map.gridmap.gz");
+}
+
+TEST_F(RunFolderTest, RecordsOfTheChecksumAloneAreStillRead) {
+  finishRun();
+  std::ifstream in(folder.file("checksums.json"));
+  auto records = nlohmann::json::parse(in);
+  for (auto& record : records) record = record["crc32"];
+  std::ofstream(folder.file("checksums.json")) << records;
+  EXPECT_EQ(folder.damage(), "");
+  std::ofstream(folder.file("metrics.json")) << "{";
+  EXPECT_EQ(folder.damage(), "metrics.json");
 }
 
 TEST_F(RunFolderTest, ExpectsTheSameSettingsAndLog) {

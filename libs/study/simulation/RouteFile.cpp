@@ -92,10 +92,9 @@ void RouteBuilder::roundCorner(const TPoint2D& next) {
 
 void RouteBuilder::add(const Record& record) {
   const std::vector<double>& v = record.numbers;
-  const auto expectPositive = [&record](double value, const char* unit) {
-    if (value <= 0)
-      throw InputError("`" + record.word + "` is not positive", record.where,
-                       std::string("expected a number above 0 ") + unit);
+  const auto expectPositive = [&record](double value, const std::string& unit) {
+    if (!(value >= 1e-3))
+      throw InputError("`" + record.word + "` too low", record.where, "expected at least 0.001 " + unit);
   };
   if (record.word == "start") {
     expectNumbers(record, "X Y HEADING_DEG");

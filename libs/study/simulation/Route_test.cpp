@@ -93,10 +93,11 @@ TEST(Route, ErrorsNameTheLine) {
   EXPECT_THAT(errorOf("go 1 0\n"), HasSubstr("`go` before `start`"));
   EXPECT_THAT(errorOf("start 0 0 0\nstart 1 0 0\n"), HasSubstr("second `start`"));
   EXPECT_THAT(errorOf("start 0 0 0\ngo 1\n"), HasSubstr("expected `go X Y`"));
-  EXPECT_THAT(errorOf("start 0 0 0\nspeed 0\ngo 1 0\n"), HasSubstr("`speed` is not positive"));
-  EXPECT_THAT(errorOf("start 0 0 0\nturn_speed -1\ngo 1 0\n"), HasSubstr("`turn_speed` is not positive"));
-  EXPECT_THAT(errorOf("start 0 0 0\nwait -1\n"), HasSubstr("`wait` is not positive"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 0\ngo 1 1\n"), HasSubstr("`via` is not positive"));
+  EXPECT_THAT(errorOf("start 0 0 0\nspeed 0\ngo 1 0\n"), HasSubstr("`speed` too low"));
+  EXPECT_THAT(errorOf("start 0 0 0\nspeed 1e-300\ngo 1 0\n"), HasSubstr("expected at least 0.001 m/s"));
+  EXPECT_THAT(errorOf("start 0 0 0\nturn_speed -1\ngo 1 0\n"), HasSubstr("`turn_speed` too low"));
+  EXPECT_THAT(errorOf("start 0 0 0\nwait -1\n"), HasSubstr("`wait` too low"));
+  EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 0\ngo 1 1\n"), HasSubstr("`via` too low"));
   EXPECT_THAT(errorOf("start 0 0 0\ngo 1 0\ngo 1 0\n"), HasSubstr("repeated way point"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 2\ngo 1 5\n"), HasSubstr("does not fit"));
   EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\ngo 5 1\n"), HasSubstr("does not fit"));

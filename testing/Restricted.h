@@ -1,0 +1,66 @@
+/// @file Restricted.h
+/// @brief Runs part of a test as on another system: without a system call, or as an ordinary user.
+#pragma once
+
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <string>
+
+namespace hybrid_slam::test {
+
+/// Runs `body` in a child process after `restrict`.
+/// @return whether `body` returned true
+inline bool holdsInChild(const std::function<bool()>& restrict, const std::function<bool()>& body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    bool holds = false;
+    try {
+      const bool isRestricted = restrict();
+      if (!isRestricted) std::cerr << "the child cannot be restricted" << std::endl;
+      holds = isRestricted && body();
+    } catch (const std::exception& e) {
+      std::cerr << e.what() << std::endl;
+    }
+    _exit(holds ? 0 : 1);
+  }
+  int status = 1;
+  return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+/// Runs `body` in a child process whose system call `number` fails with `error`.
+inline bool holdsWithout(unsigned number, unsigned error, const std::function<bool()>& body) {
+  return holdsInChild(
+      [&] {
+        std::array<sock_filter, 4> rules{{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1),
+                                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
+                                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)}};
+        sock_fprog program{rules.size(), rules.data()};
+        return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+               prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+      },
+      body);
+}
+
+/// Runs `body` as an ordinary user, who owns `folder`, if the test runs as root.
+inline bool holdsWithoutRoot(const std::string& folder, const std::function<bool()>& body) {
+  constexpr uid_t kNobody = 65534;
+  return holdsInChild(
+      [&] {
+        return geteuid() != 0 ||
+               (chown(folder.c_str(), kNobody, kNobody) == 0 && setgid(kNobody) == 0 && setuid(kNobody) == 0);
+      },
+      body);
+}
+
+}  // namespace hybrid_slam::test
