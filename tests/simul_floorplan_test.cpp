@@ -221,7 +221,7 @@ TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
   write("room.route", waits);
   expectInputError(kRun, "too many readings: 27777.8 h");
   write("room.route", "start 1 1 0\nspeed 1e-9\ngo 6 1\n");
-  expectInputError(kRun, "too many readings");
+  expectInputError(kRun, "`speed` too low: file room.route, line 2");
   write("room.route", std::string(2 << 20, 'x'));
   expectInputError(kRun, "not a text log: room.route, line 1");
   write("room.route", std::string(1 << 19, 'x') + " 1 1 0\n");
