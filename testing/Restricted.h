@@ -37,19 +37,21 @@ inline bool holdsInChild(const std::function<bool()>& restrict, const std::funct
   return child > 0 && waitpid(child, &status, 0) == child && status == 0;
 }
 
+/// Lets a system call of this process fail or kill it.
+/// @param action  SECCOMP_RET_ERRNO | error, or SECCOMP_RET_KILL_PROCESS
+inline bool restrictCall(unsigned number, unsigned action) {
+  std::array<sock_filter, 4> rules{{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                                    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1),
+                                    BPF_STMT(BPF_RET | BPF_K, action),
+                                    BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)}};
+  sock_fprog program{rules.size(), rules.data()};
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
 /// Runs `body` in a child process whose system call `number` fails with `error`.
 inline bool holdsWithout(unsigned number, unsigned error, const std::function<bool()>& body) {
-  return holdsInChild(
-      [&] {
-        std::array<sock_filter, 4> rules{{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-                                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1),
-                                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
-                                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)}};
-        sock_fprog program{rules.size(), rules.data()};
-        return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-               prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-      },
-      body);
+  return holdsInChild([&] { return restrictCall(number, SECCOMP_RET_ERRNO | error); }, body);
 }
 
 /// Runs `body` as an ordinary user, who owns `folder`, if the test runs as root.

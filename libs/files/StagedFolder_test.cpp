@@ -2,19 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <csignal>
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
-#include "files/TemporaryFolder.h"
-#include "testing/ErrorOf.h"
-#include "testing/Restricted.h"
-#include "testing/TestLogs.h"
+#include "testing/StagedFolderTest.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -25,33 +16,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
 using testing::UnorderedElementsAre;
-
-const std::vector<std::string> kNames{"map", "extra", "metrics"};
-constexpr const char* kDate = "[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}-[0-9]{2}-[0-9]{2}";
-
-class StagedFolderTest : public testing::Test {
- protected:
-  void write(const StagedFolder& staged, const std::string& content, bool withExtra = false) {
-    for (const std::string& name : kNames)
-      if (withExtra || name != "extra")
-        staged.files().write(name, [&](std::ostream& stream) { stream << content; });
-  }
-  void run(const std::string& content, bool overwrite = false, bool withExtra = false) {
-    StagedFolder staged(out, kNames, overwrite);
-    write(staged, content, withExtra);
-    staged.publish();
-  }
-  static std::vector<std::string> namesIn(const std::string& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder))
-      names.push_back(entry.path().filename().string());
-    return names;
-  }
-  std::string inOut(const std::string& name) const { return contentOf(out + "/" + name); }
-
-  TemporaryFolder root;
-  std::string out = root.path("out");
-};
 
 TEST_F(StagedFolderTest, ResultsAppearTogether) {
   {
@@ -166,65 +130,6 @@ TEST_F(StagedFolderTest, AFolderIsNotReplacedWhileARunUsesItsSubfolder) {
   EXPECT_EQ(contentOf(above.finalPath("map")), "3");
 }
 
-// A mount point, or a folder of another user, cannot be moved into the new one.
-TEST_F(StagedFolderTest, AFolderThatCannotBeMovedKeepsItsFiles) {
-  run("1");
-  fs::create_directories(out + "/own/file");
-  fs::create_directory(root.path(".out.part-left"));
-  fs::create_directories(root.path(".out.part-left/folder/file"));  // as if it could not be moved back
-  fs::create_directory_symlink("../.out.part-left/folder", out + "/folder");
-  run("2", true);
-  EXPECT_EQ(inOut("map"), "2");
-  EXPECT_TRUE(fs::exists(out + "/folder/file"));
-  EXPECT_TRUE(fs::exists(out + "/own/file"));
-}
-
-TEST_F(StagedFolderTest, AWriteProtectedFolderKeepsItsFiles) {
-  EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
-    run("1");
-    fs::create_directories(out + "/own/file");
-    fs::permissions(out + "/own", fs::perms::owner_read | fs::perms::owner_exec);
-    run("2", true);
-    const bool isKept = fs::exists(out + "/own/file");
-    fs::permissions(out + "/own", fs::perms::owner_all);
-    return isKept && inOut("map") == "2" && inOut("metrics") == "2";
-  }));
-}
-
-TEST_F(StagedFolderTest, AFolderThatCannotBeListedIsRefusedBeforeTheRun) {
-  EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
-    fs::create_directory(out);
-    fs::permissions(out, fs::perms::owner_write | fs::perms::owner_exec);
-    const std::string error =
-        test::errorOf<InputError>([&] { const StagedFolder staged(out, kNames, false); });
-    fs::permissions(out, fs::perms::owner_all);
-    return error == "output folder not readable: " + out + "; expected a folder whose files can be listed";
-  }));
-}
-
-// Some file systems, such as those of networks, lack one of these calls.
-TEST_F(StagedFolderTest, WithoutAnExchangeFilesAreRenamedOneByOne) {
-  EXPECT_TRUE(test::holdsWithout(SYS_renameat2, EINVAL, [&] {
-    run("1", false, true);
-    fs::create_directories(out + "/own/file");
-    std::ofstream(out + "/notes") << "mine";
-    run("2", true);
-    return inOut("map") == "2" && inOut("metrics") == "2" && !fs::exists(out + "/extra") &&
-           inOut("notes") == "mine" && !fs::is_symlink(out + "/own") && fs::exists(out + "/own/file") &&
-           namesIn(root.path("")) == std::vector<std::string>{"out"};
-  }));
-}
-
-TEST_F(StagedFolderTest, WithoutLocksResultsAppearAsWell) {
-  EXPECT_TRUE(test::holdsWithout(SYS_flock, ENOLCK, [&] {
-    run("1");
-    run("2", true);
-    run("3");  // to a dated subfolder
-    return inOut("map") == "2" && namesIn(out).size() == 3 &&
-           namesIn(root.path("")) == std::vector<std::string>{"out"};
-  }));
-}
-
 TEST_F(StagedFolderTest, AFolderInUseByAnyOfItsNames) {
   fs::create_directory(out);
   fs::create_directory(root.path("other"));
@@ -236,36 +141,6 @@ TEST_F(StagedFolderTest, AFolderInUseByAnyOfItsNames) {
         << name;
 }
 
-TEST_F(StagedFolderTest, ARunThatIsKilledInTheExchangeHidesNothing) {
-  run("1");
-  fs::create_directory(out + "/folder");
-  std::ofstream(out + "/folder/file") << "other";
-  std::ofstream(out + "/notes") << "mine";
-  for (const char* const moment : {"links", "exchange"}) {  // after which it is killed
-    SCOPED_TRACE(moment);
-    const std::string hidden = root.path(".out.part-killed");
-    fs::create_directory(hidden);
-    std::ofstream(hidden + "/map") << "2";
-    std::ofstream(hidden + (moment == std::string("links") ? "/.partial.metrics" : "/metrics")) << "2";
-    fs::create_directory_symlink("../.out.part-killed/folder", hidden + "/folder");
-    fs::create_hard_link(out + "/notes", hidden + "/notes");
-    if (moment == std::string("exchange")) {
-      fs::rename(out, root.path("old"));
-      fs::rename(hidden, out);
-      fs::rename(root.path("old"), hidden);
-      EXPECT_EQ(inOut("folder/file"), "other") << "through a link";
-    }
-    const std::string before = inOut("map");
-    { const StagedFolder next(out, kNames, false); }
-    EXPECT_TRUE(fs::is_directory(fs::symlink_status(out + "/folder")));
-    EXPECT_EQ(inOut("folder/file"), "other");
-    EXPECT_EQ(inOut("notes"), "mine");
-    EXPECT_EQ(inOut("map"), before);
-    EXPECT_THAT(namesIn(out), UnorderedElementsAre("map", "metrics", "notes", "folder"));
-    fs::remove_all(hidden);
-  }
-}
-
 TEST_F(StagedFolderTest, ResultsThatAreCopiedThereMeanwhileAreNotReplaced) {
   StagedFolder staged(out, kNames, false);
   write(staged, "run");
@@ -274,18 +149,6 @@ TEST_F(StagedFolderTest, ResultsThatAreCopiedThereMeanwhileAreNotReplaced) {
   EXPECT_EQ(inOut("map"), "copy");
   EXPECT_EQ(contentOf(staged.finalPath("map")), "run");
   EXPECT_THAT(staged.note(), HasSubstr(out + "/20"));
-}
-
-TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {
-  run("1");
-  {
-    StagedFolder staged(out, kNames, true);
-    write(staged, "2");
-    fs::create_symlink("/dev/null", staged.files().path("extra"));  // which cannot be synced
-    EXPECT_THROW(staged.publish(), InputError);
-  }
-  EXPECT_EQ(inOut("map"), "1");
-  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("out"));
 }
 
 TEST_F(StagedFolderTest, ASymbolicLinkToAFolderStays) {
@@ -317,37 +180,6 @@ TEST_F(StagedFolderTest, AFolderInPlaceOfAResultIsAnError) {
   EXPECT_THROW(StagedFolder(out, kNames, true), InputError);
   run("1");
   EXPECT_THAT(namesIn(out + "/map"), IsEmpty());
-}
-
-TEST_F(StagedFolderTest, AKilledRunIsClearedAwayAndARunningOneIsNot) {
-  const pid_t child = fork();
-  if (child == 0) {
-    StagedFolder killed(out, kNames, false);
-    killed.files().write("map", [](std::ostream&) {});
-    std::raise(SIGKILL);
-  }
-  waitpid(child, nullptr, 0);
-  EXPECT_EQ(namesIn(root.path("")).size(), 2u) << "out and the hidden folder";
-  StagedFolder running(out, kNames, false);
-  write(running, "1");
-  const StagedFolder next(out, kNames, false);
-  EXPECT_EQ(namesIn(root.path("")).size(), 4u) << "two folders, and a hidden one each";
-  running.publish();
-  EXPECT_EQ(inOut("map"), "1");
-}
-
-TEST_F(StagedFolderTest, LinksThatAKilledRunHasLeftAreClearedAwayAndOtherFilesAreNot) {
-  run("one");
-  std::ofstream(out + "/notes") << "mine";
-  const std::string linked = root.path(".out.part-linked"), moved = root.path(".out.part-moved");
-  fs::create_directory(linked);
-  fs::create_hard_link(out + "/notes", linked + "/notes");
-  fs::create_directory(moved);
-  std::ofstream(moved + "/notes") << "other";
-  run("two", true);
-  EXPECT_FALSE(fs::exists(linked));
-  EXPECT_EQ(contentOf(moved + "/notes"), "other");
-  EXPECT_EQ(contentOf(out + "/notes"), "mine");
 }
 
 TEST(DatedName, IsTheFirstThatIsFree) {

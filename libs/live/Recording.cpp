@@ -22,15 +22,17 @@ void Recording::open() {
   const fs::path stem = fs::path(name_).stem(), extension = fs::path(name_).extension();
   files::claimDatedName([&](const std::string& date) {
     path_ = (fs::path(folder_) / (stem.string() + "-" + date + extension.string())).string();
-    if (fs::exists(path_)) return false;
     const std::string partial = files::PartialFile::partialName(path_);
     const int file = ::open(partial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file < 0 && errno != EEXIST)
       throw InputError(
           "cannot write", path_,
           std::string("expected a writable folder with free disk space: ") + std::strerror(errno));
-    if (file >= 0) ::close(file);
-    return file >= 0;
+    if (file < 0) return false;
+    ::close(file);
+    const bool isFree = !fs::exists(path_);  // looked at now, as another recording may just have ended
+    if (!isFree) fs::remove(partial);
+    return isFree;
   });
   writer_ = std::make_unique<files::RawlogWriter>(path_);
 }

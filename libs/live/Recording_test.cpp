@@ -1,0 +1,51 @@
+#include "live/Recording.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "files/RawlogReader.h"
+#include "files/TemporaryFolder.h"
+#include "testing/TestEvents.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::live {
+namespace {
+
+size_t entriesOf(const std::string& file) {
+  files::RawlogReader reader(file);
+  size_t entries = 0;
+  while (reader.next()) ++entries;
+  return entries;
+}
+
+// A supervisor may start the program again within a second.
+TEST(Recording, NoneReplacesAnother) {
+  const files::TemporaryFolder folder;
+  test::Events events;
+  std::set<std::string> paths;
+  for (size_t i = 1; i <= 6; ++i) {  // at least two within a second
+    Recording one(folder.path(""), "run.rawlog", events.log());
+    Recording other(folder.path(""), "run.rawlog", events.log());
+    for (size_t k = 0; k < i; ++k) one.write(*test::scan(1000, {}));
+    other.write(*test::scan(1000, {}));
+    one.finish();
+    EXPECT_EQ(entriesOf(one.path()), i);
+    other.finish();
+    EXPECT_EQ(entriesOf(one.path()), i);
+    EXPECT_EQ(entriesOf(other.path()), 1u);
+    paths.insert({one.path(), other.path()});
+  }
+  EXPECT_EQ(paths.size(), 12u);
+}
+
+TEST(Recording, WithoutAnObservationThereIsNoFile) {
+  const files::TemporaryFolder folder;
+  test::Events events;
+  { const Recording recording(folder.path(""), "run.rawlog", events.log()); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::live
