@@ -146,6 +146,14 @@ TEST_F(GridMapReader, NumbersThatCannotBeTrue) {
   EXPECT_THAT(errorOf(changed), HasSubstr("of unknown version 7"));
 }
 
+TEST_F(GridMapReader, ALikelihoodMethodThatMrptDoesNotKnowIsAnError) {
+  COccupancyGridMap2D unknown = map;
+  unknown.likelihoodOptions.likelihoodMethod = COccupancyGridMap2D::lmConsensusOWA;
+  EXPECT_EQ(errorOf(bytesOf(unknown)), "");
+  unknown.likelihoodOptions.likelihoodMethod = static_cast<COccupancyGridMap2D::TLikelihoodMethod>(7);
+  EXPECT_THAT(errorOf(bytesOf(unknown)), HasSubstr("unknown likelihood method"));
+}
+
 TEST_F(GridMapReader, OldVersions) {
   const std::string name = bytes.substr(0, kVersion), place = bytes.substr(kSize, kResolution + 4 - kSize);
   const std::string cells(6 * 4, '\x80'), end = "\x88";  // occupancy 0.5 before version 3

@@ -115,7 +115,7 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
       throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
     if (!isOurs) continue;
     const std::string key = mrpt::system::trim(line.substr(0, equals));
-    if (!keys.insert(mrpt::system::lowerCase(key)).second)
+    if (!keys.insert(key).second)
       warnings.push_back("repeated key `" + key + "`: " + file + ", section [" + *section +
                          "]; its last value is used");
   }

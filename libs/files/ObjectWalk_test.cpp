@@ -297,6 +297,32 @@ TEST(ObjectWalk, AnEstimationMethodThatMrptDoesNotKnowIsAnError) {
   EXPECT_THAT(walked(bytes), HasSubstr("unknown estimation method"));
 }
 
+TEST(ObjectWalk, AnObjectHasAtMost64Mebibytes) {
+  const auto comment = mrpt::obs::CObservationComment::Create();
+  for (const size_t size : {ObjectWalk::kMostBytes - 1000, ObjectWalk::kMostBytes}) {
+    comment->text = std::string(size, 'x');
+    EXPECT_EQ(walked(bytesOf(comment)), size < ObjectWalk::kMostBytes ? "" : "an object of more than 64 MiB");
+  }
+}
+
+TEST(ObjectWalk, CountsThatCostTimeAreBounded) {
+  for (const char rows : {'\xe8', '\xe9'})  // 1000 and 1001
+    EXPECT_THAT(
+        walked(header("CObservation2DRangeScan", 7) + std::string("\0\0\0\0\1\0\0\0\0", 9) +
+               header("CPose3D", 1) + header("CMatrixD", 0) + rows + std::string("\3\0\0\0\0\0\0", 7)),
+        rows == '\xe8' ? HasSubstr("cut off") : HasSubstr("a matrix of more than 1000 rows"));
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
+  for (const uint32_t particles : {10000u, 10001u}) {
+    model.thrunModel.nParticlesCount = particles;
+    mrpt::obs::CActionRobotMovement2D movement;
+    movement.computeFromOdometry({1, 0, 0}, model);
+    const auto actions = mrpt::obs::CActionCollection::Create();
+    actions->insert(movement);
+    EXPECT_EQ(walked(bytesOf(actions)),
+              particles == 10000 ? "" : "a motion model of more than 10000 particles");
+  }
+}
+
 TEST(ObjectWalk, OldLogsHaveFourByteHeadersAndNoEndFlags) {
   const auto old = [](const std::string& name, char version) {
     return std::string(1, static_cast<char>(name.size())) + std::string(3, '\0') + name + version +
