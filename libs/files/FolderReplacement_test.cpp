@@ -70,6 +70,18 @@ TEST_F(StagedFolderTest, WithoutAnExchangeFilesAreRenamedOneByOne) {
   }));
 }
 
+#ifdef SYS_link
+TEST_F(StagedFolderTest, WithoutHardLinksFilesAreMovedAfterTheExchange) {
+  EXPECT_TRUE(test::holdsWithout(SYS_link, EPERM, [&] {
+    run("1");
+    std::ofstream(out + "/notes") << "mine";
+    run("2", true);
+    return inOut("map") == "2" && inOut("notes") == "mine" &&
+           namesIn(root.path("")) == std::vector<std::string>{"out"};
+  }));
+}
+#endif
+
 TEST_F(StagedFolderTest, WithoutLocksResultsAppearAsWell) {
   EXPECT_TRUE(test::holdsWithout(SYS_flock, ENOLCK, [&] {
     run("1");
@@ -146,6 +158,7 @@ TEST_F(StagedFolderTest, OneByOneTheLastResultComesLast) {
       const std::string name = "map" + std::to_string(i), last = "metrics" + std::to_string(15 - i);
       const std::string folder = root.path("out" + std::to_string(i));
       fs::create_directory(folder);
+      std::ofstream(folder + "/" + last) << "of an earlier run";
       std::ofstream(folder + "/notes") << "mine";
       StagedFolder staged(folder, {name, last}, true);
       for (const std::string& result : {name, last})
