@@ -254,6 +254,9 @@ int execute(const CommandLine& line, const std::string& command) {
     truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
+  std::error_code none;
+  if (fs::exists(runs, none) && !fs::is_directory(runs, none))
+    throw InputError("not a folder", runs.string(), "expected the folder of the runs");
   if (!sweep.empty())
     comparison::expectLog(sweep.front().folder.path().parent_path(), sweep.front().identity);
 

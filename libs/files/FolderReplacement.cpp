@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/Errors.h"
-
 namespace hybrid_slam::files {
 
 namespace fs = std::filesystem;
@@ -98,7 +96,7 @@ bool FolderReplacement::removeHidden() const {
   return fs::remove(hidden_, ignored);
 }
 
-void FolderReplacement::moveOneByOne(const std::string& shown) const {
+void FolderReplacement::moveOneByOne() const {
   std::error_code error;
   const std::string& last = results_.back();
   fs::remove(final_ / last, error);
@@ -109,12 +107,7 @@ void FolderReplacement::moveOneByOne(const std::string& shown) const {
     if (fs::read_symlink(entry.path(), error) != linkTo(entry.path()))
       names.push_back(entry.path().filename());
   std::stable_partition(names.begin(), names.end(), [&last](const fs::path& name) { return name != last; });
-  for (const fs::path& name : names) {
-    fs::rename(hidden_ / name, final_ / name, error);
-    if (error)
-      throw InputError("results cannot be renamed", shown,
-                       "they are in " + hidden_.string() + ": " + error.message());
-  }
+  for (const fs::path& name : names) fs::rename(hidden_ / name, final_ / name);
   fs::remove_all(hidden_, error);
 }
 

@@ -29,9 +29,9 @@ class FolderReplacement {
   /// @return whether the folder is gone
   bool removeHidden() const;
   /// Renames file after file, and removes the hidden folder. The result that marks a complete run comes last.
-  /// @param shown  the final folder as the user wrote it
-  /// @throws InputError if a file cannot be renamed; it names the hidden folder
-  void moveOneByOne(const std::string& shown) const;
+  /// @throws std::filesystem::filesystem_error if a file cannot be renamed; the others stay in the hidden
+  /// folder
+  void moveOneByOne() const;
 
  private:
   bool isResult(const std::string& name) const;

@@ -202,6 +202,40 @@ TEST_F(StagedFolderTest, LinksThatAKilledRunHasLeftAreClearedAwayAndOtherFilesAr
   EXPECT_EQ(contentOf(out + "/notes"), "mine");
 }
 
+// Finished results stay, and the error says where.
+TEST_F(StagedFolderTest, AFinalFolderThatCannotBeReplaced) {
+  for (const std::string fault : {"protected", "hidden", "file"}) {
+    SCOPED_TRACE(fault);
+    EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
+      const std::string folder = root.path(fault);
+      const auto mode = [&](fs::perms perms) { fs::permissions(folder, perms); };
+      std::string error, hidden;
+      {
+        StagedFolder staged(folder, kNames, false);
+        hidden = staged.files().path("");
+        write(staged, "1");
+        if (fault == "file") {
+          fs::remove(folder);
+          std::ofstream(folder).flush();
+        } else if (fault == "protected") {
+          std::ofstream(folder + "/map") << "copy";
+          mode(fs::perms::owner_read | fs::perms::owner_exec);
+        } else {
+          mode(fs::perms::none);
+        }
+        error = test::errorOf<InputError>([&] { staged.publish(); });
+      }
+      if (fault == "file" ? !fs::is_regular_file(folder) : fs::is_regular_file(folder)) return false;
+      if (fs::exists(folder)) mode(fs::perms::owner_all);
+      if (error.find("results cannot be renamed: " + folder) != 0 || contentOf(hidden + "map") != "1") {
+        std::cerr << error << std::endl;
+        return false;
+      }
+      return error.find("they are in " + hidden.substr(0, hidden.size() - 1)) != std::string::npos;
+    }));
+  }
+}
+
 TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {
   run("1");
   {

@@ -108,6 +108,9 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
     if (line.front() == '[' && end != std::string::npos) {
       section = line.substr(1, end - 1);
       keys.clear();
+      const std::string rest = mrpt::system::trim(line.substr(end + 1));
+      if (contains(sections, *section) && !rest.empty() && rest.find_first_of("#;/") != 0)
+        throw InputError("wrong line `" + line + "`", file, "expected nothing but a comment after [section]");
       continue;
     }
     const bool isOurs = section && contains(sections, *section);

@@ -1,6 +1,9 @@
 #include "files/InputFile.h"
 
+#include <sys/stat.h>
+
 #include <filesystem>
+#include <set>
 
 #include "base/Errors.h"
 
@@ -11,6 +14,28 @@ void expectFile(const std::string& path, const std::string& expected) {
   if (!std::filesystem::exists(path, ignored)) throw InputError("no such file", path, expected);
   if (std::filesystem::is_directory(path, ignored)) throw InputError("a folder, not a file", path, expected);
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("not a file", path, expected);
+}
+
+std::string stateOf(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  std::set<std::string> files{path};
+  if (fs::is_directory(path, ignored)) {
+    files.clear();
+    for (const auto& entry : fs::directory_iterator(path, ignored))
+      if (entry.is_regular_file(ignored)) files.insert(entry.path().string());
+  }
+  std::string all;
+  for (const std::string& file : files) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) continue;
+    for (const long long number :
+         {static_cast<long long>(status.st_dev), static_cast<long long>(status.st_ino),
+          static_cast<long long>(status.st_size), static_cast<long long>(status.st_mtim.tv_sec),
+          static_cast<long long>(status.st_mtim.tv_nsec)})
+      all += std::to_string(number) + " ";
+  }
+  return all;
 }
 
 }  // namespace hybrid_slam::files

@@ -1,5 +1,5 @@
 /// @file InputFile.h
-/// @brief Checks a file before it is opened.
+/// @brief Checks a file before it is opened, and whether it has changed since.
 #pragma once
 
 #include <string>
@@ -10,5 +10,9 @@ namespace hybrid_slam::files {
 /// @param expected  "expected a ..."
 /// @throws InputError unless there is a regular file of this name
 void expectFile(const std::string& path, const std::string& expected);
+
+/// Returns a text that changes when a file is replaced or written to: its device, number, size and time of
+/// modification; of a folder, those of its files. Empty if there is none.
+std::string stateOf(const std::string& path);
 
 }  // namespace hybrid_slam::files

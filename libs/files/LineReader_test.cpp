@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <filesystem>
+
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
 
@@ -23,6 +25,17 @@ std::vector<std::string> readAll(LineReader& lines) {
   std::vector<std::string> all;
   for (std::string line; lines.next(line);) all.push_back(line);
   return all;
+}
+
+TEST(LineReader, AFileThatIsShortenedAtTheEndOfALineIsAnError) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("lines", std::string(100000, '\n'));
+  LineReader lines(path);
+  std::string line;
+  lines.next(line);
+  std::filesystem::resize_file(path, 90000);
+  EXPECT_EQ(test::errorOf([&] { readAll(lines); }),
+            "shortened while it was read: " + path + ", after line 90000; expected a whole file");
 }
 
 std::string errorOf(const std::string& path) {

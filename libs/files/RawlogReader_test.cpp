@@ -52,6 +52,19 @@ TEST(RawlogReader, ReadsPlainAndGzipped) {
   EXPECT_EQ(readAll(test::writeGzipped(folder.path("gzip"), smallLog())), (Read{5, "", ""}));
 }
 
+TEST(RawlogReader, ALogThatIsShortenedBetweenTwoEntriesIsDefective) {
+  const TemporaryFolder folder;
+  std::vector<size_t> ends;
+  const std::string path = test::writePlain(folder.path("log"), test::laps(300), &ends);
+  RawlogReader reader(path);
+  reader.next();
+  std::filesystem::resize_file(path, ends[500]);
+  while (reader.next()) {
+  }
+  EXPECT_EQ(reader.entry(), 501u);
+  EXPECT_EQ(reader.defect(), "shortened while it was read");
+}
+
 TEST(RawlogReader, EveryCutOfAPlainLogIsDetected) {
   const TemporaryFolder folder;
   std::vector<size_t> ends;

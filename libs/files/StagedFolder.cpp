@@ -91,7 +91,7 @@ void StagedFolder::release() {
   for (const int lock : locks_)
     if (lock >= 0) ::close(lock);
   std::reverse(created_.begin(), created_.end());
-  for (const fs::path& folder : created_) fs::remove(folder, ignored);  // only if empty
+  for (const fs::path& folder : created_) ::rmdir(folder.c_str());  // only if it is an empty folder
 }
 
 std::string StagedFolder::note() const {
@@ -214,14 +214,28 @@ void StagedFolder::removeDead(const fs::path& place) const {
 
 void StagedFolder::publish() {
   sync(stage_);
+  isDone_ = true;  // the complete results stay, whatever happens
+  try {
+    replaceFinal();
+  } catch (const fs::filesystem_error& error) {
+    cannotRename(error.code().message());
+  } catch (const std::exception& error) {
+    cannotRename(messageOf(error));
+  }
+}
+
+void StagedFolder::cannotRename(const std::string& reason) const {
+  throw InputError("results cannot be renamed", shown_, "they are in " + stage_.string() + ": " + reason);
+}
+
+void StagedFolder::replaceFinal() {
   if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
-  isDone_ = true;
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   const FolderReplacement replacement(stage_, final_, results_);
   if (isBeside_ && replacement.exchange())
     hasLeft_ = !replacement.removeHidden();
   else
-    replacement.moveOneByOne(shown_);
+    replacement.moveOneByOne();
 }
 
 }  // namespace hybrid_slam::files

@@ -48,6 +48,8 @@ class StagedFolder {
   void publish();
 
  private:
+  void replaceFinal();
+  [[noreturn]] void cannotRename(const std::string& reason) const;
   bool holdsResults(const std::filesystem::path& folder) const;
   void release();
   void claim();

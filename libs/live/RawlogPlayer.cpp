@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
+#include "files/InputFile.h"
 #include "live/CycleGrouper.h"
 #include "readings/LogWarnings.h"
 
@@ -62,6 +64,7 @@ RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double rep
     : file_(file), cycleRate_(cycleRate), replayRate_(replayRate) {
   const readings::RawlogSummary log = readings::summarise(file, {}, stop);
   warnings_ = readings::warningsOf(log, file);
+  state_ = log.state;
   if (!log.defect.empty())
     warnings_.push_back("log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point");
 }
@@ -93,6 +96,9 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
     });
   }
   grouper.finish();
+  if (!stop() && files::stateOf(file_) != state_)
+    throw std::runtime_error("log has changed while it was served: " + std::string(reader.unit()) + " " +
+                             std::to_string(reader.entry()) + " of " + file_ + "; served up to this point");
 }
 
 }  // namespace hybrid_slam::live

@@ -8,6 +8,7 @@
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "readings/ReadingAssembler.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::live {
@@ -46,6 +47,23 @@ TEST(RawlogPlayer, DeliversEveryScanOfALogWithItsMotion) {
   EXPECT_EQ(p.cycles, 50u);
   for (size_t i = 1; i < 50; ++i)
     EXPECT_LT((p.readings[i].motion - (test::poseOnLap(i, 80) - test::poseOnLap(i - 1, 80))).norm(), 1e-6);
+}
+
+TEST(RawlogPlayer, ALogThatIsShortenedWhileItIsServedIsAnError) {
+  const files::TemporaryFolder folder;
+  const std::string file = test::writePlain(folder.path("log"), test::laps(500));
+  RawlogPlayer player(file, 5, kFast);
+  size_t cycles = 0;
+  const auto play = [&] {
+    player.run(
+        [&](const CSensoryFrame::Ptr&) {
+          if (++cycles == 1) std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+        },
+        [] { return false; });
+  };
+  EXPECT_THAT(test::errorOf<std::runtime_error>(play),
+              testing::MatchesRegex("log has changed while it was served: entry [0-9]+ of " + file + ".*"));
+  EXPECT_LT(cycles, 500u);
 }
 
 TEST(RawlogPlayer, SaysWhatIsWrongWithTheLog) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 #include "files/RawlogReader.h"
 #include "readings/BagPlan.h"
 #include "readings/Timestamps.h"
@@ -89,6 +90,7 @@ SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
                         const std::function<bool()>& isStopped) {
   RawlogSummary summary;
+  summary.state = files::stateOf(file);
   const std::vector<std::string> wanted = labelsOf(options.sensorLabel);
   if (bags::isBag(file))
     summary.bag = std::make_shared<const BagPlan>(

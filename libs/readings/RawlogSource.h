@@ -61,6 +61,7 @@ struct RawlogSummary {
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"
   std::shared_ptr<const BagPlan> bag;  ///< topics used of a bag; null for other logs
   std::string defect;                  ///< how the log is truncated; empty if complete
+  std::string state;                   ///< files::stateOf, before it was read
   /// Number of scans and odometry readings that are skipped: impossible, or early (kMostEarly).
   size_t skippedReadings() const {
     return early.count + empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;

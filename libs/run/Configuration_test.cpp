@@ -91,6 +91,11 @@ TEST_F(ConfigurationTest, SectionsThatNobodyUsesGiveAWarning) {
               testing::IsEmpty());
 }
 
+TEST_F(ConfigurationTest, AKeyBehindItsSection) {
+  EXPECT_THAT(errorOf("[grid]resolution = 0.5\n"), HasSubstr("wrong line `[grid]resolution = 0.5`"));
+  EXPECT_EQ(errorOf("[grid] ; cells\nresolution = 0.5\n[run] # all\n[motion_model] // x\n"), "no error");
+}
+
 TEST_F(ConfigurationTest, ARepeatedKeyGivesAWarning) {
   folder.write("run.ini", "[grid]\nresolution = 0.2\nmax_range = 9\nresolution=0.1\n[x]\na=1\na=2\n");
   const Configuration configuration(ini, {});

@@ -116,6 +116,9 @@ class FilterRun {
                      const nlohmann::ordered_json& more);
   /// Returns whether results of the finished run are missing for want of memory; notes name them.
   bool lacksResults() const { return lacksResults_; }
+  /// Returns whether the log was written to or replaced since it was summarised, so that results may be of
+  /// different readings.
+  bool logHasChanged() const { return logHasChanged_; }
   /// The verdict on the map of the finished run.
   const Verdict& verdict() const { return verdict_; }
 
@@ -182,7 +185,8 @@ class FilterRun {
   uint32_t fingerprint_ = 0;   ///< of the processed readings
   bool isConsistent_ = true;   ///< no reading has failed halfway
   bool lacksResults_ = false;  ///< for want of memory
-  double secondsBefore_ = 0;   ///< wall time of the resumed run
+  bool logHasChanged_ = false;
+  double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
   size_t stuckScans_ = 0;  ///< with stuck odometry
   size_t loops_ = 0;       ///< closed while filtering

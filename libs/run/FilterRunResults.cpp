@@ -12,6 +12,7 @@
 #include "base/Clock.h"
 #include "base/DeskewedScan.h"
 #include "base/Numbers.h"
+#include "files/InputFile.h"
 #include "run/FilterRun.h"
 #include "run/LoopNote.h"
 #include "run/MapFiles.h"
@@ -150,6 +151,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
+  logHasChanged_ = !log.state.empty() && files::stateOf(file) != log.state;
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });
@@ -248,7 +250,7 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
       {"doubtful_places", json(verdict_.places, updateTimes_)},
       {"lines", result.lines.size()},
       {"distance_m", recorder_.distance()},
-      {"complete", isWhole && log.defect.empty() && !lacksResults_},
+      {"complete", isWhole && log.defect.empty() && !lacksResults_ && !logHasChanged_},
       {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   if (localizer_ && !result.path.empty())

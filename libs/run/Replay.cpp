@@ -50,6 +50,9 @@ class Pass {
     outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
     if (run.lacksResults() && outcome.incomplete.empty())
       outcome.incomplete = "results are missing: out of memory";
+    if (run.logHasChanged() && outcome.incomplete.empty())
+      outcome.incomplete =
+          "log has changed while it was read: " + file + "; results may be of both its states";
     if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
     outcome.verdict = run.verdict();
     if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <thread>
@@ -79,6 +80,35 @@ TEST(Replay, ALogThatIsCutWhileItIsReadGivesItsBeginningAndAMessage) {
   EXPECT_THAT(outcome.incomplete, testing::MatchesRegex("log has become shorter while it was read: .*in.clf, "
                                                         "after [0-9]+ of 4000 scans; results cover.*"));
   EXPECT_GT(std::filesystem::file_size(folder.path("out/trajectory.tum")), 1000u);
+}
+
+TEST(Replay, ALogThatIsReplacedOrGrowsWhileItIsReadIsAnError) {
+  for (const bool isReplaced : {true, false}) {
+    SCOPED_TRACE(isReplaced);
+    const files::TemporaryFolder folder;
+    const std::string log = test::writePlain(folder.path("laps.rawlog"), test::laps(1000)),
+                      other = test::writePlain(folder.path("other.rawlog"), test::laps(1000, 40));
+    Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"),
+                         "particle_filter.particles=2", "grid.resolution=0.1"});
+    std::thread robot([&] {
+      const auto hasBegun = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+          if (entry.path().filename().string().rfind(".out.part-", 0) == 0) return true;
+        return false;
+      };
+      while (!hasBegun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (isReplaced)
+        std::filesystem::rename(other, log);
+      else
+        std::ofstream(log, std::ios::app | std::ios::binary) << test::contentOf(other);
+    });
+    const std::atomic<bool> stop{false};
+    const ReplayOutcome outcome = replay(c, true, stop);
+    robot.join();
+    EXPECT_EQ(outcome.incomplete,
+              "log has changed while it was read: " + log + "; results may be of both its states");
+    EXPECT_THAT(test::contentOf(folder.path("out/metrics.json")), testing::HasSubstr("\"complete\": false"));
+  }
 }
 
 TEST(Replay, ARunThatIsStoppedBeforeItsFirstScanReplacesNothing) {

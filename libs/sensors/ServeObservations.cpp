@@ -32,7 +32,12 @@ std::string serveObservations(const live::ServerOptions& options,
   isReady(server.port());
   while (isReplay && !stop() && server.clients() < static_cast<size_t>(options.waitForClients))
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { server.publish(*cycle); }, stop);
+  try {
+    source->run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { server.publish(*cycle); }, stop);
+  } catch (...) {
+    server.finish(10);  // the clients get what was read
+    throw;
+  }
   if (isReplay && !stop()) server.finish(10);
   return std::to_string(server.cycles()) + " cycles served, " + std::to_string(server.dropped()) +
          " dropped for slow clients";

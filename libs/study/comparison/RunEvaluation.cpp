@@ -121,7 +121,7 @@ RunResult evaluateRun(const Run& run, const RunFolder& folder, const GroundTruth
   result.error = folder.error();
   if (!folder.isFinished()) {
     std::error_code none;
-    if (result.error.empty() && std::filesystem::exists(folder.path(), none))
+    if (result.error.empty() && std::filesystem::exists(std::filesystem::symlink_status(folder.path(), none)))
       result.error = "missing or unreadable file: " + folder.file("metrics.json").string();
     if (!result.error.empty()) result.status = RunResult::Status::failed;
     return result;

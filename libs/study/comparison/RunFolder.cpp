@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 const char* const kOrigin = "origin.json";
 const char* const kError = "error.txt";
 const char* const kChecksums = "checksums.json";
+const char* const kOfReport[] = {"config.ini", "metrics.json", "steps.csv", "trajectory.tum"};
 const char* const kLargeFiles[] = {"map.simplemap.gz", "map.pgm", "map.yaml"};
 
 /// "[section] key" -> value. A config.ini has no other lines.
@@ -178,6 +179,8 @@ std::string RunFolder::damage() const {
   if (!isThere(file(kChecksums))) return isThere(file(kOrigin)) ? kChecksums : "";
   const auto checksums = readJson(file(kChecksums));
   if (!checksums.is_object()) return kChecksums;
+  for (const char* name : kOfReport)
+    if (isThere(file(name)) && !checksums.contains(name)) return kChecksums;
   for (const auto& [name, record] : checksums.items())
     if (!isIntact(file(name), record)) return name;
   return {};

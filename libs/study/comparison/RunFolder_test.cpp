@@ -69,8 +69,10 @@ TEST_F(RunFolderTest, KeepsTheFilesOfTheReportAndRemovesLargeOnes) {
 TEST_F(RunFolderTest, NoticesAFileThatHasChanged) {
   finishRun();
   EXPECT_EQ(folder.damage(), "");
-  std::ofstream(folder.file("metrics.json")) << "{";
-  EXPECT_EQ(folder.damage(), "metrics.json");
+  for (const char* text : {"{", "{]"}) {  // of another and of the same size
+    std::ofstream(folder.file("metrics.json")) << text;
+    EXPECT_EQ(folder.damage(), "metrics.json") << text;
+  }
   std::ofstream(folder.file("metrics.json")) << "{}";
   fs::remove(folder.file("map.gridmap.gz"));
   EXPECT_EQ(folder.damage(), "map.gridmap.gz");
@@ -83,6 +85,12 @@ TEST_F(RunFolderTest, AFileThatHasGrownToATerabyteIsDamagedAtOnce) {
   finishRun();
   fs::resize_file(folder.file("map.gridmap.gz"), uintmax_t{1} << 40);
   EXPECT_EQ(folder.damage(), "map.gridmap.gz");
+}
+
+TEST_F(RunFolderTest, AFileOfTheReportWithoutAChecksumIsDamage) {
+  finishRun();
+  std::ofstream(folder.file("checksums.json")) << "{}";
+  EXPECT_EQ(folder.damage(), "checksums.json");
 }
 
 TEST_F(RunFolderTest, RecordsOfTheChecksumAloneAreStillRead) {

@@ -4,18 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 
 #include "base/Numbers.h"
+#include "files/LineReader.h"
 #include "study/comparison/TableLine.h"
 
 namespace hybrid_slam::comparison {
 std::vector<SpreadStep> loadSpread(const std::string& file) {
-  std::ifstream in(file);
+  files::LineReader in(file);
   std::string line;
-  std::getline(in, line);
+  in.next(line);
   std::map<std::string, size_t> columns;
   for (const std::string& name : splitAtCommas(line)) columns.emplace(name, columns.size());
 
@@ -26,7 +26,7 @@ std::vector<SpreadStep> loadSpread(const std::string& file) {
                                                columns.at("std_phi"), columns.at("std_x"),
                                                columns.at("std_y")};
     bool isFirst = true;
-    while (std::getline(in, line)) {
+    while (in.next(line)) {
       const std::vector<std::string> fields = splitAtCommas(line);
       SpreadStep step{parseNumber(fields.at(timestamp)).value(), {}};
       for (size_t s = 0; s < kSpreads; ++s) step.spread[s] = parseNumber(fields.at(spreads[s])).value();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "files/TemporaryFolder.h"
 #include "testing/CommaLocale.h"
@@ -48,6 +49,9 @@ TEST(SpreadTable, IsReadTheSameInEveryLocale) {
 TEST(SpreadTable, ABrokenTableIsAnError) {
   const files::TemporaryFolder folder;
   EXPECT_THROW(loadSpread(folder.path("none.csv")), std::runtime_error);
+  const std::string huge = folder.write("huge", kHeader);
+  std::filesystem::resize_file(huge, uintmax_t{1} << 40);  // which must not be read as one line
+  EXPECT_THROW(loadSpread(huge), std::runtime_error);
   EXPECT_THROW(loadSpread(folder.write("a", "timestamp,particles\n1,20\n")), std::runtime_error);
   EXPECT_THROW(loadSpread(folder.write("b", std::string(kHeader) + "1,20,0.5,1,0.1\n")), std::runtime_error);
   EXPECT_THROW(loadSpread(folder.write("c", std::string(kHeader) + "1,20,0.5,1,0.1,x,y,z,0,0,0,0,0,0\n")),

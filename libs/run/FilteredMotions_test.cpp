@@ -1,0 +1,28 @@
+#include "run/FilteredMotions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "files/TemporaryFolder.h"
+#include "testing/ErrorOf.h"
+#include "testing/TestLogs.h"
+
+namespace hybrid_slam::run {
+namespace {
+
+TEST(FilteredMotions, ALogThatHasBecomeShorterSinceItsSummaryIsAnError) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writeGzipped(folder.path("log"), test::laps(40));
+  const Configuration c("", {"run.rawlog=" + log, "particle_filter.particles=2", "grid.resolution=0.1"});
+  const readings::RawlogSummary summary = readings::summarise(log, c.input);
+  const std::atomic<bool> stop{false};
+  EXPECT_FALSE(filteredMotions(c, summary, true, "", stop).samples.empty());
+  test::writeGzipped(log, test::laps(30));
+  EXPECT_THAT(test::errorOf([&] { filteredMotions(c, summary, true, "", stop); }),
+              testing::MatchesRegex("log has become shorter while it was read: .*; expected 40 scans"));
+}
+
+}  // namespace
+}  // namespace hybrid_slam::run
