@@ -82,7 +82,7 @@ TEST_F(HybridSlam, WrongLog) {
   expectError(replay(folder.path("none.rawlog")), "no such file: " + folder.path("none.rawlog"));
   expectError(replay(folder.path("")), "not a file");
   expectError(replay(folder.write("empty", "")), "empty");
-  expectError(replay(folder.write("text", "ODOM 1 2 3\nFLASER 4 5 6\n")), "no laser scan");
+  expectError(replay(folder.write("text", "ODOM 1 2 3\nFLASER 4 5 6\n")), "text, first broken line 1 (");
   expectError(replay(folder.write("text", "no log\n")), "not a robot log");
   expectError(replay(HYBRID_SLAM), "not a log");
   expectError(replay(test::Log{test::odometry(1, {}), test::odometry(2, {})}), "no laser scans");

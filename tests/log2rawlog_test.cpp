@@ -60,9 +60,10 @@ class Log2Rawlog : public test::ProgramTest {
 };
 
 TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
-  const std::string log = folder.write(
-      "in.clf", odometryRow("10", "10") + scanRow("10") + odometryRow("11", "1e30") +
-                    odometryRow("12", "11") + odometryRow("13", "200") + odometryRow("100000013", "201"));
+  const std::string log =
+      folder.write("in.clf", odometryRow("10", "10") + scanRow("10") + odometryRow("11", "1e30") +
+                                 odometryRow("12", "11") + odometryRow("13", "200") +
+                                 odometryRow("100000013", "201") + odometryRow("14", "202"));
   EXPECT_EQ(convert(log), 0);
   EXPECT_EQ(err, "log2rawlog: warning: 1 impossible odometry reading: beyond 1e8 m or 1e6 rad: first in " +
                      log +
@@ -71,8 +72,9 @@ TEST_F(Log2Rawlog, JumpsOfOdometryAndTimeAreReported) {
                      "first in " +
                      log +
                      ", line 5; kept as logged\n"
-                     "log2rawlog: warning: 1 time jump of over a day: first in " +
+                     "log2rawlog: warning: 2 time jumps of over a day: first in " +
                      log + ", line 6; kept as logged\n");
+  EXPECT_THAT(out, HasSubstr("path 3.0 m")) << "without the jumps";
 }
 
 /// The rawlog must not get the descriptor of standard error, and with it the warnings.

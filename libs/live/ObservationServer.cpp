@@ -23,7 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kHeartbeat{1000};  // without a message
-constexpr double kTokenPatience = 5;                   // s
 constexpr size_t kMostReceived = size_t{1} << 20;      // bytes of a client, which has only a token to send
 
 const std::string& checkedAddress(const std::string& address, const std::string& token) {
@@ -204,7 +203,7 @@ void ObservationServer::read(Client& client) {
 }
 
 void ObservationServer::write(Client& client) {
-  if (!client.isKnown && secondsSince(client.lastTaken) > kTokenPatience)
+  if (!client.isKnown && secondsSince(client.lastTaken) > limits_.tokenPatience)
     throw std::runtime_error("no token");
   if (!client.isKnown) return;
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -31,6 +31,7 @@ class ObservationServer {
     double patience = 30;  ///< s for a client to read a message, before it is disconnected
     std::string token{};   ///< a client gets nothing before it has sent this and a line end; empty: no token
     double newPerSecond = 10;  ///< clients, after as many at once as `clients`; the others wait
+    double tokenPatience = 5;  ///< s for a client to send the token, before it is disconnected
   };
 
   /// @param address  local address to listen on; @param port  0: any free port

@@ -68,5 +68,18 @@ TEST_F(ServerLimits, AWrongTokenThatIsTriedAgainIsReportedOnce) {
   EXPECT_EQ(events.count(": connected"), 0u) << events.text();
 }
 
+TEST_F(ServerLimits, AClientWithoutATokenLeavesItsPlaceToOthers) {
+  limits.token = "0123456789abcdef";
+  limits.clients = 1;
+  limits.newPerSecond = 100;
+  limits.tokenPatience = 0.2;
+  const ObservationServer server(kHere, 0, limits, events.log());
+  const TcpSocket silent = TcpSocket::connectTo(kHere, server.port(), 10);
+  TcpSocket known = TcpSocket::connectTo(kHere, server.port(), 10);
+  known.send(limits.token + "\n", 10);
+  EXPECT_TRUE(test::happens([&] { return events.count(": connected") == 1; })) << events.text();
+  EXPECT_EQ(events.count("no token"), 1u) << events.text();
+}
+
 }  // namespace
 }  // namespace hybrid_slam::live

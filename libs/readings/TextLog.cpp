@@ -58,7 +58,8 @@ mrpt::serialization::CSerializable::Ptr TextLog::next() {
     object = objects_->take();
   }
   if (!object && summary().scans == 0)
-    throw InputError("no laser scan", lines_.path(), "expected whole rows of scans (" + formatList() + ")");
+    throw InputError("no laser scan", lines_.path() + firstBroken_,
+                     "expected whole rows of scans (" + formatList() + ")");
   return object;
 }
 
@@ -70,7 +71,8 @@ void TextLog::convert(const std::string& line) {
     if (strict_)
       throw InputError("broken line", lines_.path() + ", line " + std::to_string(lines_.number()),
                        broken.what());
-    ++objects_->summary.brokenLines;
+    if (objects_->summary.brokenLines++ == 0)
+      firstBroken_ = ", first broken line " + std::to_string(lines_.number()) + " (" + broken.what() + ")";
     report_(lines_.number(), broken.what());
   }
 }

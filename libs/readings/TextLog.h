@@ -56,6 +56,7 @@ class TextLog {
   files::LineReader lines_;
   bool strict_;
   BrokenLineReport report_;
+  std::string firstBroken_;  ///< its number and the reason
   std::unique_ptr<LogParser> parser_;
   std::unique_ptr<LogObjects> objects_;
 };
