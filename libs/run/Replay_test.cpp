@@ -20,6 +20,16 @@
 namespace hybrid_slam::run {
 namespace {
 
+/// Waits until a run into the folder `out` has begun.
+void waitForARun(const files::TemporaryFolder& folder) {
+  const auto hasBegun = [&] {
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
+      if (entry.path().filename().string().rfind(".out.part-", 0) == 0) return true;
+    return false;
+  };
+  while (!hasBegun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 /// The text results, without the step times.
 std::map<std::string, std::string> resultsOf(const files::TemporaryFolder& folder, const std::string& ini,
                                              const std::string& log) {
@@ -66,12 +76,7 @@ TEST(Replay, ALogThatIsCutWhileItIsReadGivesItsBeginningAndAMessage) {
   Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"),
                        "particle_filter.particles=20", "particle_filter.proposal=standard", "run.refine=0"});
   std::thread robot([&] {
-    const auto hasBegun = [&] {
-      for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
-        if (entry.path().filename().string().rfind(".out.part-", 0) == 0) return true;
-      return false;
-    };
-    while (!hasBegun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    waitForARun(folder);
     std::filesystem::resize_file(log, rows.size() / 4);
   });
   const std::atomic<bool> stop{false};
@@ -91,12 +96,7 @@ TEST(Replay, ALogThatIsReplacedOrGrowsWhileItIsReadIsAnError) {
     Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"),
                          "particle_filter.particles=2", "grid.resolution=0.1"});
     std::thread robot([&] {
-      const auto hasBegun = [&] {
-        for (const auto& entry : std::filesystem::directory_iterator(folder.path("")))
-          if (entry.path().filename().string().rfind(".out.part-", 0) == 0) return true;
-        return false;
-      };
-      while (!hasBegun()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      waitForARun(folder);
       if (isReplaced)
         std::filesystem::rename(other, log);
       else
