@@ -236,6 +236,25 @@ TEST_F(StagedFolderTest, AFinalFolderThatCannotBeReplaced) {
   }
 }
 
+TEST_F(StagedFolderTest, ALinkInPlaceOfTheFinalFolderIsNotFollowed) {
+  const std::string other = root.path("other");
+  fs::create_directories(other + "/sub");
+  for (const char* name : {"/map", "/notes"}) std::ofstream(other + name) << "other";
+  for (const bool hasResults : {false, true}) {
+    if (hasResults) run("1", true);
+    {
+      StagedFolder staged(out, kNames, true);
+      write(staged, "2");
+      fs::rename(out, root.path("moved" + std::to_string(hasResults)));
+      fs::create_directory_symlink("other", out);
+      EXPECT_THROW(staged.publish(), InputError);
+    }
+    EXPECT_THAT(namesIn(other), UnorderedElementsAre("sub", "map", "notes"));
+    EXPECT_EQ(contentOf(other + "/map"), "other");
+    fs::remove(out);
+  }
+}
+
 TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {
   run("1");
   {

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
@@ -229,6 +230,9 @@ void StagedFolder::cannotRename(const std::string& reason) const {
 }
 
 void StagedFolder::replaceFinal() {
+  const fs::file_status state = fs::symlink_status(final_);
+  if (fs::exists(state) && !fs::is_directory(state))  // results go through no link made during the run
+    throw std::runtime_error("a file or link is in the place of the output folder");
   if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   const FolderReplacement replacement(stage_, final_, results_);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 #include "files/LineReader.h"
 #include "files/RawlogReader.h"
 #include "files/RawlogWriter.h"
@@ -14,14 +15,17 @@ namespace hybrid_slam::readings {
 
 namespace {
 
-/// Writes the objects of a log. @throws std::runtime_error if stopped
+/// Writes the objects of a log. @throws std::runtime_error if stopped, or if the log changes meanwhile
 template <class Log>
 void write(Log& log, const std::string& file, files::RawlogWriter& writer,
            const LogConversionOptions& options) {
+  const std::string state = files::stateOf(file);
   while (const auto object = log.next()) {
     if (options.isStopped()) throw std::runtime_error("interrupted: " + file + "; nothing was written");
     writer.write(*object);
   }
+  if (files::stateOf(file) != state)
+    throw std::runtime_error("log has changed while it was read: " + file + "; nothing was written");
 }
 
 /// Converts a bag or rawlog.

@@ -6,6 +6,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "files/InputFile.h"
 #include "run/Progress.h"
 #include "slam/filter/HybridFilter.h"
 
@@ -61,6 +62,8 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   if (scans < log.scans)
     throw InputError("log has become shorter while it was read", source.place(),
                      "expected " + counted(log.scans, "scan(s)"));
+  if (files::stateOf(file) != log.state)
+    throw InputError("log has changed while it was read", file, "expected the same log in all iterations");
   expectation.logLikelihood = logLikelihoods / static_cast<double>(std::max<size_t>(updates, 1));
   return expectation;
 }

@@ -24,5 +24,16 @@ TEST(FilteredMotions, ALogThatHasBecomeShorterSinceItsSummaryIsAnError) {
               testing::MatchesRegex("log has become shorter while it was read: .*; expected 40 scans"));
 }
 
+TEST(FilteredMotions, ALogThatHasChangedSinceItsSummaryIsAnError) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writeGzipped(folder.path("log"), test::laps(40));
+  const Configuration c("", {"run.rawlog=" + log, "particle_filter.particles=2", "grid.resolution=0.1"});
+  const readings::RawlogSummary summary = readings::summarise(log, c.input);
+  test::writeGzipped(log, test::laps(41));
+  const std::atomic<bool> stop{false};
+  EXPECT_THAT(test::errorOf([&] { filteredMotions(c, summary, true, "", stop); }),
+              testing::StartsWith("log has changed while it was read: " + log));
+}
+
 }  // namespace
 }  // namespace hybrid_slam::run

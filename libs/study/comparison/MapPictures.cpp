@@ -3,6 +3,7 @@
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -15,7 +16,12 @@ namespace hybrid_slam::comparison {
 namespace {
 
 std::string mapPicture(const ReportInput& input, const RunResult& r, const std::string& caption) {
-  std::ifstream in(folderOf(input, r).file("map.png"), std::ios::binary);
+  constexpr uintmax_t kMostBytes = 100'000'000;  // a run's picture has far fewer
+  const std::filesystem::path file = folderOf(input, r).file("map.png");
+  std::error_code missing;
+  const uintmax_t size = std::filesystem::file_size(file, missing);
+  if (missing || size > kMostBytes) return {};
+  std::ifstream in(file, std::ios::binary);
   const std::string picture = reducedPicture(std::string(std::istreambuf_iterator<char>(in), {}));
   if (picture.empty()) return {};
   const std::string text =

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/Numbers.h"
+#include "files/LineReader.h"
 #include "study/comparison/PlanPlots.h"
 #include "study/comparison/ReportText.h"
 #include "study/comparison/TableLine.h"
@@ -33,10 +34,11 @@ double ParticleSnapshot::radius() const {
 
 std::vector<ParticleSnapshot> loadParticles(const std::string& file) {
   std::vector<ParticleSnapshot> run;
-  std::ifstream in(file);
+  if (std::error_code none; !std::filesystem::exists(file, none)) return {};
+  files::LineReader in(file);
   std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
+  in.next(line);
+  while (in.next(line)) {
     const std::vector<std::string> fields = splitAtCommas(line);
     std::array<double, 5> row{};
     for (size_t i = 0; i < row.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "files/GridMapReader.h"
 #include "study/comparison/ParticlePlot.h"
@@ -85,7 +86,12 @@ std::vector<std::vector<Plot>> particlePlots(const ReportInput& input) {
     const RunResult* median = medianRun(input, g);
     if (!median) continue;
     const RunFolder folder = folderOf(input, *median);
-    auto snapshots = loadParticles(folder.file("particles.csv").string());
+    std::vector<ParticleSnapshot> snapshots;
+    try {
+      snapshots = loadParticles(folder.file("particles.csv").string());
+    } catch (const std::runtime_error&) {  // the table is damaged
+      continue;
+    }
     if (!snapshots.empty())
       shown.push_back(
           {input.groups[g].name(), std::move(snapshots), alignmentOf(input, trajectoryOf(folder))});
