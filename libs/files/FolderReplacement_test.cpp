@@ -154,7 +154,7 @@ TEST_F(StagedFolderTest, CompleteResultsThatCouldNotBeRenamedStay) {
 // A folder in the way of a result interrupts the renaming as a kill would.
 TEST_F(StagedFolderTest, OneByOneTheLastResultComesLast) {
   EXPECT_TRUE(test::holdsWithout(SYS_renameat2, EINVAL, [&] {
-    for (int i = 0; i < 16; ++i) {  // in whatever order the folder lists them
+    for (int i = 0; i < 16; ++i) {  // the order of the entries of a folder varies
       const std::string name = "map" + std::to_string(i), last = "metrics" + std::to_string(15 - i);
       const std::string folder = root.path("out" + std::to_string(i));
       fs::create_directory(folder);

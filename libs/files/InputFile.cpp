@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "base/Errors.h"
 
@@ -25,17 +26,12 @@ std::string stateOf(const std::string& path) {
     for (const auto& entry : fs::directory_iterator(path, ignored))
       if (entry.is_regular_file(ignored)) files.insert(entry.path().string());
   }
-  std::string all;
-  for (const std::string& file : files) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) continue;
-    for (const long long number :
-         {static_cast<long long>(status.st_dev), static_cast<long long>(status.st_ino),
-          static_cast<long long>(status.st_size), static_cast<long long>(status.st_mtim.tv_sec),
-          static_cast<long long>(status.st_mtim.tv_nsec)})
-      all += std::to_string(number) + " ";
-  }
-  return all;
+  std::ostringstream all;
+  for (const std::string& file : files)
+    if (struct stat status{}; ::stat(file.c_str(), &status) == 0)
+      all << status.st_dev << ' ' << status.st_ino << ' ' << status.st_size << ' ' << status.st_mtim.tv_sec
+          << ' ' << status.st_mtim.tv_nsec << ' ';
+  return all.str();
 }
 
 }  // namespace hybrid_slam::files

@@ -215,7 +215,7 @@ void StagedFolder::removeDead(const fs::path& place) const {
 
 void StagedFolder::publish() {
   sync(stage_);
-  isDone_ = true;  // the complete results stay, whatever happens
+  isDone_ = true;  // from here on, an error no longer removes the results
   try {
     replaceFinal();
   } catch (const fs::filesystem_error& error) {
