@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <filesystem>
+#include <system_error>
 
 namespace hybrid_slam::files {
 
@@ -25,6 +27,12 @@ bool isNamed(int file, const std::string& path) {
   }, named{};
   return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
+}
+
+std::string pathOf(int file) {
+  std::error_code unknown;
+  const std::string path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), unknown);
+  return isNamed(file, path) ? path : "";
 }
 
 }  // namespace hybrid_slam::files

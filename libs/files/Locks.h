@@ -17,5 +17,7 @@ Lock lockShared(int file);
 
 /// Returns whether an open file or folder still has this name.
 bool isNamed(int file, const std::string& path);
+/// Returns a path of an open file or folder, which may have been moved since; empty if it was removed.
+std::string pathOf(int file);
 
 }  // namespace hybrid_slam::files

@@ -48,7 +48,17 @@ void PartialFile::claim() {
   }
 }
 
+/// Finds the file again if a folder above it was moved.
+void PartialFile::follow() {
+  if (lock_ < 0 || partial_.empty() || isNamed(lock_, partial_)) return;
+  const fs::path moved = pathOf(lock_);
+  if (moved.empty()) return;
+  final_ = (moved.parent_path() / fs::path(final_).filename()).string();
+  partial_ = moved.string();
+}
+
 PartialFile::~PartialFile() {
+  follow();
   std::error_code ignored;
   if (!partial_.empty()) fs::remove(partial_, ignored);
   if (lock_ >= 0) ::close(lock_);
@@ -60,6 +70,7 @@ void PartialFile::commit() {
 }
 
 void PartialFile::keep() {
+  follow();
   std::error_code error;
   fs::rename(partial_, final_, error);
   if (error) fail(error.value());

@@ -7,6 +7,7 @@
 namespace hybrid_slam::files {
 
 /// Until `commit`, the file is called `.partial.NAME`, in the folder of NAME; without `commit` it is removed.
+/// If that folder is moved meanwhile, the file moves with it.
 /// If another writer, in any process, uses that name, it is `.partial-2.NAME`, and so on. Files left by
 /// killed processes are replaced.
 class PartialFile {
@@ -21,6 +22,7 @@ class PartialFile {
   static std::string partialName(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then
+  const std::string& finalPath() const { return final_; }
   /// Syncs the file to disk and renames it, so that a power cut leaves no empty file under its name.
   /// @throws InputError if either fails
   void commit();
@@ -32,6 +34,7 @@ class PartialFile {
 
  private:
   void claim();
+  void follow();
 
   std::string final_, partial_;
   int lock_ = -1;  ///< held while this object lives

@@ -7,9 +7,11 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <vector>
 
+#include "base/Errors.h"
 #include "files/OutputFolder.h"
 #include "files/RawlogWriter.h"
 #include "files/TemporaryFolder.h"
@@ -72,6 +74,30 @@ TEST(PartialFile, ARecordingIsOnDiskWhenItHasItsName) {
   writer.write(*test::scan(1));
   writer.finish();
   expectSynced(root.path("x.rawlog"));
+}
+
+TEST(PartialFile, MovesWithItsFolder) {
+  TemporaryFolder root;
+  std::filesystem::create_directory(root.path("out"));
+  PartialFile file(root.path("out/map"));
+  std::ofstream(file.path()) << "1";
+  std::filesystem::rename(root.path("out"), root.path("moved"));
+  {
+    const PartialFile left(root.path("moved/other"));
+    std::filesystem::rename(root.path("moved"), root.path("again"));
+  }
+  file.commit();
+  EXPECT_EQ(file.finalPath(), root.path("again/map"));
+  EXPECT_EQ(test::contentOf(root.path("again/map")), "1");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(root.path("again")), {}), 1);
+}
+
+TEST(PartialFile, RemovedWithItsFolderIsAnError) {
+  TemporaryFolder root;
+  std::filesystem::create_directory(root.path("out"));
+  PartialFile file(root.path("out/map"));
+  std::filesystem::remove_all(root.path("out"));
+  EXPECT_THROW(file.commit(), InputError);
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ class RawlogWriter {
   void finish();
   /// Like `finish` on a full disk: keeps the truncated file, which RawlogReader can read up to the cut.
   void finishCut();
+  /// The final path; another one after `finish` if the folder was moved meanwhile.
+  const std::string& path() const { return file_.finalPath(); }
 
  private:
   PartialFile file_;

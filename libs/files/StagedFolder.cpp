@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
@@ -87,7 +88,8 @@ StagedFolder::~StagedFolder() { release(); }
 
 void StagedFolder::release() {
   std::error_code ignored;
-  if (!isDone_ && !stage_.empty()) fs::remove_all(stage_, ignored);
+  if (const std::string moved = pathOf(lock_); !isDone_ && !stage_.empty())
+    fs::remove_all(moved.empty() ? stage_ : fs::path(moved), ignored);
   locks_.push_back(lock_);
   for (const int lock : locks_)
     if (lock >= 0) ::close(lock);
@@ -97,6 +99,7 @@ void StagedFolder::release() {
 
 std::string StagedFolder::note() const {
   if (hasLeft_) return "files of " + shown_ + " that cannot be moved back are in " + stage_.string();
+  if (isMoved_) return asked_ + " was moved or removed during the run; the results are in " + shown_;
   if (shown_ == asked_) return {};
   if (isTaken_) return asked_ + " is in use by another run; the results of this one go to " + shown_;
   return asked_ + " has results of an earlier run; those of this run go to " + shown_ +
@@ -189,7 +192,7 @@ void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
     const bool isFree = lock_ < 0 || lock(lock_) != Lock::ofAnother;
     if (isFree && fs::exists(name)) {  // otherwise another process has just removed it as abandoned
       stage_ = name;
-      fs::permissions(stage_, fs::status(final_).permissions());
+      if (fs::exists(final_)) fs::permissions(stage_, fs::status(final_).permissions());
       return;
     }
     if (lock_ >= 0) ::close(lock_);
@@ -213,7 +216,34 @@ void StagedFolder::removeDead(const fs::path& place) const {
   }
 }
 
+/// Returns whether the hidden folder exists, here or where it was moved.
+bool StagedFolder::isThere() {
+  if (lock_ < 0 || isNamed(lock_, stage_)) return true;
+  const fs::path moved = pathOf(lock_);
+  if (moved.empty()) return false;
+  const fs::path before = final_, above = moved.parent_path();
+  final_ = isBeside_ ? above / final_.filename() : above;
+  std::replace(created_.begin(), created_.end(), before, final_);
+  stage_ = moved;
+  *files_ = OutputFolder(stage_.string());
+  shown_ = final_.string();
+  isMoved_ = true;
+  return true;
+}
+
+void StagedFolder::follow() {
+  if (isThere()) return;
+  const fs::path place = isBeside_ ? final_.parent_path() : final_;
+  *files_ = OutputFolder(place.string());  // creates it
+  ::close(std::exchange(lock_, -1));
+  stageIn(place, prefixOf(final_));
+  *files_ = OutputFolder(stage_.string());
+  isMoved_ = true;
+}
+
 void StagedFolder::publish() {
+  if (!isThere())
+    throw InputError("results removed", stage_.string(), "expected that they stay until the run ends");
   sync(stage_);
   isDone_ = true;  // from here on, an error no longer removes the results
   try {

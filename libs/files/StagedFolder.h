@@ -14,7 +14,7 @@ namespace hybrid_slam::files {
 /// Files are written to a hidden folder `.NAME.part-XXXXXX` beside the folder NAME. `publish` renames it to
 /// NAME; without `publish` it is removed. Other files in NAME stay. Where NAME cannot be renamed (a mount
 /// point, the working directory), the hidden folder is in it, and the files are renamed one by one, the last
-/// result last.
+/// result last. Both folders stay together if the user moves one above them.
 class StagedFolder {
  public:
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
@@ -43,11 +43,16 @@ class StagedFolder {
   /// Says in one line where the results go, if not to the requested folder; else empty.
   std::string note() const;
 
+  /// Finds the folders again if one above them was moved, and creates the hidden one again, empty, if it was
+  /// removed.
+  /// @throws InputError if it cannot be created
+  void follow();
   /// @throws InputError if the results cannot be written to disk, or cannot be renamed; they then stay in the
   ///         hidden folder, which it names
   void publish();
 
  private:
+  bool isThere();
   void replaceFinal();
   [[noreturn]] void cannotRename(const std::string& reason) const;
   bool holdsResults(const std::filesystem::path& folder) const;
@@ -68,6 +73,7 @@ class StagedFolder {
   bool isBeside_ = false, isDone_ = false;
   bool hasLeft_ = false;    ///< files in the hidden folder
   bool isTaken_ = false;    ///< the requested folder, by another run
+  bool isMoved_ = false;    ///< or removed
   std::vector<int> locks_;  ///< of the final folder, and of those above it
   int lock_ = -1;           ///< of the hidden folder, which becomes the final one
   std::unique_ptr<OutputFolder> files_;

@@ -5,6 +5,7 @@
 
 #include "base/Errors.h"
 #include "files/DatedName.h"
+#include "testing/ErrorOf.h"
 #include "testing/StagedFolderTest.h"
 
 namespace hybrid_slam::files {
@@ -12,9 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::contentOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 TEST_F(StagedFolderTest, ResultsAppearTogether) {
@@ -173,6 +176,67 @@ TEST_F(StagedFolderTest, TheWorkingFolderIsNotReplaced) {
   fs::current_path(before);
   EXPECT_THAT(names, UnorderedElementsAre("map", "metrics", "notes"));
   EXPECT_EQ(map, "2");
+}
+
+TEST_F(StagedFolderTest, ResultsMoveWithAFolderAboveThem) {
+  for (const bool isDated : {false, true}) {
+    SCOPED_TRACE(isDated);
+    out = root.path("above") + "/out";
+    if (isDated) run("1");
+    std::string folder;
+    {
+      StagedFolder staged(out, kNames, false);
+      staged.files().write("extra", [](std::ostream& stream) { stream << "2"; });
+      fs::rename(root.path("above"), root.path("moved"));
+      staged.follow();
+      EXPECT_EQ(staged.note(),
+                out + " was moved or removed during the run; the results are in " + staged.folder());
+      write(staged, "2");
+      fs::rename(root.path("moved"), root.path("again"));
+      staged.publish();
+      folder = staged.folder();
+    }
+    EXPECT_THAT(folder, MatchesRegex(root.path("again/out") + (isDated ? "/" + std::string(kDate) : "")));
+    EXPECT_THAT(namesIn(folder), UnorderedElementsAre("extra", "map", "metrics"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(root.path("again")), {}), 1);
+    EXPECT_FALSE(fs::exists(root.path("above")));
+    fs::remove_all(root.path("again"));
+  }
+}
+
+TEST_F(StagedFolderTest, ARunThatFailsInAMovedFolderLeavesNothing) {
+  out = root.path("above") + "/out";
+  {
+    const StagedFolder staged(out, kNames, false);
+    write(staged, "1");
+    fs::rename(root.path("above"), root.path("moved"));
+  }
+  EXPECT_THAT(namesIn(root.path("moved")), ElementsAre("out")) << "it can no longer be told from the user's";
+}
+
+TEST_F(StagedFolderTest, AFolderThatIsRemovedDuringTheRunIsCreatedAgain) {
+  for (const bool isDated : {false, true}) {
+    SCOPED_TRACE(isDated);
+    out = root.path("above") + "/out";
+    if (isDated) run("1");
+    StagedFolder staged(out, kNames, false);
+    fs::remove_all(root.path("above"));
+    staged.follow();
+    write(staged, "2");
+    staged.publish();
+    EXPECT_EQ(contentOf(staged.folder() + "/map"), "2");
+    EXPECT_THAT(staged.note(), HasSubstr("moved or removed"));
+    fs::remove_all(root.path("above"));
+  }
+}
+
+TEST_F(StagedFolderTest, ResultsThatAreRemovedAreAnError) {
+  StagedFolder staged(out, kNames, false);
+  write(staged, "1");
+  const std::string hidden = staged.files().path("");
+  fs::remove_all(hidden);
+  EXPECT_THAT(test::errorOf<InputError>([&] { staged.publish(); }), StartsWith("results removed: "));
+  EXPECT_TRUE(fs::is_empty(out));
 }
 
 TEST_F(StagedFolderTest, AFolderInPlaceOfAResultIsAnError) {

@@ -85,6 +85,7 @@ void Recording::end() {
   if (!writer_) return;
   try {
     writer_->finish();
+    path_ = writer_->path();
     writer_.reset();
   } catch (const std::exception& e) {
     endAt(e);
@@ -95,6 +96,7 @@ void Recording::endAt(const std::exception& fault) {
   log_.report("recording", "stopped; the run continues (" + messageOf(fault) + ")");
   try {
     writer_->finishCut();
+    path_ = writer_->path();
   } catch (const std::exception&) {  // the folder is gone
   }
   writer_.reset();

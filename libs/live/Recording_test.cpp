@@ -40,6 +40,19 @@ TEST(Recording, NoneReplacesAnother) {
   EXPECT_EQ(paths.size(), 12u);
 }
 
+TEST(Recording, MovesWithItsFolder) {
+  const files::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("out"));
+  test::Events events;
+  Recording recording(folder.path("out"), "run.rawlog", events.log());
+  recording.write(*test::scan(1000, {}));
+  std::filesystem::rename(folder.path("out"), folder.path("moved"));
+  recording.write(*test::scan(1001, {}));
+  recording.finish();
+  EXPECT_EQ(std::filesystem::path(recording.path()).parent_path(), folder.path("moved"));
+  EXPECT_EQ(entriesOf(recording.path()), 2u);
+}
+
 TEST(Recording, WithoutAnObservationThereIsNoFile) {
   const files::TemporaryFolder folder;
   test::Events events;

@@ -17,6 +17,7 @@
 #include "files/StagedFolder.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
+#include "run/LogAgain.h"
 #include "run/PathCovariance.h"
 #include "run/SessionFile.h"
 #include "run/TrajectoryRecorder.h"
@@ -108,14 +109,15 @@ class FilterRun {
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if it is shorter than the processed readings (a recording on a full disk),
-  ///                 map.simplemap.gz ends with it and nothing is refined; without scans, `file` is not read
+  ///                 map.simplemap.gz ends with it and nothing is refined; without scans, `file` is not read.
+  ///                 If `file` cannot be read again, nothing is refined and there is no map.simplemap.gz
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
-  /// Returns whether results of the finished run are missing for want of memory; notes name them.
-  bool lacksResults() const { return lacksResults_; }
+  /// Returns why results of the finished run are missing, which notes name; empty if none are.
+  const std::string& whyMissing() const { return whyMissing_; }
   /// Returns whether the log was written to or replaced since it was summarised, so that results may be of
   /// different readings.
   bool logHasChanged() const { return logHasChanged_; }
@@ -142,8 +144,9 @@ class FilterRun {
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
   ScanMap currentMap() const;  ///< of a method with lines
+  /// @return whether it was written
   template <class Write>
-  void writeOrNote(const std::string& result, const Write& write);
+  bool writeOrNote(const std::string& result, const Write& write);
   void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
   void writeState(StateWriter& out);
   /// Returns the bytes of a session file; empty, with a note, if there can be none.
@@ -156,7 +159,7 @@ class FilterRun {
   void record(double timestamp, Clock::time_point stepStart);
   /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it; unless they need
   /// too much memory.
-  void refineResult(Result& result, readings::RawlogSource& source);
+  void refineResult(Result& result, LogAgain& log);
 
   Configuration& configuration_;
   Clock::time_point start_;
@@ -182,9 +185,9 @@ class FilterRun {
   std::atomic<bool> isSaveRequested_{false};
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
-  uint32_t fingerprint_ = 0;   ///< of the processed readings
-  bool isConsistent_ = true;   ///< no reading has failed halfway
-  bool lacksResults_ = false;  ///< for want of memory
+  uint32_t fingerprint_ = 0;  ///< of the processed readings
+  bool isConsistent_ = true;  ///< no reading has failed halfway
+  std::string whyMissing_;
   bool logHasChanged_ = false;
   double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0, resamplings_ = 0, slips_ = 0;

@@ -66,17 +66,20 @@ double memoryOf(const Scans& scans) {
   return bytes;
 }
 
+bool hasChanged(const std::string& file, const readings::RawlogSummary& log) {
+  return !log.state.empty() && files::stateOf(file) != log.state;
+}
+
 }  // namespace
 
-void FilterRun::refineResult(Result& result, readings::RawlogSource& source) {
+void FilterRun::refineResult(Result& result, LogAgain& log) {
   std::vector<PosedScans> scans;
   double bytes = 0;
   for (const Use use : uses_) {
-    const auto reading = source.next();
-    if (!reading) break;
+    const readings::Reading reading = log.next();
     if (use == Use::skipped) continue;
-    scans.push_back({reading->scans, result.trajectory[scans.size()].pose, use == Use::update});
-    bytes += memoryOf(reading->scans);
+    scans.push_back({reading.scans, result.trajectory[scans.size()].pose, use == Use::update});
+    bytes += memoryOf(reading.scans);
     const double expected = bytes * static_cast<double>(scans_) / static_cast<double>(scans.size());
     if (expected <= refinementBytes_) continue;
     notes_.push_back("map not refined: the scans need " + fixedText(expected / 1e9, 1) + " GB, over " +
@@ -115,22 +118,27 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
                               const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   finishCheckpoint();
+  staged_.follow();
   const bool hasRoom = !isMemoryFull();  // the results below are copies
   Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
   if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
   result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
   result.trajectory = recorder_.trajectory(result.path);
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
-    if (log.scans < uses_.size()) {
+    if (hasChanged(file, log)) {
+      notes_.emplace_back("map not refined: the log has changed");
+    } else if (log.scans < uses_.size()) {
       notes_.emplace_back("map not refined: the recording ends before the run");
     } else if (!hasRoom) {
       notes_.emplace_back("map not refined: out of memory");
     } else {
       try {
-        readings::RawlogSource scans(file, configuration_.input, log);
+        LogAgain again(file, configuration_.input, log);
         Result refined = result;
-        refineResult(refined, scans);
+        refineResult(refined, again);
         result = std::move(refined);
+      } catch (const UnreadableLog& e) {
+        notes_.push_back(std::string("map not refined: ") + e.what());
       } catch (const std::bad_alloc&) {
         notes_.emplace_back("map not refined: out of memory");
         refinementLoops_.clear();
@@ -151,7 +159,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
-  logHasChanged_ = !log.state.empty() && files::stateOf(file) != log.state;
+  logHasChanged_ = hasChanged(file, log);
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });
@@ -163,20 +171,24 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
          fixedText(all.at("realtime_factor"), 0) + " x real time): " + staged_.finalPath("map.png");
 }
 
-/// A result that needs more memory than there is must not cost the others.
+/// A result that needs more memory than there is, or a log that is gone, must not cost the others.
 template <class Write>
-void FilterRun::writeOrNote(const std::string& result, const Write& write) {
-  const auto note = [&] {
-    notes_.push_back("no " + result + ": out of memory");
-    lacksResults_ = true;
+bool FilterRun::writeOrNote(const std::string& result, const Write& write) {
+  const auto note = [&](const std::string& reason) {
+    notes_.push_back("no " + result + ": " + reason);
+    whyMissing_ = reason;
+    return false;
   };
   try {
     write();
+    return true;
   } catch (const std::bad_alloc&) {
-    note();
+    return note("out of memory");
+  } catch (const UnreadableLog& e) {
+    return note(e.what());
   } catch (const cv::Exception& e) {
     if (e.code != cv::Error::StsNoMem) throw;
-    note();
+    return note("out of memory");
   }
 }
 
@@ -190,13 +202,15 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   VerdictCheck check;
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
-  if (log.scans > 0) {
-    readings::RawlogSource again(file, configuration_.input, log);
-    saveSimpleMap(folder_, again, isUpdate, result.path,
-                  [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
-  }
+  bool isRead = true;
+  if (log.scans > 0)
+    isRead = writeOrNote("map.simplemap.gz", [&] {
+      LogAgain again(file, configuration_.input, log);
+      saveSimpleMap(folder_, again, isUpdate, result.path,
+                    [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+    });
   Evidence evidence = check.evidence();
-  evidence.isCut = isUpdate.size() < uses_.size();
+  evidence.isCut = !isRead || isUpdate.size() < uses_.size();
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   verdict_ = verdictOf(evidence);
@@ -250,7 +264,7 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
       {"doubtful_places", json(verdict_.places, updateTimes_)},
       {"lines", result.lines.size()},
       {"distance_m", recorder_.distance()},
-      {"complete", isWhole && log.defect.empty() && !lacksResults_ && !logHasChanged_},
+      {"complete", isWhole && log.defect.empty() && whyMissing_.empty() && !logHasChanged_},
       {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   if (localizer_ && !result.path.empty())

@@ -127,6 +127,7 @@ void FilterRun::saveIfDue() {
   if (every <= 0 || !hybrid_ || search_ || planSearch_ || secondsSince(lastCheckpoint_) < every) return;
   lastCheckpoint_ = Clock::now();
   try {
+    staged_.follow();
     const bool isBeside = staged_.isOfAnother(kSessionName) || staged_.isOfAnother(kResultFiles.back());
     const std::string name = isBeside ? kCheckpointName : kSessionName;
     staged_.setOwn(name);
@@ -153,6 +154,7 @@ void FilterRun::finishCheckpoint() {
 
 void FilterRun::saveToDatedFolder() {
   if (search_ || planSearch_) throw std::runtime_error(placeNote());
+  staged_.follow();
   const std::string name = files::claimDatedName([this](const std::string& date) {
     return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
   });

@@ -48,8 +48,8 @@ class Pass {
     if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
     if (const std::string stuck = run.stuckNote(); !stuck.empty()) outcome.warnings.push_back(stuck);
     outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
-    if (run.lacksResults() && outcome.incomplete.empty())
-      outcome.incomplete = "results are missing: out of memory";
+    if (!run.whyMissing().empty() && outcome.incomplete.empty())
+      outcome.incomplete = "results are missing: " + run.whyMissing();
     if (run.logHasChanged() && outcome.incomplete.empty())
       outcome.incomplete =
           "log has changed while it was read: " + file + "; results may be of both its states";

@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <thread>
 
 #include "files/TemporaryFolder.h"
+#include "run/FilterRun.h"
 #include "run/MotionModelText.h"
 #include "testing/CommaLocale.h"
 #include "testing/ErrorOf.h"
@@ -108,6 +110,37 @@ TEST(Replay, ALogThatIsReplacedOrGrowsWhileItIsReadIsAnError) {
     EXPECT_EQ(outcome.incomplete,
               "log has changed while it was read: " + log + "; results may be of both its states");
     EXPECT_THAT(test::contentOf(folder.path("out/metrics.json")), testing::HasSubstr("\"complete\": false"));
+  }
+}
+
+// A disk may be unplugged, a log moved or truncated, hours after the run has begun.
+TEST(Replay, ALogThatIsGoneAtTheEndCostsOnlyTheResultsThatNeedIt) {
+  const files::TemporaryFolder folder;
+  for (const bool isRemoved : {true, false}) {
+    SCOPED_TRACE(isRemoved);
+    const std::string log = test::writePlain(folder.path("laps.rawlog"), test::laps(1000));
+    const std::string output = folder.path(isRemoved ? "removed" : "cut");
+    Configuration c("", {"run.rawlog=" + log, "run.output=" + output, "particle_filter.particles=2",
+                         "grid.resolution=0.1"});
+    const readings::RawlogSummary summary = readings::summarise(log, c.input);
+    FilterRun run(c);
+    readings::RawlogSource source(log, c.input, summary);
+    while (const auto reading = source.next()) run.process(*reading);
+    if (isRemoved)
+      std::filesystem::remove(log);
+    else
+      std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
+    run.finish(log, summary, nlohmann::ordered_json::object());
+    EXPECT_THAT(run.whyMissing(), testing::StartsWith("the log cannot be read again (")) << run.whyMissing();
+    EXPECT_THAT(run.takeNotes(), testing::IsSupersetOf({std::string("map not refined: the log has changed"),
+                                                        "no map.simplemap.gz: " + run.whyMissing()}));
+    EXPECT_TRUE(run.logHasChanged());
+    const auto metrics = nlohmann::json::parse(test::contentOf(output + "/metrics.json"));
+    EXPECT_EQ(metrics["complete"], false);
+    EXPECT_EQ(metrics["verdict"], "doubtful");
+    for (const char* name : {"map.gridmap.gz", "map.png", "lines.csv", "covariance.csv", "session.hslam"})
+      EXPECT_TRUE(std::filesystem::exists(output + "/" + name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(output + "/map.simplemap.gz"));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <exception>
 
 #include "files/RawlogWriter.h"
 
@@ -16,41 +17,50 @@ namespace {
 /// Serialises as a CSimpleMap, but creates its pairs one by one while writing.
 class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
  public:
-  StreamedSimpleMap(readings::RawlogSource& source, const std::vector<bool>& isUpdate,
+  StreamedSimpleMap(LogAgain& log, const std::vector<bool>& isUpdate,
                     const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit)
-      : source_(&source), isUpdate_(&isUpdate), path_(&path), visit_(&visit) {}
+      : log_(&log), isUpdate_(&isUpdate), path_(&path), visit_(&visit) {}
 
   /// Writes scans and poses only. MRPT 2.5.8 reads this version and no later one; 2.14.7 reads both.
   uint8_t serializeGetVersion() const override { return 1; }
-  void serializeTo(mrpt::serialization::CArchive& out) const override {
+  void serializeTo(mrpt::serialization::CArchive& out) const override try {
     out.WriteAs<uint32_t>(std::count(isUpdate_->begin(), isUpdate_->end(), true));
     size_t written = 0;
     for (const bool isUpdate : *isUpdate_) {
-      const auto reading = source_->next();
-      if (!isUpdate || !reading) continue;
+      const readings::Reading reading = log_->next();
+      if (!isUpdate) continue;
       mrpt::obs::CSensoryFrame frame;
-      for (const auto& scan : reading->scans) frame.insert(scan);
+      for (const auto& scan : reading.scans) frame.insert(scan);
       const mrpt::math::TPose2D& robot = (*path_)[written++];
-      (*visit_)(robot, reading->scans);
+      (*visit_)(robot, reading.scans);
       const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D(robot)};
       out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
     }
+  } catch (...) {
+    failure_ = std::current_exception();  // MRPT would replace its type
+  }
+
+  /// @throws the error of writing, if any
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
-  readings::RawlogSource* source_;
+  LogAgain* log_;
   const std::vector<bool>* isUpdate_;
   const std::vector<mrpt::math::TPose2D>* path_;
   const UpdateVisitor* visit_;
+  mutable std::exception_ptr failure_;
 };
 
 }  // namespace
 
-void saveSimpleMap(const files::OutputFolder& folder, readings::RawlogSource& source,
-                   const std::vector<bool>& isUpdate, const std::vector<mrpt::math::TPose2D>& path,
-                   const UpdateVisitor& visit) {
+void saveSimpleMap(const files::OutputFolder& folder, LogAgain& log, const std::vector<bool>& isUpdate,
+                   const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit) {
   files::RawlogWriter file(folder.path("map.simplemap.gz"));
-  file.write(StreamedSimpleMap(source, isUpdate, path, visit));
+  const StreamedSimpleMap map(log, isUpdate, path, visit);
+  file.write(map);
+  map.check();
   file.finish();
 }
 

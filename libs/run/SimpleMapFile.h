@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "files/OutputFolder.h"
-#include "readings/RawlogSource.h"
+#include "run/LogAgain.h"
 
 namespace hybrid_slam::run {
 
@@ -21,8 +21,9 @@ using UpdateVisitor = std::function<void(const mrpt::math::TPose2D&, const Scans
 /// @param isUpdate  for each processed reading of the log, whether it caused an update
 /// @param path      one pose per update
 /// @param visit     called with each update's scans, to parse the log only once
+/// @throws UnreadableLog if the log ends early or cannot be read; there is no file then
 void saveSimpleMap(
-    const files::OutputFolder& folder, readings::RawlogSource& source, const std::vector<bool>& isUpdate,
+    const files::OutputFolder& folder, LogAgain& log, const std::vector<bool>& isUpdate,
     const std::vector<mrpt::math::TPose2D>& path,
     const UpdateVisitor& visit = [](const mrpt::math::TPose2D&, const Scans&) {});
 

@@ -16,7 +16,8 @@ TEST(SimpleMapFile, HasTheScansOfTheUpdatesAtTheirPoses) {
   const files::OutputFolder folder(root.path("out"));
   const std::string log = test::writeGzipped(root.path("log"), test::laps(10));
   const readings::RawlogSummary summary = readings::summarise(log, {});
-  readings::RawlogSource source(log, {}, summary), again(log, {}, summary);
+  readings::RawlogSource source(log, {}, summary);
+  LogAgain again(log, {}, summary);
 
   std::vector<bool> isUpdate;
   std::vector<mrpt::math::TPose2D> path;
@@ -50,8 +51,8 @@ TEST(SimpleMapFile, HasTheScansOfTheUpdatesAtTheirPoses) {
 TEST(SimpleMapFile, OfNoScans) {
   const files::TemporaryFolder root;
   const std::string log = test::writeGzipped(root.path("log"), test::laps(2));
-  readings::RawlogSource source(log, {}, readings::summarise(log, {}));
-  saveSimpleMap(files::OutputFolder(root.path("out")), source, {}, {});
+  LogAgain again(log, {}, readings::summarise(log, {}));
+  saveSimpleMap(files::OutputFolder(root.path("out")), again, {}, {});
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile(root.path("out/map.simplemap.gz")));
   EXPECT_EQ(map.size(), 0u);

@@ -138,7 +138,8 @@ Verdict verdictOf(const Evidence& evidence) {
     find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
                               fixedText(evidence.beams, 0) + " on average");
   if (evidence.isCut)
-    find(Level::doubtful, "the recording ends before the run; the scans after that were not compared");
+    find(Level::doubtful,
+         "the log cannot be read again up to the end of the run: not all scans were compared with the map");
   else if (evidence.returning.empty())
     find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);

@@ -136,7 +136,8 @@ TEST(Verdict, AMapThatWasNotComparedToItsEndIsDoubtful) {
   Evidence evidence;
   evidence.isCut = true;
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: the recording ends before the run; the scans after that were not compared");
+            "verdict: doubtful: the log cannot be read again up to the end of the run: not all scans were "
+            "compared with the map");
 }
 
 TEST(Verdict, SlipsAloneAreNoReason) {

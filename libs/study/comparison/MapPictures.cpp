@@ -3,6 +3,7 @@
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,20 @@
 
 namespace hybrid_slam::comparison {
 namespace {
+
+constexpr uint64_t kMostPixels = 1 << 27;  // twice those of a run's picture, without its margins
+
+/// Returns the number of pixels that a PNG file claims, whose first chunk begins with width and height; 0 for
+/// another file.
+uint64_t pixelsOf(const std::string& png) {
+  constexpr size_t kWidth = 16, kHeight = 20, kEnd = 24;
+  const auto numberAt = [&png](size_t at) {
+    uint64_t number = 0;
+    for (size_t i = at; i < at + 4; ++i) number = 256 * number + static_cast<uint8_t>(png[i]);
+    return number;
+  };
+  return png.size() < kEnd || png.rfind("\x89PNG", 0) != 0 ? 0 : numberAt(kWidth) * numberAt(kHeight);
+}
 
 std::string mapPicture(const ReportInput& input, const RunResult& r, const std::string& caption) {
   constexpr uintmax_t kMostBytes = 100'000'000;  // a run's picture has far fewer
@@ -41,7 +56,7 @@ std::string base64(const std::string& bytes) {
 
 std::string reducedPicture(const std::string& png) {
   constexpr double kSide = 700, kLevels = 16;
-  if (png.empty()) return {};
+  if (pixelsOf(png) == 0 || pixelsOf(png) > kMostPixels) return {};
   cv::Mat picture = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_COLOR);
   if (picture.empty()) return {};
   if (const double scale = kSide / std::max(picture.cols, picture.rows); scale < 1)

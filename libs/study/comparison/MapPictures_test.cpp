@@ -38,6 +38,17 @@ TEST(ReducedPicture, InvalidInputGivesNone) {
   EXPECT_EQ(reducedPicture("no picture"), "");
 }
 
+TEST(ReducedPicture, OnlyPngFilesOfBoundedSize) {
+  std::string png = encoded(cv::Mat(30, 40, CV_8UC3, cv::Scalar(255, 255, 255)));
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", cv::Mat(30, 40, CV_8UC3), jpeg);
+  EXPECT_EQ(reducedPicture({jpeg.begin(), jpeg.end()}), "");
+  // One channel, and a side beyond which a decoder needs 1 GB.
+  const cv::Mat large(1 << 14, 1 << 14, CV_8U, cv::Scalar(0));
+  EXPECT_EQ(reducedPicture(encoded(large)), "");
+  EXPECT_NE(reducedPicture(encoded(large.rowRange(0, 1 << 13))), "");
+}
+
 TEST(Base64, MatchesRfc4648WithoutLineBreaks) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
