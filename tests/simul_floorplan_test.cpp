@@ -4,6 +4,7 @@
 #include <mrpt/io/zip.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CRawlog.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -159,6 +160,8 @@ TEST_F(SimulFloorplan, WrongFloorPlans) {
   expectInputError(kRun, "floor plan without walls");
   fs::remove(folder.path("room.plan"));
   expectInputError(kRun, "cannot be read: file room.plan");
+  ASSERT_EQ(::mkfifo(folder.path("room.plan").c_str(), 0600), 0);
+  expectInputError(kRun, "room.plan");
 }
 
 /// The lines of a file, without or with a comment.
@@ -222,6 +225,9 @@ TEST_F(SimulFloorplan, WhatIsTooLargeIsAnError) {
   expectInputError(kRun, "too many readings: 27777.8 h");
   write("room.route", "start 1 1 0\nspeed 1e-9\ngo 6 1\n");
   expectInputError(kRun, "`speed` too low: file room.route, line 2");
+  write("room.route", "start 1 1 0\nspeed 1\ngo 6 1\nwait 30000\n");
+  expectInputError(std::string(kRun) + " --set odometry.rate=100 --set laser.rate=0.1",
+                   "too many readings: 8.3 h");
   write("room.route", std::string(2 << 20, 'x'));
   expectInputError(kRun, "not a text log: room.route, line 1");
   write("room.route", std::string(1 << 19, 'x') + " 1 1 0\n");
@@ -238,6 +244,9 @@ TEST_F(SimulFloorplan, APlanOfManyKilometresHasASmallPicture) {
   write("room.plan", "rectangle 0 0 100000 60000\n");
   EXPECT_EQ(simulate(kRun).status, 0);
   EXPECT_LT(fs::file_size(folder.path("out.png")), 10000000u);
+  write("room.route", "start 1 1 0\nspeed 100\ngo 90000 1\ngo 1 1\n");
+  fs::remove(folder.path("out.rawlog"));
+  expectInputError(kRun, "route too long: 180.0 km");
 }
 
 TEST_F(SimulFloorplan, WrongRoutes) {

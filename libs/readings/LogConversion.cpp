@@ -15,29 +15,34 @@ namespace hybrid_slam::readings {
 
 namespace {
 
-/// Writes the objects of a log. @throws std::runtime_error if stopped, or if the log changes meanwhile
+/// The file of a log, and its state before anything was read.
+struct Source {
+  explicit Source(const std::string& path) : file(path), state(files::stateOf(path)) {}
+  std::string file, state;
+};
+
+/// Writes the objects of a log. @throws std::runtime_error if stopped, or if the log has changed
 template <class Log>
-void write(Log& log, const std::string& file, files::RawlogWriter& writer,
-           const LogConversionOptions& options) {
-  const std::string state = files::stateOf(file);
+void write(Log& log, const Source& source, files::RawlogWriter& writer, const LogConversionOptions& options) {
   while (const auto object = log.next()) {
-    if (options.isStopped()) throw std::runtime_error("interrupted: " + file + "; nothing was written");
+    if (options.isStopped())
+      throw std::runtime_error("interrupted: " + source.file + "; nothing was written");
     writer.write(*object);
   }
-  if (files::stateOf(file) != state)
-    throw std::runtime_error("log has changed while it was read: " + file + "; nothing was written");
+  if (files::stateOf(source.file) != source.state)
+    throw std::runtime_error("log has changed while it was read: " + source.file + "; nothing was written");
 }
 
 /// Converts a bag or rawlog.
 template <class Log>
-LogSummary convert(Log& log, const std::string& file, const std::string& rawlog,
+LogSummary convert(Log& log, const Source& source, const std::string& rawlog,
                    const LogConversionOptions& options) {
   files::RawlogWriter writer(rawlog);
-  write(log, file, writer, options);
+  write(log, source, writer, options);
   LogSummary summary = log.summary();
   summary.defect = log.defect();
   if (options.strict && !summary.defect.empty())
-    throw InputError(summary.format + " " + summary.defect, file, "expected a whole file");
+    throw InputError(summary.format + " " + summary.defect, source.file, "expected a whole file");
   writer.finish();
   return summary;
 }
@@ -59,21 +64,22 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   std::error_code ignored;
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
+  const Source source(logPath);
   if (bags::isBag(logPath)) {
     BagLog log(logPath, planOf(contentsOf(logPath, options.isStopped), bag, logPath), options, report);
-    LogSummary summary = convert(log, logPath, rawlogPath, options);
+    LogSummary summary = convert(log, source, rawlogPath, options);
     summary.notes = log.plan().notes;
     return summary;
   }
   if (isRawlog(logPath)) {
     RawlogLog log(logPath, options);
-    LogSummary summary = convert(log, logPath, rawlogPath, options);
+    LogSummary summary = convert(log, source, rawlogPath, options);
     summary.notes = log.notes();
     return summary;
   }
   TextLog log(logPath, options, report);
   files::RawlogWriter writer(rawlogPath);
-  write(log, logPath, writer, options);
+  write(log, source, writer, options);
   writer.finish();
   LogSummary summary = log.summary();
   summary.notes = log.ignoredLasers();

@@ -13,6 +13,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
@@ -364,6 +366,29 @@ TEST_F(PublicLogs, Csail) { convertWhole("csail.clf.gz", 1051, 361); }
 TEST_F(PublicLogs, DpslamLoop) {
   auto result = convertWhole("dpslam-loop5.clf.gz", 551, 181);
   EXPECT_NEAR(result.scan(1)->sensorPose.x(), 0.4, 1e-6);  // the rows have six decimals
+}
+
+// The robot may still write the log, or another one may be copied over it.
+TEST(LogConversion, ALogThatIsReplacedOrGrowsMeanwhileIsAnError) {
+  for (const bool isReplaced : {true, false}) {
+    const files::TemporaryFolder folder;
+    std::string rows;
+    for (int i = 0; i < 100; ++i) rows += laser("FLASER", 181, "0 0 0", std::to_string(i));
+    const std::string log = folder.write("in.clf", rows), other = folder.write("other.clf", rows);
+    LogConversionOptions options;
+    options.isStopped = [&, calls = 0]() mutable {
+      if (++calls != 50) return false;
+      if (isReplaced)
+        std::filesystem::rename(other, log);
+      else
+        std::ofstream(log, std::ios::app) << rows;
+      return false;
+    };
+    EXPECT_EQ(test::errorOf<std::runtime_error>(
+                  [&] { convertLog(log, folder.path("out.rawlog"), options, [](size_t, const auto&) {}); }),
+              "log has changed while it was read: " + log + "; nothing was written");
+    EXPECT_FALSE(std::filesystem::exists(folder.path("out.rawlog")));
+  }
 }
 
 }  // namespace
