@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::contentOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::UnorderedElementsAre;
 
 // A mount point, or a folder of another user, cannot be moved into the new one.
@@ -204,7 +206,7 @@ TEST_F(StagedFolderTest, LinksThatAKilledRunHasLeftAreClearedAwayAndOtherFilesAr
 
 // Finished results stay, and the error says where.
 TEST_F(StagedFolderTest, AFinalFolderThatCannotBeReplaced) {
-  for (const std::string fault : {"protected", "hidden", "file"}) {
+  for (const std::string fault : {"protected", "hidden"}) {
     SCOPED_TRACE(fault);
     EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
       const std::string folder = root.path(fault);
@@ -214,10 +216,7 @@ TEST_F(StagedFolderTest, AFinalFolderThatCannotBeReplaced) {
         StagedFolder staged(folder, kNames, false);
         hidden = staged.files().path("");
         write(staged, "1");
-        if (fault == "file") {
-          fs::remove(folder);
-          std::ofstream(folder).flush();
-        } else if (fault == "protected") {
+        if (fault == "protected") {
           std::ofstream(folder + "/map") << "copy";
           mode(fs::perms::owner_read | fs::perms::owner_exec);
         } else {
@@ -225,7 +224,6 @@ TEST_F(StagedFolderTest, AFinalFolderThatCannotBeReplaced) {
         }
         error = test::errorOf<InputError>([&] { staged.publish(); });
       }
-      if (fault == "file" ? !fs::is_regular_file(folder) : fs::is_regular_file(folder)) return false;
       if (fs::exists(folder)) mode(fs::perms::owner_all);
       if (error.find("results cannot be renamed: " + folder) != 0 || contentOf(hidden + "map") != "1") {
         std::cerr << error << std::endl;
@@ -240,19 +238,34 @@ TEST_F(StagedFolderTest, ALinkInPlaceOfTheFinalFolderIsNotFollowed) {
   const std::string other = root.path("other");
   fs::create_directories(other + "/sub");
   for (const char* name : {"/map", "/notes"}) std::ofstream(other + name) << "other";
-  for (const bool hasResults : {false, true}) {
-    if (hasResults) run("1", true);
-    {
-      StagedFolder staged(out, kNames, true);
-      write(staged, "2");
-      fs::rename(out, root.path("moved" + std::to_string(hasResults)));
-      fs::create_directory_symlink("other", out);
-      EXPECT_THROW(staged.publish(), InputError);
+  for (const bool hasResults : {false, true})
+    for (const bool isMoved : {false, true}) {
+      if (hasResults) run("1", true);
+      const std::string moved = root.path("moved");
+      std::string folder;
+      {
+        StagedFolder staged(out, kNames, true);
+        write(staged, "2");
+        if (isMoved)
+          fs::rename(out, moved);
+        else
+          fs::remove_all(out);
+        fs::create_directory_symlink("other", out);
+        staged.publish();
+        folder = staged.folder();
+        EXPECT_THAT(staged.note(),
+                    HasSubstr("moved or removed during the run; the results are in " + folder));
+      }
+      EXPECT_THAT(folder, MatchesRegex(isMoved ? moved : out + "-" + kDate));
+      EXPECT_EQ(contentOf(folder + "/map"), "2");
+      EXPECT_THAT(namesIn(folder), UnorderedElementsAre("map", "metrics"));
+      EXPECT_THAT(namesIn(other), UnorderedElementsAre("sub", "map", "notes"));
+      EXPECT_EQ(contentOf(other + "/map"), "other");
+      EXPECT_THAT(namesIn(root.path("")),
+                  UnorderedElementsAre("out", "other", fs::path(folder).filename().string()));
+      fs::remove_all(folder);
+      fs::remove(out);
     }
-    EXPECT_THAT(namesIn(other), UnorderedElementsAre("sub", "map", "notes"));
-    EXPECT_EQ(contentOf(other + "/map"), "other");
-    fs::remove(out);
-  }
 }
 
 TEST_F(StagedFolderTest, AResultThatDoesNotReachTheDiskIsAnError) {

@@ -15,7 +15,7 @@ Lock lock(int file);
 /// The same, for a lock that several may hold at a time, but not beside one that `lock` gives.
 Lock lockShared(int file);
 
-/// Returns whether an open file or folder still has this name.
+/// Returns whether an open file or folder still has this name; false for a symbolic link to it.
 bool isNamed(int file, const std::string& path);
 /// Returns a path of an open file or folder, which may have been moved since; empty if it was removed.
 std::string pathOf(int file);

@@ -1,6 +1,7 @@
 #include "files/PartialFile.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,32 +36,36 @@ PartialFile::PartialFile(const std::string& path) : final_(path) {
   claim();
 }
 
-/// The lock distinguishes the file of a running writer from that of a killed one. A file that cannot be
-/// opened is left to the writer, who reports it.
+/// The lock distinguishes the file of a running writer from that of a killed one. Links and pipes are not
+/// ours. A file that cannot be opened is left to the writer, who reports it.
 void PartialFile::claim() {
   for (int number = 1;;) {
-    lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) return;
-    const bool isLocked = lock(lock_) != Lock::ofAnother;
+    struct stat there {};
+    const bool isOther = ::lstat(partial_.c_str(), &there) == 0 && !S_ISREG(there.st_mode);
+    lock_ = isOther
+                ? -1
+                : ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (lock_ < 0 && !isOther) return;
+    const bool isLocked = !isOther && lock(lock_) != Lock::ofAnother;
     if (isLocked && isNamed(lock_, partial_)) return;
-    ::close(lock_);
+    if (lock_ >= 0) ::close(lock_);
     if (!isLocked) partial_ = nameOf(final_, "-" + std::to_string(++number));
   }
 }
 
-/// Finds the file again if a folder above it was moved.
-void PartialFile::follow() {
-  if (lock_ < 0 || partial_.empty() || isNamed(lock_, partial_)) return;
+/// Finds the file again if a folder above it was moved. Returns false if it was removed, or replaced.
+bool PartialFile::follow() {
+  if (lock_ < 0 || isNamed(lock_, partial_)) return true;
   const fs::path moved = pathOf(lock_);
-  if (moved.empty()) return;
+  if (moved.empty()) return false;
   final_ = (moved.parent_path() / fs::path(final_).filename()).string();
   partial_ = moved.string();
+  return true;
 }
 
 PartialFile::~PartialFile() {
-  follow();
   std::error_code ignored;
-  if (!partial_.empty()) fs::remove(partial_, ignored);
+  if (!partial_.empty() && follow()) fs::remove(partial_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }
 
@@ -70,7 +75,8 @@ void PartialFile::commit() {
 }
 
 void PartialFile::keep() {
-  follow();
+  if (!follow())
+    throw InputError("removed while it was written", final_, "expected that the output folder stays there");
   std::error_code error;
   fs::rename(partial_, final_, error);
   if (error) fail(error.value());

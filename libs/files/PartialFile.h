@@ -24,9 +24,9 @@ class PartialFile {
   const std::string& path() const { return partial_; }  ///< where to write until then
   const std::string& finalPath() const { return final_; }
   /// Syncs the file to disk and renames it, so that a power cut leaves no empty file under its name.
-  /// @throws InputError if either fails
+  /// @throws InputError if either fails, or if the file was removed or replaced
   void commit();
-  /// Renames a file that cannot be written to its end. @throws InputError if that fails
+  /// Renames a file that cannot be written to its end. @throws InputError as `commit`
   void keep();
   /// @param error  errno, or 0 if unknown
   /// @throws InputError: the file cannot be written
@@ -34,7 +34,7 @@ class PartialFile {
 
  private:
   void claim();
-  void follow();
+  bool follow();
 
   std::string final_, partial_;
   int lock_ = -1;  ///< held while this object lives

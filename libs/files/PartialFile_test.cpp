@@ -1,5 +1,6 @@
 #include "files/PartialFile.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -92,12 +93,36 @@ TEST(PartialFile, MovesWithItsFolder) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(root.path("again")), {}), 1);
 }
 
-TEST(PartialFile, RemovedWithItsFolderIsAnError) {
+TEST(PartialFile, RemovedOrReplacedIsAnError) {
+  for (const bool isReplaced : {false, true}) {
+    TemporaryFolder root;
+    std::filesystem::create_directory(root.path("out"));
+    {
+      PartialFile file(root.path("out/map"));
+      std::filesystem::remove_all(root.path("out"));
+      if (isReplaced) {
+        std::filesystem::create_directory(root.path("out"));
+        std::ofstream(file.path()) << "of another";
+      }
+      EXPECT_THAT(test::errorOf<InputError>([&] { file.commit(); }),
+                  testing::StartsWith("removed while it was written: " + root.path("out/map")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(root.path("out/map")));
+    EXPECT_EQ(std::filesystem::exists(root.path("out/.partial.map")), isReplaced) << "it is not ours";
+  }
+}
+
+TEST(PartialFile, LinksAndPipesThatHaveItsNameStay) {
   TemporaryFolder root;
-  std::filesystem::create_directory(root.path("out"));
-  PartialFile file(root.path("out/map"));
-  std::filesystem::remove_all(root.path("out"));
-  EXPECT_THROW(file.commit(), InputError);
+  std::ofstream(root.path("mine")) << "1";
+  std::filesystem::create_symlink("mine", root.path(".partial.map"));
+  ASSERT_EQ(::mkfifo(root.path(".partial-2.map").c_str(), 0600), 0);
+  PartialFile file(root.path("map"));
+  std::ofstream(file.path()) << "2";
+  file.commit();
+  EXPECT_EQ(test::contentOf(root.path("map")), "2");
+  EXPECT_EQ(test::contentOf(root.path("mine")), "1");
+  EXPECT_TRUE(std::filesystem::is_symlink(root.path(".partial.map")));
 }
 
 }  // namespace

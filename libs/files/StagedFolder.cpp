@@ -16,6 +16,7 @@
 #include "base/Errors.h"
 #include "files/DatedName.h"
 #include "files/FolderReplacement.h"
+#include "files/InputFile.h"
 #include "files/Locks.h"
 
 namespace hybrid_slam::files {
@@ -27,6 +28,11 @@ namespace {
 std::string prefixOf(const fs::path& folder) { return "." + folder.filename().string() + ".part-"; }
 
 int openFolder(const fs::path& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
+
+/// Returns where an open file or folder is, or its path if it is not open; empty if it was removed.
+fs::path placeOf(int file, const fs::path& path) {
+  return file < 0 || isNamed(file, path.string()) ? path : fs::path(pathOf(file));
+}
 
 /// Returns whether a folder can be renamed within its parent.
 bool isRenamable(const fs::path& folder) {
@@ -69,6 +75,7 @@ StagedFolder::StagedFolder(const std::string& folder, const std::vector<std::str
     throw InputError("output folder not readable", folder, "expected a folder whose files can be listed");
   final_ = fs::canonical(folder);
   if (isNew) created_.push_back(final_);
+  if (!own.empty()) setOwn(own);
   const std::string prefix = prefixOf(final_);
   for (const std::string& name : results_)
     if (overwrite_ && fs::is_directory(final_ / name))
@@ -88,8 +95,9 @@ StagedFolder::~StagedFolder() { release(); }
 
 void StagedFolder::release() {
   std::error_code ignored;
-  if (const std::string moved = pathOf(lock_); !isDone_ && !stage_.empty())
-    fs::remove_all(moved.empty() ? stage_ : fs::path(moved), ignored);
+  if (!isDone_ && !stage_.empty()) fs::remove_all(placeOf(lock_, stage_), ignored);
+  for (fs::path& folder : created_)
+    if (folder == final_) folder = placeOf(folder_, final_);
   locks_.push_back(lock_);
   for (const int lock : locks_)
     if (lock >= 0) ::close(lock);
@@ -106,15 +114,24 @@ std::string StagedFolder::note() const {
          " (--overwrite replaces them)";
 }
 
+bool StagedFolder::isOwn(const fs::path& folder, const std::string& name) const {
+  return name == own_ && stateOf((folder / name).string()) == ownState_;
+}
+
 bool StagedFolder::holdsResults(const fs::path& folder) const {
   return std::any_of(results_.begin(), results_.end(), [&](const std::string& name) {
-    return name != own_ && fs::exists(fs::symlink_status(folder / name));
+    return !isOwn(folder, name) && fs::exists(fs::symlink_status(folder / name));
   });
+}
+
+void StagedFolder::setOwn(const std::string& name) {
+  own_ = name;
+  ownState_ = stateOf((final_ / own_).string());
 }
 
 bool StagedFolder::isOfAnother(const std::string& name) const {
   std::error_code ignored;
-  return name != own_ && fs::is_regular_file(final_ / name, ignored);
+  return !isOwn(final_, name) && fs::is_regular_file(final_ / name, ignored);
 }
 
 /// Chooses the final folder and locks it, so that no other run writes its checkpoints there or replaces it. A
@@ -126,7 +143,7 @@ void StagedFolder::claim() {
     const Lock state = folder < 0 ? Lock::unsupported : isOwn ? lock(folder) : lockShared(folder);
     const bool isStale = folder >= 0 && !isNamed(folder, final_);  // just replaced by the results of a run
     if (state != Lock::ofAnother && !isStale && isOwn == (overwrite_ || !holdsResults(final_))) {
-      locks_.push_back(folder);
+      locks_.push_back(folder_ = folder);
       if (locks_.size() == 1)
         for (const fs::path& place : {final_.parent_path(), final_}) removeDead(place);
       if (!isOwn) {
@@ -216,37 +233,56 @@ void StagedFolder::removeDead(const fs::path& place) const {
   }
 }
 
-/// Returns whether the hidden folder exists, here or where it was moved.
-bool StagedFolder::isThere() {
-  if (lock_ < 0 || isNamed(lock_, stage_)) return true;
-  const fs::path moved = pathOf(lock_);
-  if (moved.empty()) return false;
-  const fs::path before = final_, above = moved.parent_path();
-  final_ = isBeside_ ? above / final_.filename() : above;
-  std::replace(created_.begin(), created_.end(), before, final_);
-  stage_ = moved;
-  *files_ = OutputFolder(stage_.string());
-  shown_ = final_.string();
+/// Returns whether the final folder exists, here or where it was moved.
+bool StagedFolder::hasFinal() {
+  const fs::path before = final_;
+  final_ = placeOf(folder_, final_);
+  if (final_ == before) return true;
   isMoved_ = true;
+  if (final_.empty()) {
+    final_ = before;
+    return false;
+  }
+  std::replace(created_.begin(), created_.end(), before, final_);
+  shown_ = final_.string();
   return true;
 }
 
+/// The same for the hidden folder.
+bool StagedFolder::hasStage() {
+  const fs::path place = placeOf(lock_, stage_);
+  if (place.empty()) return false;
+  if (place != stage_) *files_ = OutputFolder((stage_ = place).string());
+  return true;
+}
+
+/// Another folder, or a link, may have its name now.
+void StagedFolder::createFinalAgain() {
+  const OutputFolder above(final_.parent_path().string());
+  if (::mkdir(final_.c_str(), 0777) == 0)
+    created_.push_back(final_);
+  else
+    takeFolderBeside();
+  folder_ = openFolder(final_);
+  locks_.push_back(folder_);
+  if (folder_ >= 0) lock(folder_);
+}
+
 void StagedFolder::follow() {
-  if (isThere()) return;
-  const fs::path place = isBeside_ ? final_.parent_path() : final_;
-  *files_ = OutputFolder(place.string());  // creates it
-  ::close(std::exchange(lock_, -1));
-  stageIn(place, prefixOf(final_));
+  if (!hasFinal()) createFinalAgain();
+  if (hasStage()) return;
+  if (lock_ >= 0) ::close(lock_);
+  stageIn(isBeside_ ? final_.parent_path() : final_, prefixOf(final_));
   *files_ = OutputFolder(stage_.string());
-  isMoved_ = true;
 }
 
 void StagedFolder::publish() {
-  if (!isThere())
+  if (!hasStage())
     throw InputError("results removed", stage_.string(), "expected that they stay until the run ends");
   sync(stage_);
   isDone_ = true;  // from here on, an error no longer removes the results
   try {
+    if (!hasFinal()) createFinalAgain();
     replaceFinal();
   } catch (const fs::filesystem_error& error) {
     cannotRename(error.code().message());
@@ -260,9 +296,6 @@ void StagedFolder::cannotRename(const std::string& reason) const {
 }
 
 void StagedFolder::replaceFinal() {
-  const fs::file_status state = fs::symlink_status(final_);
-  if (fs::exists(state) && !fs::is_directory(state))  // results go through no link made during the run
-    throw std::runtime_error("a file or link is in the place of the output folder");
   if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   const FolderReplacement replacement(stage_, final_, results_);

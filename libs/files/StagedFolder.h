@@ -14,7 +14,8 @@ namespace hybrid_slam::files {
 /// Files are written to a hidden folder `.NAME.part-XXXXXX` beside the folder NAME. `publish` renames it to
 /// NAME; without `publish` it is removed. Other files in NAME stay. Where NAME cannot be renamed (a mount
 /// point, the working directory), the hidden folder is in it, and the files are renamed one by one, the last
-/// result last. Both folders stay together if the user moves one above them.
+/// result last. Folders that are moved during the run are found again; links in their places are not
+/// followed.
 class StagedFolder {
  public:
   /// Chooses the final folder, and creates it empty: `folder`, or a dated subfolder if `folder` already has
@@ -29,9 +30,9 @@ class StagedFolder {
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// Names a result that this run has already written to the final folder.
-  void setOwn(const std::string& name) { own_ = name; }
-  /// Returns whether another run has written this file to the final folder.
+  /// Names a result that this run has just written to the final folder.
+  void setOwn(const std::string& name);
+  /// Returns whether another run has written this file to the final folder, or has replaced ours.
   bool isOfAnother(const std::string& name) const;
   /// The hidden folder.
   const OutputFolder& files() const { return *files_; }
@@ -43,18 +44,20 @@ class StagedFolder {
   /// Says in one line where the results go, if not to the requested folder; else empty.
   std::string note() const;
 
-  /// Finds the folders again if one above them was moved, and creates the hidden one again, empty, if it was
-  /// removed.
-  /// @throws InputError if it cannot be created
+  /// Finds the folders again if they, or one above them, were moved, and creates removed ones again, empty.
+  /// @throws InputError if that fails
   void follow();
   /// @throws InputError if the results cannot be written to disk, or cannot be renamed; they then stay in the
   ///         hidden folder, which it names
   void publish();
 
  private:
-  bool isThere();
+  bool hasFinal();
+  bool hasStage();
+  void createFinalAgain();
   void replaceFinal();
   [[noreturn]] void cannotRename(const std::string& reason) const;
+  bool isOwn(const std::filesystem::path& folder, const std::string& name) const;
   bool holdsResults(const std::filesystem::path& folder) const;
   void release();
   void claim();
@@ -74,6 +77,8 @@ class StagedFolder {
   bool hasLeft_ = false;    ///< files in the hidden folder
   bool isTaken_ = false;    ///< the requested folder, by another run
   bool isMoved_ = false;    ///< or removed
+  std::string ownState_;    ///< stateOf the own result
+  int folder_ = -1;         ///< the final folder, one of locks_
   std::vector<int> locks_;  ///< of the final folder, and of those above it
   int lock_ = -1;           ///< of the hidden folder, which becomes the final one
   std::unique_ptr<OutputFolder> files_;

@@ -37,7 +37,8 @@ void RunOptions::describe(OptionTable& t) {
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
         "not for linemap, ortho and stock");
   t.add("retry_particles", retryParticles, 0, 100000,
-        "number of particles of a second run, if a run with an adaptive number is judged lost; 0: no second "
+        "number of particles of a second run, if scans contradict the map of one with an adaptive number; 0: "
+        "no second "
         "run");
 }
 

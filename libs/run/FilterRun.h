@@ -106,6 +106,8 @@ class FilterRun {
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
+  /// Lets `finish` write no results if the verdict on the map is worse than this.
+  void expectVerdict(Verdict::Level worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if it is shorter than the processed readings (a recording on a full disk),
@@ -113,7 +115,7 @@ class FilterRun {
   ///                 If `file` cannot be read again, nothing is refined and there is no map.simplemap.gz
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
-  /// @throws InputError if a result cannot be written
+  /// @throws InputError if a result cannot be written; std::runtime_error for a worse map than expected
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
   /// Returns why results of the finished run are missing, which notes name; empty if none are.
@@ -201,6 +203,8 @@ class FilterRun {
   double savedCell_ = 0;                   ///< m, of the map files
   double mostBytes_, refinementBytes_;
   Verdict verdict_;
+  Verdict::Level worstVerdict_ = Verdict::Level::lost;
+  std::string checkpointName_;
   std::future<void> checkpoint_;  ///< compressed and written while the filter goes on
 };
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "base/Clock.h"
@@ -152,6 +153,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   } else {
     writeMap(result, file, log);
   }
+  if (verdict_.level > worstVerdict_) throw std::runtime_error("its map is " + verdict_.name());
   writeOrNote("map.png",
               [&] { savePicture(folder_, result.grid, result.trajectory, result.lines, verdict_.places); });
   if (hybrid_)

@@ -129,10 +129,9 @@ void FilterRun::saveIfDue() {
   try {
     staged_.follow();
     const bool isBeside = staged_.isOfAnother(kSessionName) || staged_.isOfAnother(kResultFiles.back());
-    const std::string name = isBeside ? kCheckpointName : kSessionName;
-    staged_.setOwn(name);
+    checkpointName_ = isBeside ? kCheckpointName : kSessionName;
     checkpoint_ =
-        std::async(std::launch::async, [path = staged_.finalPath(name), before = beforeSession_,
+        std::async(std::launch::async, [path = staged_.finalPath(checkpointName_), before = beforeSession_,
                                         bytes = sessionWith(hybrid_->bestMap(), hybrid_->bestPath())] {
           if (bytes.empty()) return;
           before();
@@ -147,6 +146,7 @@ void FilterRun::saveIfDue() {
 void FilterRun::finishCheckpoint() {
   if (checkpoint_.valid()) try {
       checkpoint_.get();
+      staged_.setOwn(checkpointName_);
     } catch (const std::exception& e) {
       notes_.push_back("no checkpoint: " + messageOf(e));
     }

@@ -117,8 +117,8 @@ std::string missingStart(const FilterRun& run, const RunOptions& options) {
 /// Returns whether a run with more particles may succeed where this one failed.
 bool isRetryDue(const ReplayOutcome& outcome, const Configuration& c) {
   const auto method = c.run.method;
-  return outcome.verdict.level == Verdict::Level::lost && outcome.incomplete.empty() &&
-         c.run.retryParticles > 0 && c.filter.filter.isAdaptive() && !c.filter.filter.isAuxiliary() &&
+  return outcome.verdict.isContradicted && outcome.incomplete.empty() && c.run.retryParticles > 0 &&
+         c.filter.filter.isAdaptive() && !c.filter.filter.isAuxiliary() &&
          method != RunOptions::Method::stock && method != RunOptions::Method::ortho &&
          c.run.localizeIn.empty();
 }
@@ -159,6 +159,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   run.reset();
   try {
     FilterRun second(again, start);
+    second.expectVerdict(outcome.verdict.level);
     outcome = Pass(again, log, true, isQuiet)(second, nullptr, stop, wantsProfile);
   } catch (const std::exception& e) {
     outcome.warnings.push_back("no results of a second run: " + messageOf(e));

@@ -109,25 +109,30 @@ Verdict verdictOf(const Evidence& evidence) {
     verdict.level = std::max(verdict.level, level);
     verdict.reasons.push_back(reason);
   };
-  const auto judge = [&find](const std::vector<Revisit>& revisits, double doubtful, double lost,
-                             const std::string& what) {
+  const auto contradict = [&](Level level, const std::string& reason) {
+    verdict.isContradicted = true;
+    find(level, reason);
+  };
+  const auto judge = [&contradict](const std::vector<Revisit>& revisits, double doubtful, double lost,
+                                   const std::string& what) {
     const size_t contradicted = contradictedOf(revisits);
     if (contradicted < std::min(kFewestInDoubt, std::max<size_t>(revisits.size(), 1))) return;
     const double part = static_cast<double>(contradicted) / static_cast<double>(revisits.size());
     if (part > doubtful)
-      find(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
-           share(contradicted, revisits.size()) + " " + what);
+      contradict(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
+                 share(contradicted, revisits.size()) + " " + what);
   };
   judge(evidence.returning, kReturningDoubtful, kReturningLost,
         "returning scans contradict what was mapped before");
   judge(evidence.recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
   verdict.places = placesOf(stretchesOf(evidence.returning), kFewest);
   if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
-    find(Level::doubtful, "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
+    contradict(Level::doubtful,
+               "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
   const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
   if (!jumps.empty())
-    find(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
-                              ": successive scans contradict what was mapped just before");
+    contradict(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
+                                    ": successive scans contradict what was mapped just before");
   verdict.places.insert(verdict.places.end(), jumps.begin(), jumps.end());
   if (evidence.spread > kSpread)
     find(Level::doubtful,

@@ -24,6 +24,7 @@ struct Verdict {
   Level level = Level::consistent;
   std::vector<std::string> reasons;   ///< short sentences, the most serious first
   std::vector<DoubtfulPlace> places;  ///< at most ten; returning stretches before jumps, the longest first
+  bool isContradicted = false;        ///< by scans; not only for want of evidence
 
   std::string name() const;
   /// One line: `verdict: doubtful: REASON; REASON; longest at (X, Y) m`.
