@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "FilterArguments.h"
+#include "OutputArgument.h"
 #include "Program.h"
 #include "SaveSignal.h"
 #include "SensorProgram.h"
@@ -35,7 +36,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--server", line.server,
                  "read from this observation-server, not from the INI file's sensors")
       ->type_name("HOST:PORT");
-  app.add_option("-o,--output", line.output, "folder for results and recording")->type_name("DIR");
+  addOutput(app, line.output, "folder for results and recording");
   app.add_flag("--overwrite", line.overwrites,
                "replace the results of an earlier run in DIR, but never a recording (default: write to a "
                "dated subfolder)");
@@ -115,6 +116,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   holdSaveSignal();
   run::Configuration configuration(line.config.empty() ? "" : files::inputFile(line.config), settings,
                                    sections);
+  expectKept(line.output, configuration.run.output);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
   warn(configuration.warnings);

@@ -6,6 +6,7 @@
 
 #include "FilterArguments.h"
 #include "InputFiles.h"
+#include "OutputArgument.h"
 #include "Program.h"
 #include "SessionArguments.h"
 #include "SettingArguments.h"
@@ -32,7 +33,7 @@ struct CommandLine {
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "hybrid-slam " HYBRID_SLAM_VERSION);
   line.files.add(app, logMeans() + " (default: [run] rawlog)");
-  app.add_option("-o,--output", line.output, "folder for the results, created if missing")->type_name("DIR");
+  addOutput(app, line.output, "folder for the results, created if missing");
   app.add_flag("--overwrite", line.overwrites,
                "replace the results of an earlier run in DIR (default: write to a dated subfolder)");
   line.filter.addMethod(app);
@@ -66,13 +67,6 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   line.topics.addTo(settings);
   if (app.count("--refine")) set(settings, "run.refine", std::to_string(line.refine));
   return settings;
-}
-
-/// Rejects a file name that an INI file, and so config.ini and a session, cannot hold.
-void expectKept(const std::string& given, const std::string& kept) {
-  if (!given.empty() && given != kept)
-    throw InputError("wrong name `" + given + "`", "command line",
-                     "expected one without line breaks, macros, `//`, and blanks at its ends");
 }
 
 /// Rejects a session given as the log.

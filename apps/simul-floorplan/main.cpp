@@ -103,6 +103,12 @@ void run(const CommandLine& line) {
   if (!things.empty())
     files.emplace_back(sessionPlan,
                        [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
+  for (const auto& [file, write] : files)
+    for (const std::string& input :
+         {line.config, besideConfig(line, options.plan, "plan"), besideConfig(line, options.route, "route"),
+          options.things.empty() ? "" : besideConfig(line, options.things, "things")})
+      if (fs::equivalent(file, input, ignored))
+        throw InputError("the output is an input", file.string(), "expected another name with -o");
   writeTogether(files);
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()

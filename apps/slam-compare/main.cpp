@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "InputFiles.h"
+#include "OutputArgument.h"
 #include "Program.h"
 #include "SettingArguments.h"
 #include "Stop.h"
@@ -50,9 +51,7 @@ struct CommandLine {
 void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "slam-compare " HYBRID_SLAM_VERSION);
   line.files.add(app, logMeans());
-  app.add_option("-o,--output", line.output, "folder for runs, tables and report, created if missing")
-      ->required()
-      ->type_name("DIR");
+  addOutput(app, line.output, "folder for runs, tables and report, created if missing")->required();
   app.add_option("-m,--methods", line.methods,
                  "list of hybrid, general, linemap, ortho, stock; the first is the baseline of the tests")
       ->delimiter(',')

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "OutputArgument.h"
 #include "Program.h"
 #include "run/MergeRun.h"
 
@@ -21,9 +22,7 @@ void describe(CLI::App& app, CommandLine& line) {
   const std::string files = "session.hslam, map.yaml, gridmap, or a folder of results with its session";
   app.add_option("A", line.merge.older, files + "; the merged map has its frame and its cells")->required();
   app.add_option("B", line.merge.newer, "the same for an overlapping area")->required();
-  app.add_option("-o,--output", line.merge.output, "folder for the results, created if missing")
-      ->required()
-      ->type_name("DIR");
+  addOutput(app, line.merge.output, "folder for the results, created if missing")->required();
   app.add_flag("--overwrite", line.merge.overwrite,
                "replace earlier results in DIR (default: write to a dated subfolder)");
   app.add_option("-j,--threads", line.merge.threads, "number of threads; 0: all cores")

@@ -180,6 +180,25 @@ TEST(RecordingFolder, ItsFilesInTheOrderOfTheirNumbers) {
   expectSame(content.messages, all);
 }
 
+TEST(RecordingFolder, AFileThatItsMetadataListIsMissed) {
+  const files::TemporaryFolder folder;
+  const auto all = messages(5, Encoding::cdr);
+  test::writeDatabase(folder.path("drive_0.db3"), all);
+  const auto defect = [&](const std::string& metadata) {
+    folder.write("metadata.yaml", metadata);
+    const Content content = read(folder.path(""));
+    expectSame(content.messages, all);
+    return content.defect;
+  };
+  const std::string list = "rosbag2_bagfile_information:\n  relative_file_paths:\n";
+  EXPECT_EQ(defect(list + "    - drive_0.db3.zstd\n"), "");
+  EXPECT_EQ(defect(list + "    - recorded/drive_0.db3\n    - recorded/drive_1.db3\n"),
+            "lacks drive_1.db3, which its metadata.yaml lists");
+  for (const std::string& broken :
+       {std::string("]"), list, list + "    - [1]\n", std::string(2'000'000, '[')})
+    EXPECT_EQ(defect(broken), "");
+}
+
 TEST(RecordingFolder, AFileThatCannotBeReadIsTheEnd) {
   const files::TemporaryFolder folder;
   const auto written = messages(5, Encoding::cdr);

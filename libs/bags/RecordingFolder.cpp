@@ -1,6 +1,9 @@
 #include "bags/RecordingFolder.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 #include "bags/ByteCursor.h"
@@ -28,6 +31,27 @@ bool comesBefore(const std::string& a, const std::string& b) {
   return std::make_pair(numberAt(nameA), nameA) < std::make_pair(numberAt(nameB), nameB);
 }
 
+std::string plainName(const fs::path& file) {
+  return (file.extension() == ".zstd" ? file.stem() : file.filename()).string();
+}
+
+/// Returns the first file that metadata.yaml lists and that is not among the files; empty if there is none,
+/// or no metadata.
+std::string missingFile(const std::string& folder, const std::vector<std::string>& files) try {
+  constexpr uintmax_t kMostBytes = 1'000'000;
+  const fs::path metadata = fs::path(folder) / "metadata.yaml";
+  if (!fs::is_regular_file(metadata) || fs::file_size(metadata) > kMostBytes) return {};
+  for (const YAML::Node& listed :
+       YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"]["relative_file_paths"]) {
+    const std::string name = plainName(listed.as<std::string>());
+    if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return plainName(file) == name; }))
+      return name;
+  }
+  return {};
+} catch (const std::exception&) {  // metadata are not needed to read a recording
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> filesOfRecording(const std::string& folder) {
@@ -41,6 +65,7 @@ std::vector<std::string> filesOfRecording(const std::string& folder) {
 
 RecordingFolder::RecordingFolder(const std::string& path) : files_(filesOfRecording(path)) {
   if (files_.empty()) throw InputError("not a recording", path, "expected a folder with files .db3 or .mcap");
+  missing_ = missingFile(path, files_);
   std::reverse(files_.begin(), files_.end());
 }
 
@@ -66,6 +91,8 @@ std::optional<StoredMessage> RecordingFolder::next() {
     const std::string name = fs::path(files_.back()).filename().string();
     defect_ = "ends before " + printable(name) + ", which cannot be read";
   }
+  if (defect_.empty() && !missing_.empty())
+    defect_ = "lacks " + printable(missing_) + ", which its metadata.yaml lists";
   return std::nullopt;
 }
 

@@ -14,6 +14,7 @@ namespace hybrid_slam::bags {
 std::vector<std::string> filesOfRecording(const std::string& folder);
 
 /// Reads the files one after another. A file that cannot be opened is a defect, after which nothing is read.
+/// One that metadata.yaml lists and that is not there is a defect too.
 class RecordingFolder : public Bag {
  public:
   /// @throws InputError if there is no file
@@ -26,6 +27,7 @@ class RecordingFolder : public Bag {
   size_t indexOf(const Topic& topic);
 
   std::vector<std::string> files_;  ///< still to be read
+  std::string missing_;             ///< a file
   std::unique_ptr<Bag> current_;
 };
 

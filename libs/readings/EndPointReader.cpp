@@ -4,6 +4,7 @@
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
+#include "files/InputFile.h"
 #include "readings/LogWarnings.h"
 
 namespace hybrid_slam::readings {
@@ -31,6 +32,8 @@ std::vector<EndPoints> loadEndPoints(const std::string& rawlog, const InputOptio
                        "expected at most " + std::to_string(mostKept) + " scans and valid beams together");
     scans.push_back(std::move(ends));
   }
+  if (files::stateOf(rawlog) != summary.state)
+    throw InputError("log has changed while it was read", rawlog, "expected a finished log");
   return scans;
 }
 

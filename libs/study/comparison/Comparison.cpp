@@ -21,18 +21,16 @@ SweepOutcome runSweep(const std::vector<ComparisonRun>& runs, size_t atOnce, con
   std::stable_sort(todo.begin(), todo.end(),
                    [](const auto* a, const auto* b) { return a->run.seed < b->run.seed; });
 
-  const auto messagesOf = [](const ComparisonRun& r) { return r.folder.partial() / "messages.txt"; };
   std::vector<ChildCommand> commands;
   for (const ComparisonRun* r : todo) {
     std::vector<std::string> arguments = r->command;
     arguments.insert(arguments.end(), {"-o", r->folder.partial().string()});
-    commands.push_back({arguments, messagesOf(*r)});
+    commands.push_back({arguments, r->folder.messages()});
   }
   const auto begin = [&](size_t i) { todo[i]->folder.begin(todo[i]->identity); };
   const auto end = [&](size_t i, const std::string& error) {
     const ComparisonRun& r = *todo[i];
     if (error.empty()) {
-      if (std::filesystem::is_empty(messagesOf(r))) std::filesystem::remove(messagesOf(r));
       r.folder.finish();
       ++outcome.done;
     } else {

@@ -2,14 +2,19 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "base/Errors.h"
 #include "files/Checksum.h"
+#include "files/FolderReplacement.h"
+#include "run/ResultFiles.h"
 #include "study/comparison/JsonFile.h"
 
 namespace hybrid_slam::comparison {
@@ -19,8 +24,21 @@ namespace fs = std::filesystem;
 const char* const kOrigin = "origin.json";
 const char* const kError = "error.txt";
 const char* const kChecksums = "checksums.json";
+const char* const kMessages = "messages.txt";
 const char* const kOfReport[] = {"config.ini", "metrics.json", "steps.csv", "trajectory.tum"};
 const char* const kLargeFiles[] = {"map.simplemap.gz", "map.pgm", "map.yaml"};
+
+/// All files of a run, the one that marks a finished run last. Others in its folder are the user's.
+std::vector<std::string> ownFiles() {
+  std::vector<std::string> names = run::kResultFiles;
+  names.insert(names.begin(), {kOrigin, kError, kChecksums, kMessages});
+  return names;
+}
+
+bool isOwn(const std::string& name) {
+  static const std::vector<std::string> names = ownFiles();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 /// "[section] key" -> value. A config.ini has no other lines.
 std::map<std::string, std::string> settingsOf(std::istream& text) {
@@ -139,6 +157,8 @@ void RunFolder::expect(const RunIdentity& identity) const {
     differs(folder_, "the log " + identity.log + " has changed since");
 }
 
+fs::path RunFolder::messages() const { return partial_ / kMessages; }
+
 void RunFolder::begin(const RunIdentity& identity) const {
   fs::remove_all(partial_);
   fs::create_directories(partial_);
@@ -151,6 +171,11 @@ void RunFolder::begin(const RunIdentity& identity) const {
 }
 
 void RunFolder::finish() const {
+  if (!isThere(partial_ / run::kResultFiles.back()))
+    throw InputError("results moved or removed", partial_.string(),
+                     "expected that the folder of the runs stays where it is");
+  std::error_code error;
+  if (fs::is_empty(partial_ / kMessages, error)) fs::remove(partial_ / kMessages, error);
   for (const char* name : kLargeFiles) fs::remove(partial_ / name);
   nlohmann::ordered_json checksums;
   for (const auto& entry : fs::directory_iterator(partial_))
@@ -160,21 +185,36 @@ void RunFolder::finish() const {
   out << checksums.dump(2) << '\n';
   out.close();
   if (!out) throw std::runtime_error("cannot write: " + partial_.string() + "; is the disk full?");
-  discard();
-  fs::rename(partial_, folder_);
+  std::error_code isTaken;
+  fs::rename(partial_, folder_, isTaken);
+  if (!isTaken) return;
+  const std::vector<std::string> names = ownFiles();
+  const files::FolderReplacement replacement(partial_, folder_, names);
+  if (replacement.exchange())
+    replacement.removeHidden();
+  else
+    replacement.moveOneByOne();
 }
 
 void RunFolder::discard() const {
-  std::error_code error;
-  fs::remove_all(folder_, error);
-  if (error)
-    throw InputError("cannot remove", folder_.string(), "expected a writable folder: " + error.message());
+  const std::vector<std::string> names = ownFiles();
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
+    std::error_code error;
+    fs::remove(file(*name), error);
+    if (error)
+      throw InputError("cannot remove", file(*name).string(),
+                       "expected a file in a writable folder: " + error.message());
+  }
+  std::error_code hasOthers;
+  fs::remove(folder_, hasOthers);
 }
 
 std::string RunFolder::damage() const {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder_, none))
-    if (!entry.is_regular_file(none) && !entry.is_directory(none)) return entry.path().filename().string();
+    if (const std::string name = entry.path().filename().string();
+        isOwn(name) && !entry.is_regular_file(none) && !entry.is_directory(none))
+      return name;
   if (isThere(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
   if (!isThere(file(kChecksums))) return isThere(file(kOrigin)) ? kChecksums : "";
   const auto checksums = readJson(file(kChecksums));
@@ -187,7 +227,7 @@ std::string RunFolder::damage() const {
 }
 
 void RunFolder::fail(const std::string& error) const {
-  fs::remove_all(folder_);
+  discard();
   abandon();
   fs::create_directories(folder_);
   std::ofstream(file(kError)) << error << '\n';

@@ -44,18 +44,22 @@ class RunFolder {
   ///         Log size and time are compared if recorded; runs not started by slam-compare lack them.
   void expect(const RunIdentity& identity) const;
 
+  /// Where the messages of hybrid-slam go; without any, the file is removed in the end.
+  std::filesystem::path messages() const;
   /// Recreates the partial folder and records the identity.
   void begin(const RunIdentity& identity) const;
-  /// Records checksums of the partial folder's files, and renames it to its final name.
+  /// Records checksums of the partial folder's files, and renames it to its final name. The user's files in
+  /// the final folder stay.
+  /// @throws InputError if the partial folder has gone
   void finish() const;
   /// The first entry of the folder that is broken, has changed since, or is a pipe or the like; empty if
   /// there is none. A run without origin.json, not started by slam-compare, has no checksums.
   std::string damage() const;
-  /// Removes the run. @throws InputError if that fails
+  /// Removes the run's files. @throws InputError if that fails
   void discard() const;
-  /// Removes everything except a record of the error.
+  /// Removes the run's files except a record of the error.
   void fail(const std::string& error) const;
-  /// Removes everything.
+  /// Removes the partial folder.
   void abandon() const;
   /// The error of a failed run; empty for others.
   std::string error() const;

@@ -6,10 +6,12 @@
 
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
+#include "testing/TestLogs.h"
 
 namespace hybrid_slam::comparison {
 namespace {
@@ -223,6 +225,29 @@ TEST_F(RunFolderTest, AFailedRunLeavesItsErrorAndNothingElse) {
   finishRun();  // the next attempt
   EXPECT_TRUE(folder.isFinished());
   EXPECT_EQ(folder.error(), "");
+}
+
+TEST_F(RunFolderTest, FilesOfTheUserStay) {
+  finishRun();
+  const fs::path notes = folder.file("notes.txt");
+  std::ofstream(notes) << "mine";
+  folder.discard();
+  EXPECT_FALSE(folder.isFinished());
+  finishRun();  // the next attempt
+  EXPECT_TRUE(folder.isFinished());
+  EXPECT_EQ(test::contentOf(notes.string()), "mine");
+  EXPECT_FALSE(fs::exists(folder.partial()));
+  folder.begin(identity);
+  folder.fail("disk full");
+  EXPECT_FALSE(folder.isFinished());
+  EXPECT_EQ(test::contentOf(notes.string()), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2) << "and error.txt";
+}
+
+TEST_F(RunFolderTest, ResultsThatAreGoneAreAnError) {
+  folder.begin(identity);
+  fs::remove_all(temporary.path("runs"));
+  EXPECT_THROW(folder.finish(), InputError);
 }
 
 TEST_F(RunFolderTest, AnAbandonedRunLeavesNothing) {
