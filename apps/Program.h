@@ -50,6 +50,16 @@ inline void keepWriteErrors() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
+/// Ends the program with its error line where an exception, such as that of lacking memory, cannot be caught.
+inline void endWithAnErrorLine() {
+  std::set_terminate([] {
+    constexpr char kLine[] =
+        HYBRID_SLAM_PROGRAM ": error: run failed: out of memory, or an error in a thread\n";
+    (void)!::write(STDERR_FILENO, kLine, sizeof kLine - 1);
+    ::_exit(1);
+  });
+}
+
 /// Returns whether standard output is a terminal.
 inline bool isTerminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
@@ -107,6 +117,7 @@ inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
   openStandardDescriptors();
   keepWriteErrors();
+  endWithAnErrorLine();
   try {
     const int code = work();
     if (code == 0 && !isPrinted())

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/BeamFan.h"
+#include "base/Memory.h"
 
 namespace hybrid_slam {
 
@@ -12,8 +13,13 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
 
+namespace {
+constexpr size_t kBeamBytes = 32;  // of a deskewed scan
+}
+
 std::shared_ptr<DeskewedScan> deskew(const CObservation2DRangeScan& scan,
                                      const std::vector<TPose2D>& motion) {
+  expectMemory(kBeamBytes * scan.getScanSize());
   auto out = std::make_shared<DeskewedScan>(scan);
   for (size_t i = 0; i < scan.getScanSize(); ++i) out->measured.push_back(scan.getScanRange(i));
   const BeamFan fan(scan);
@@ -44,6 +50,7 @@ std::shared_ptr<DeskewedScan> deskew(const CObservation2DRangeScan& scan,
 }
 
 std::shared_ptr<CObservation2DRangeScan> copyOf(const CObservation2DRangeScan& scan) {
+  expectMemory(kBeamBytes * scan.getScanSize());
   if (const auto* deskewed = dynamic_cast<const DeskewedScan*>(&scan))
     return std::make_shared<DeskewedScan>(*deskewed);
   return CObservation2DRangeScan::Create(scan);

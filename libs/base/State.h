@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -133,7 +134,9 @@ class StateWriter : public State<StateWriter> {
  public:
   static constexpr bool kIsReading = false;
   /// Appends to `bytes`, which must outlive the writer.
-  explicit StateWriter(std::string& bytes) : bytes_(bytes) {}
+  /// @param most  bytes: more are a std::length_error
+  explicit StateWriter(std::string& bytes, size_t most = std::numeric_limits<size_t>::max())
+      : bytes_(bytes), most_(most) {}
 
   template <class T>
   void number(const T& value) {
@@ -146,7 +149,10 @@ class StateWriter : public State<StateWriter> {
       bytes(&written, sizeof written);
     }
   }
-  void bytes(const void* from, size_t count) { bytes_.append(static_cast<const char*>(from), count); }
+  void bytes(const void* from, size_t count) {
+    if (count > most_ || bytes_.size() > most_ - count) throw std::length_error("the state is too large");
+    bytes_.append(static_cast<const char*>(from), count);
+  }
   static size_t available(size_t count) { return count; }
 
   /// Returns the number of a shared value, from 1; 0 if it has not been written.
@@ -174,6 +180,7 @@ class StateWriter : public State<StateWriter> {
 
  private:
   std::string& bytes_;
+  size_t most_;
   std::map<std::type_index, std::map<const void*, uint32_t>> numbers_;
 };
 

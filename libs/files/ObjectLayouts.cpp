@@ -12,6 +12,7 @@ using Kind = ObjectKind;
 using Walk = ObjectWalk;
 
 constexpr size_t kTime = 8;
+constexpr size_t kMostBeams = 1 << 20;  // of a scan, hundreds of times those of a laser: 9 MB in memory
 constexpr size_t kMostThrunParticles = 10000;  // MRPT draws them while it reads
 constexpr float kFarthestCell = 1 << 20;       // from the origin: floats are exact to a cell far beyond
 
@@ -127,6 +128,7 @@ void scan(Walk& in, int v) {
   if (v < 6) in.object(Kind::matrixF);
   const size_t beam = v == 0 ? 4 : 5;  // range, validity
   const size_t beams = in.count(beam);
+  if (beams > kMostBeams) throw ObjectError("a scan of more than 2^20 beams");
   in.skip(beams * beam);
   if (v >= 2) in.skip(4);  // stdError
   if (v >= 3) in.skip(kTime);
@@ -286,7 +288,7 @@ constexpr ObjectLayout kLayouts[] = {
     {"CMatrixF", Kind::matrixF, 1, matrixF},
     {"CMatrixD", Kind::matrixD, 1, matrixD},
     {"CObservationIMU", Kind::observation, 5, imu},
-    {"CObservationComment", Kind::observation, 2, comment},
+    {"CObservationComment", Kind::observation, 1, comment},
     {"CObservationBatteryState", Kind::observation, 3, battery},
     {"CObservationRange", Kind::observation, 5, range},
     {"CObservationRobotPose", Kind::observation, 2, robotPose},

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "base/Memory.h"
 #include "files/ObjectLayouts.h"
 
 namespace hybrid_slam::files {
@@ -26,6 +27,8 @@ struct StringSource {
 }  // namespace
 
 mrpt::serialization::CSerializable::Ptr buildObject(std::string_view bytes) {
+  constexpr size_t kInMemory = 3;  // ranges, intensities and flags of a scan, and a copy while they are read
+  expectMemory(kInMemory * bytes.size());
   StringSource source{bytes};
   auto object = mrpt::serialization::archiveFrom(source).ReadObject();
   if (source.at != bytes.size()) throw ObjectError("bytes after the object");

@@ -14,9 +14,16 @@
 #include <mrpt/poses/CPosePDFSOG.h>
 
 #include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "base/RandomStream.h"
 #include "files/ObjectReader.h"
+#include "testing/Restricted.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::files {
@@ -304,6 +311,45 @@ TEST(ObjectWalk, AnObjectHasAtMost64Mebibytes) {
     EXPECT_EQ(walked(bytesOf(comment)), size < ObjectWalk::kMostBytes ? "" : "an object of more than 64 MiB");
   }
 }
+
+TEST(ObjectWalk, AScanHasAtMost2To20Beams) {
+  for (const size_t beams : {size_t{1} << 20, (size_t{1} << 20) + 1}) {
+    const auto scan = CObservation2DRangeScan::Create();
+    scan->resizeScan(beams);
+    const std::string bytes = bytesOf(scan);
+    EXPECT_EQ(walked(bytes).find("2^20 beams") != std::string::npos, beams > size_t{1} << 20);
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve address space
+// MRPT's allocator returns a null pointer then, and its scan writes to it.
+TEST(ObjectReader, WithoutMemoryNoObjectIsBuilt) {
+  const auto scan = CObservation2DRangeScan::Create();
+  scan->resizeScan(size_t{1} << 20);
+  const std::string bytes = bytesOf(scan);
+  const auto limitMemory = [] {
+    std::ifstream pages("/proc/self/statm");
+    rlim_t all = 0;
+    pages >> all;
+    const rlim_t most = all * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + 4'000'000;
+    const rlimit limit{most, most};
+    return setrlimit(RLIMIT_AS, &limit) == 0;
+  };
+  EXPECT_TRUE(test::holdsInChild(limitMemory, [&] {
+    std::vector<std::unique_ptr<char[]>> rest;
+    try {
+      for (;;) rest.push_back(std::make_unique<char[]>(1 << 20));
+    } catch (const std::bad_alloc&) {  // what earlier tests have freed is used
+    }
+    try {
+      buildObject(bytes);
+    } catch (const std::bad_alloc&) {
+      return true;
+    }
+    return false;
+  }));
+}
+#endif
 
 TEST(ObjectWalk, CountsThatCostTimeAreBounded) {
   for (const char rows : {'\xe8', '\xe9'})  // 1000 and 1001

@@ -10,6 +10,15 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 
+namespace {
+
+size_t beamsOf(const CObservation& observation) {
+  const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+  return scan ? scan->getScanSize() : 0;
+}
+
+}  // namespace
+
 void CycleGrouper::add(const CObservation::Ptr& observation) {
   const bool isStamped = observation->timestamp != INVALID_TIMESTAMP;
   const double time = isStamped ? mrpt::Clock::toDouble(observation->timestamp) : newest_.value_or(0);
@@ -47,7 +56,8 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
     }
     return give(end);
   }
-  if (*newest_ - waiting_.front().time > kLongestWait || waiting_.size() >= kMostWaiting)
+  if (*newest_ - waiting_.front().time > kLongestWait || waiting_.size() >= kMostWaiting ||
+      waitingBeams_ >= kMostWaitingBeams)
     give(waiting_.size());
 }
 
@@ -64,11 +74,15 @@ void CycleGrouper::insert(double time, const CObservation::Ptr& observation) {
   const auto after = std::upper_bound(waiting_.begin(), waiting_.end(), time,
                                       [](double t, const Entry& entry) { return t < entry.time; });
   waiting_.insert(after, {time, observation});
+  waitingBeams_ += beamsOf(*observation);
 }
 
 void CycleGrouper::give(size_t count) {
   auto cycle = mrpt::obs::CSensoryFrame::Create();
-  for (size_t i = 0; i < count; ++i) cycle->insert(waiting_[i].observation);
+  for (size_t i = 0; i < count; ++i) {
+    cycle->insert(waiting_[i].observation);
+    waitingBeams_ -= beamsOf(*waiting_[i].observation);
+  }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
   sink_(cycle);
 }

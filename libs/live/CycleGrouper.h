@@ -39,7 +39,8 @@ class CycleGrouper {
 
   double period_;  ///< s
   CycleSink sink_;
-  std::deque<Entry> waiting_;                    ///< in order of time
+  std::deque<Entry> waiting_;  ///< in order of time
+  size_t waitingBeams_ = 0;
   std::map<std::string, double> due_;            ///< s; next cycle of each laser
   std::optional<double> newest_, lastOdometry_;  ///< s
 };
@@ -50,6 +51,8 @@ constexpr double kLongestWait = 1;
 /// Largest number of waiting observations, far more than sensors give in kLongestWait; more mean that
 /// timestamps do not advance.
 constexpr size_t kMostWaiting = 1000;
+/// Largest number of their beams: bounds the memory.
+constexpr size_t kMostWaitingBeams = 3'000'000;
 /// Largest number of labels of lasers; scans of others are left out.
 constexpr size_t kMostLasers = 1000;
 

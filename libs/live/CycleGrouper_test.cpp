@@ -50,6 +50,23 @@ TEST(CycleGrouper, StampsThatDoNotAdvanceFillNoMemory) {
   EXPECT_LE(most, kMostWaiting);
 }
 
+TEST(CycleGrouper, LargeScansFillNoMemory) {
+  size_t most = 0, all = 0;
+  CycleGrouper grouper(5, [&](const mrpt::obs::CSensoryFrame::Ptr& cycle) {
+    most = std::max(most, cycle->size());
+    all += cycle->size();
+  });
+  grouper.add(odometry(9.9, {}));
+  for (int i = 0; i < 10; ++i) {
+    const auto large = scan(10, {}, 3, "LASER" + std::to_string(i));
+    large->resizeScan(1 << 20);
+    grouper.add(large);
+  }
+  grouper.finish();
+  EXPECT_LE(most, 4u);
+  EXPECT_EQ(all, 11u);
+}
+
 TEST(CycleGrouper, LabelsWithoutEndFillNoMemory) {
   size_t all = 0;
   CycleGrouper grouper(5, [&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { all += cycle->size(); });

@@ -99,7 +99,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
 
 void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   if (laserPose_) {
-    scan = std::make_shared<CObservation2DRangeScan>(*scan);  // a recording has it as measured
+    scan = copyOf(*scan);  // a recording has it as measured
     scan->sensorPose = *laserPose_;
   }
   if (!hasOdometryReadings_ && !isInTrack_ && isStamped(*scan)) {
@@ -110,11 +110,13 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   const size_t reading = grouper_.add(*scan);
   waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
   if (hasOdometryReadings_ && !lastOdometry_) {
-    while (waiting_.back().reading - waiting_.front().reading >= kMostEarly) waiting_.pop_front();
+    while (waiting_.back().reading - waiting_.front().reading >= kMostEarly ||
+           (waiting_.size() > 1 && hasManyBeams()))
+      waiting_.pop_front();
     dropped_ = waiting_.front().reading - 1;
     return;
   }
-  const bool isFull = waiting_.size() >= std::min(kMostWaiting, kMostWaitingBeams / scan->getScanSize());
+  const bool isFull = waiting_.size() >= kMostWaiting || hasManyBeams();
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
   const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
   // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
@@ -126,6 +128,12 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   else if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
     waiting_.back().odometry = travelled_;
   completeReady();
+}
+
+bool ReadingAssembler::hasManyBeams() const {
+  size_t beams = 0;
+  for (const Waiting& waiting : waiting_) beams += waiting.scan->getScanSize();
+  return beams >= kMostWaitingBeams;
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {

@@ -79,6 +79,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
 
  private:
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
+  bool hasManyBeams() const;
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::obs::CObservationOdometry& odometry);

@@ -46,6 +46,22 @@ TEST(ReadingAssembler, OnlyTheLastScansBeforeTheFirstOdometryAreUsed) {
   for (const Reading& reading : readings) EXPECT_EQ(reading.motion, TPose2D());
 }
 
+/// Each of these scans takes 9 MB.
+TEST(ReadingAssembler, LargeScansBeforeTheFirstOdometryFillNoMemory) {
+  test::Log log;
+  for (int i = 0; i < 16; ++i) {
+    const auto large = scan(0.1 * (i / 4), {}, 3, "LASER" + std::to_string(i % 4));
+    large->resizeScan(1 << 20);
+    log.push_back(large);
+  }
+  log.push_back(odometry(300, {7, 0, 0}));
+  size_t beams = 0;
+  for (const Reading& reading : assembled(log))
+    for (const auto& each : reading.scans) beams += each->getScanSize();
+  EXPECT_LE(beams, 11u << 20);
+  EXPECT_GT(beams, 4u << 20);
+}
+
 /// At 1 m/s, whether the scan of 0.23 s comes in order, after newer odometry, or before older odometry.
 TEST(ReadingAssembler, ALogInTheOrderOfArrival) {
   const auto at = [](double time) { return odometry(100 + time, {time, 0, 0}); };

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <locale>
+#include <new>
+#include <stdexcept>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "base/Memory.h"
 #include "base/Numbers.h"
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
@@ -61,7 +64,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
               ownFile(configuration.run)),
       folder_(staged_.files()),
       mostBytes_(memoryLimit() / 4),
-      refinementBytes_(memoryLimit() / 4) {
+      refinementBytes_(memoryLimit() / 4),
+      sessionBytes_(memoryLimit() / 8) {
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
   if (configuration.run.method == Method::stock) {
@@ -135,16 +139,24 @@ bool FilterRun::isMemoryFull() {
 // Scans of new ground, in a log or from a server, would end the program and the whole machine without
 // results.
 void FilterRun::checkMemory() {
-  if (isMemoryFull())
-    throw std::runtime_error("out of memory: the map, the path and the scans take over " +
-                             fixedText(mostBytes_ / 1e9, 1) + " GB, a quarter of the memory");
+  if (isMemoryFull()) throw std::runtime_error(memoryNote());
+}
+
+std::string FilterRun::memoryNote() const {
+  return "out of memory: the map, the path and the scans take over " + fixedText(mostBytes_ / 1e9, 1) +
+         " GB, a quarter of the memory";
 }
 
 bool FilterRun::filter(const readings::Reading& reading) {
+  constexpr double kMargin = 1.25;  // checkMemory, after the update, first gives back what is unused
   const auto stepStart = Clock::now();
   const size_t before = filter_->updates();
-  filter_->process(reading.motion, reading.scans);
-
+  try {
+    const ResidentLimit limit(kMargin * mostBytes_);
+    filter_->process(reading.motion, reading.scans);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(memoryNote());
+  }
   ++scans_;
   fingerprint_ = fingerprintAfter(fingerprint_, reading);
   recorder_.add(reading.timestamp, reading.motion, filter_->updates());

@@ -103,6 +103,8 @@ class FilterRun {
   /// default a quarter of `memoryLimit`, since the bytes of a session may take three times as much while they
   /// grow. MRPT's filter has a limit of its own (StockMapBuilder).
   void limitMemory(double bytes) { mostBytes_ = bytes; }
+  /// Limits the bytes of a session before compression: an eighth of the memory by default.
+  void limitSession(double bytes) { sessionBytes_ = bytes; }
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
@@ -140,6 +142,7 @@ class FilterRun {
   bool filter(const readings::Reading& reading);
   bool isMemoryFull();
   void checkMemory();
+  std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
   void searchPlan(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
@@ -201,7 +204,7 @@ class FilterRun {
   double firstSlip_ = 0, firstStuck_ = 0;  ///< s
   double cell_ = 0;                        ///< m, of the filter
   double savedCell_ = 0;                   ///< m, of the map files
-  double mostBytes_, refinementBytes_;
+  double mostBytes_, refinementBytes_, sessionBytes_;
   Verdict verdict_;
   Verdict::Level worstVerdict_ = Verdict::Level::lost;
   std::string checkpointName_;

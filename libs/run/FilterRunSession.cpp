@@ -1,6 +1,8 @@
 // Saves a run and continues it.
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <stdexcept>
 
 #include "base/Clock.h"
 #include "base/Errors.h"
@@ -70,13 +72,17 @@ std::string FilterRun::sessionWith(const ScanMap& map, const std::vector<mrpt::m
     notes_.emplace_back("no session: the filter failed inside an update");
     return bytes;
   }
-  StateWriter out(bytes);
-  SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
-  writeHeader(out, header);
-  writeState(out);
-  if (bytes.size() <= kMostSessionBytes) return bytes;
-  notes_.push_back("no session: over " + fixedText(kMostSessionBytes / 1e9, 1) + " GB");
-  return {};
+  const double most = std::min(static_cast<double>(kMostSessionBytes), sessionBytes_);
+  try {
+    StateWriter out(bytes, static_cast<size_t>(most));
+    SessionHeader header{HYBRID_SLAM_VERSION, configuration_.text(), map, poses, updateTimes_};
+    writeHeader(out, header);
+    writeState(out);
+  } catch (const std::length_error&) {
+    notes_.push_back("no session: over " + fixedText(most / 1e9, 1) + " GB");
+    bytes.clear();
+  }
+  return bytes;
 }
 
 void FilterRun::saveSessionTo(const std::string& path, const ScanMap& map,

@@ -105,6 +105,37 @@ TEST_F(FilterRunTest, ARunThatFillsTheMemoryEndsWithResultsAndASession) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("full/session.hslam")));
 }
 
+TEST_F(FilterRunTest, ASessionThatWouldFillTheMemoryIsLeftOut) {
+  Configuration c = configuration("large");
+  FilterRun run(c);
+  run.limitSession(1e4);
+  process(run, c);
+  finish(run, c, log);
+  EXPECT_THAT(run.takeNotes(), Contains("no session: over 0.0 GB"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("large/session.hslam")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("large/map.png")));
+}
+
+TEST_F(FilterRunTest, AWorseMapThanExpectedReplacesNothing) {
+  makePlain();
+  Configuration c = configuration("plain");
+  c.run.overwrite = true;
+  const std::string before = result("plain/metrics.json");
+  {
+    FilterRun run(c);
+    process(run, c);
+    run.expectVerdict(Verdict::Level::consistent);
+    const std::string cut = test::writeGzipped(folder.path("recording.rawlog"), test::laps(10));
+    try {
+      finish(run, c, cut);  // doubtful
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "its map is doubtful");
+    }
+  }
+  EXPECT_EQ(result("plain/metrics.json"), before);
+}
+
 /// The odometry stands still for 8 s while the robot drives half a lap.
 TEST_F(FilterRunTest, StuckOdometryIsReplacedByTheScans) {
   test::Log stuck = test::laps(160);

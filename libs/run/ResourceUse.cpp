@@ -26,13 +26,6 @@ double peakMegabytes() {
   return kilobytes / 1024;
 }
 
-double residentBytes() {
-  std::ifstream pages("/proc/self/statm");
-  double all = 0, resident = 0;
-  pages >> all >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 double memoryLimit() {
   rlimit space{};
   getrlimit(RLIMIT_AS, &space);

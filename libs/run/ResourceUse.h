@@ -10,9 +10,6 @@ double cpuSeconds();
 /// Peak resident memory of this program (MB); getrusage would include the parent's.
 double peakMegabytes();
 
-/// Resident memory of this program now (bytes).
-double residentBytes();
-
 /// Memory (bytes) of the machine, or of the process's address space (`ulimit -v`) if that is less.
 double memoryLimit();
 

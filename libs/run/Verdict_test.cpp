@@ -63,6 +63,7 @@ TEST(Verdict, MostReturningScansContradictedIsLost) {
 TEST(Verdict, SomeReturningScansContradictedIsDoubtful) {
   EXPECT_EQ(of(scans(100, 40, 52)).level, Level::consistent);
   EXPECT_EQ(of(scans(100, 40, 53)).level, Level::doubtful);
+  EXPECT_TRUE(of(scans(100, 40, 53)).isContradicted);
   EXPECT_EQ(of(scans(100, 40, 90)).level, Level::doubtful);
   EXPECT_EQ(of(scans(100, 40, 91)).level, Level::lost);
 }
@@ -128,6 +129,7 @@ TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {
   evidence.returning = scans(100), evidence.spread = 1.5, evidence.slips = 2;
   const Verdict verdict = verdictOf(evidence);
   EXPECT_EQ(verdict.level, Level::doubtful);
+  EXPECT_FALSE(verdict.isContradicted);
   EXPECT_THAT(verdict.reasons, ElementsAre("hypotheses still disagree at the end: spread 1.5 m",
                                            "odometry rejected in 2 updates"));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "base/Memory.h"
 #include "base/Numbers.h"
 
 namespace hybrid_slam {
@@ -19,6 +20,7 @@ double cellsOf(const CellBox& box) {
 }
 
 mrpt::maps::COccupancyGridMap2D unknownGrid(const CellBox& box, double s) {
+  expectMemory(2 * static_cast<size_t>(cellsOf(box)));
   mrpt::maps::COccupancyGridMap2D out;
   out.setSize(static_cast<float>(box.min.x * s), static_cast<float>((box.max.x + 1) * s),
               static_cast<float>(box.min.y * s), static_cast<float>((box.max.y + 1) * s),

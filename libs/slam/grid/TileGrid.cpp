@@ -4,10 +4,14 @@
 #include <string>
 
 #include "base/Errors.h"
+#include "base/Memory.h"
 
 namespace hybrid_slam {
 
 Tile& TileGrid::writableTile(int tx, int ty) {
+  constexpr size_t kBetweenChecks = 1 << 14;  // tiles: 16 MB
+  static thread_local size_t written = 0;
+  if (++written % kBetweenChecks == 0) expectBelowLimit();
   const int bx = tx >> kBlockBits, by = ty >> kBlockBits;
   if (!findBlock(bx, by)) growTo(bx, by);
   CowPtr<Block>& block = blocks_[static_cast<size_t>((by - firstY_) * columns_ + (bx - firstX_))];

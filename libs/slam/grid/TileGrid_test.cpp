@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <new>
 #include <thread>
 #include <vector>
 
 #include "base/Errors.h"
+#include "base/Memory.h"
 #include "base/RandomStream.h"
 
 namespace hybrid_slam {
@@ -28,6 +30,22 @@ Cells knownCells(const TileGrid& grid) {
         if (const int8_t value = grid.at({x, y})) cells[{x, y}] = value;
   });
   return cells;
+}
+
+TEST(TileGrid, GrowsWithinALimitOfTheMemory) {
+  const auto grow = [] {
+    TileGrid grid;
+    for (int i = 0; i < 1 << 14; ++i) grid.writableTile(i, 0);
+  };
+  {
+    const ResidentLimit limit(residentBytes() / 2);
+    EXPECT_THROW(grow(), std::bad_alloc);
+  }
+  {
+    const ResidentLimit limit(residentBytes() + 1e9);
+    EXPECT_NO_THROW(grow());
+  }
+  EXPECT_NO_THROW(grow()) << "without a limit";
 }
 
 TEST(TileGrid, IsUnknownWhereNothingWasWritten) {

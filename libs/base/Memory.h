@@ -1,0 +1,29 @@
+/// @file Memory.h
+/// @brief Limits of memory that MRPT and the filter obey.
+#pragma once
+
+#include <cstddef>
+
+namespace hybrid_slam {
+
+/// Call this before MRPT allocates. Where there is no memory, MRPT's allocator returns a null pointer instead
+/// of throwing (2.5.8, aligned_allocator_cpp11), and its containers write to it.
+/// @throws std::bad_alloc if so many bytes, and 1 MiB more, cannot be had
+void expectMemory(size_t bytes);
+
+/// Returns the resident memory (bytes) of this process.
+double residentBytes();
+
+/// While it lives, `expectBelowLimit` throws above a limit (bytes) of the resident memory. One at a time.
+class ResidentLimit {
+ public:
+  explicit ResidentLimit(double bytes);
+  ~ResidentLimit();
+  ResidentLimit(const ResidentLimit&) = delete;
+  ResidentLimit& operator=(const ResidentLimit&) = delete;
+};
+
+/// @throws std::bad_alloc above the limit
+void expectBelowLimit();
+
+}  // namespace hybrid_slam
