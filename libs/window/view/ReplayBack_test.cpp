@@ -15,8 +15,8 @@ using State = ReplaySnapshot::State;
 using ReplayBack = test::ReplaySessionTest;
 
 TEST_F(ReplayBack, GoesBackFromACheckpointToTheSameBytes) {
-  ReplaySession straight(laps(), {Method::hybrid, Method::general}),
-      back(laps(), {Method::hybrid, Method::general});
+  const run::Configuration c = laps();
+  ReplaySession straight(c, {Method::hybrid, Method::general}), back(c, {Method::hybrid, Method::general});
   straight.seek(33);
   ASSERT_TRUE(reaches(straight, State::paused, 33));
   back.seek(kScans);

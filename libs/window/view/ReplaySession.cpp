@@ -246,15 +246,18 @@ void ReplaySession::exportPass(ReplayPass& pass, const std::string& folder) {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
     files::StagedFolder staged(folder, pass.names(), false);
+    std::string whyMissing;
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method);
       lane->finish(pass.file, pass.log, staged.finalPath(name));
       std::filesystem::copy(pass.folder.path(name), staged.files().path(name));
+      if (!lane->run.whyMissing().empty()) whyMissing = "; some are missing: " + lane->run.whyMissing();
     }
     staged.publish();
     for (const auto& lane : pass.lanes)
       if (const std::string place = lane->run.placeNote(); !place.empty()) note(place);
-    tell("Results of " + counted(pass.scans, "scan(s) written: ") + staged.folder(), false, State::ended);
+    tell("Results of " + counted(pass.scans, "scan(s) written: ") + staged.folder() + whyMissing,
+         !whyMissing.empty(), State::ended);
   } catch (const std::exception& e) {
     tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
   }

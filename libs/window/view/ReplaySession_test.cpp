@@ -220,7 +220,7 @@ TEST_F(ReplaySessionTest, AfterAFailureOfTheFilterTheResultsUpToItCanBeExported)
   EXPECT_TRUE(test::happens([&] { return session.snapshot()->run == 2; }));
 }
 
-TEST_F(ReplaySessionTest, ResultsThatCouldNotBeWrittenStayAFailure) {
+TEST_F(ReplaySessionTest, ResultsThatNeedAMissingLogAreAFailure) {
   const run::Configuration c = laps();
   ReplaySession session(c, {Method::hybrid});
   session.seek(30);
