@@ -8,7 +8,7 @@ namespace hybrid_slam {
 
 /// Call this before MRPT allocates. Where there is no memory, MRPT's allocator returns a null pointer instead
 /// of throwing (2.5.8, aligned_allocator_cpp11), and its containers write to it.
-/// @throws std::bad_alloc if so many bytes, and 1 MiB more, cannot be had
+/// @throws std::bad_alloc if this many bytes and 1 MiB more are not available
 void expectMemory(size_t bytes);
 
 /// Returns the resident memory (bytes) of this process.
