@@ -16,8 +16,8 @@ class UnreadableLog : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The readings of a log from its start. An own type of errors, so that they cost only the results that need
-/// the log.
+/// The readings of a log from its start. Its errors have a separate type, so that they cost only the results
+/// that need the log.
 class LogAgain {
  public:
   /// @throws UnreadableLog if the log cannot be opened
