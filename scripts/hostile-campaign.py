@@ -5,7 +5,8 @@
 
 BIN: a folder of programs (build/release/bin, build/sanitize/bin). At scale 1: 1,000 damaged rawlogs, 1,000 damaged text
 logs and the rawlogs that log2rawlog makes of them, 300 INI files, 300 sessions, 300 maps, 300 drawings of plans, 200
-tables, 50 servers that send nonsense to hybrid-slam-live.
+tables, 50 servers that send nonsense to hybrid-slam-live; 100 damaged logs each for observation-server, which has a
+client, and motion-model-learn, 200 inputs of simul-floorplan, 100 folders of slam-compare with damaged results.
 A run is bad if it ends by a signal, prints a sanitizer's report, takes over 10 s or 1 GB, ends with another exit status
 than 0, 1 or 2, fails without one line `PROGRAM: error: `, or succeeds with results that are not finite numbers. The
 input of a bad run is kept in OUT/bad. Exit status 1 if there is one. HYBRID_SLAM_DATASETS adds pieces of public logs.
@@ -27,8 +28,10 @@ import subprocess
 import sys
 import threading
 import time
+import zlib
 
-from hostile_inputs import Bases, damaged_bytes, damaged_messages, damaged_text, made_results, recorded_stream
+from hostile_inputs import (ROOT, Bases, damaged_bytes, damaged_messages, damaged_text, made_results, made_sweep,
+                            recorded_stream)
 
 MAX_SECONDS, MAX_MEGABYTES = 10, 1024
 SETTINGS = [["-m", method] for method in ("general", "linemap", "ortho", "stock")] + [
@@ -36,6 +39,10 @@ SETTINGS = [["-m", method] for method in ("general", "linemap", "ortho", "stock"
         "particle_filter.proposal": ("standard", "auxiliary_standard", "auxiliary_optimal"),
         "grid_weight.method": ("likelihood_field", "ray_tracing", "consensus"),
         "line_extraction.method": ("regression", "ransac", "hough", "em")}.items() for value in values]
+COMPARISON = ["-m", "hybrid", "-n", "5", "--seeds", "1", "--revisits", "1"]
+# An INI file, a floor plan, a route, and the doors and boxes that move.
+SIMULATION = [b"[simulation]\nplan = 1\nroute = 2\nthings = 3\nscans = 20\nseed = 3\n[laser]\nresolution_deg = 0.5\n",
+              *((ROOT / "datasets/csie" / file).read_bytes() for file in ("csie.plan", "csie-corridor.route", "csie.things"))]
 
 
 def finite_results(folder):
@@ -243,6 +250,70 @@ class Campaign:
         file.unlink()
         config.unlink()
 
+    def served(self, number, base, rng):
+        """observation-server with a damaged log, as fast as it can, to one client."""
+        name = f"served-{number}"
+        file, config = self.out / f"{name}.log", self.out / f"{name}.ini"
+        file.write_bytes(rng.choice([damaged_bytes, damaged_text])(base, rng))
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        config.write_text(f"[server]\nport = {port}\nrawlog = {file}\nreplay_rate = 1e6\nwait_for_clients = 1\n")
+        stop = threading.Event()
+
+        def read():
+            while not stop.wait(0.05):
+                try:
+                    with socket.create_connection(("127.0.0.1", port), 1) as connection:
+                        while connection.recv(1 << 16):
+                            pass
+                except OSError:
+                    pass
+
+        thread = threading.Thread(target=read)
+        thread.start()
+        self.run("logs served", name, [self.binary / "observation-server", config, "-q"], None, [file, config], 5)
+        stop.set()
+        thread.join()
+        file.unlink()
+        config.unlink()
+
+    def learnt(self, number, base, rng):
+        """motion-model-learn with a damaged text log."""
+        name = f"learnt-{number}"
+        file, out = self.out / f"{name}.log", self.out / f"{name}.out.ini"
+        file.write_bytes(damaged_text(base, rng))
+        self.run("logs learnt from", name, [self.binary / "motion-model-learn", file, "-o", out], None, [file])
+        file.unlink()
+        out.unlink(missing_ok=True)
+
+    def simulated(self, number, made, rng):
+        """simul-floorplan with a damaged INI file, floor plan, route or list of doors and boxes."""
+        name, folder = f"simulated-{number}", self.out / f"simulated-{number}"
+        folder.mkdir()
+        damaged = rng.randrange(4)
+        for i, data in enumerate(SIMULATION):
+            (folder / f"{i}").write_bytes(damaged_text(data, rng) if i == damaged else data)
+        self.run("simulations", name, [self.binary / "simul-floorplan", folder / "0", "-q", "-o", folder / "out.rawlog"], None,
+                 [folder / f"{damaged}"])
+        shutil.rmtree(folder)
+
+    def compared(self, number, sweep, rng):
+        """slam-compare --report-only on a damaged result, half of the time with its right checksum."""
+        name, folder = f"compared-{number}", self.out / f"compared-{number}"
+        shutil.copytree(sweep, folder)
+        run = next((folder / "runs").iterdir())
+        file = rng.choice([file for file in sorted(run.iterdir()) if file.stat().st_size > 0])
+        data = (damaged_bytes if file.suffix in (".gz", ".png", ".hslam") else damaged_text)(file.read_bytes(), rng)
+        file.write_bytes(data)
+        sums = run / "checksums.json"
+        if file != sums and rng.random() < 0.5:
+            known = json.loads(sums.read_text())
+            known[file.name] = {"bytes": len(data), "crc32": zlib.crc32(data)}
+            sums.write_text(json.dumps(known))
+        self.run("comparisons", name, [self.binary / "slam-compare", *COMPARISON, self.out / "good.rawlog", "-q", "--report-only",
+                                       "-o", folder], None, [file])
+        shutil.rmtree(folder)
+
     def print_table(self):
         print("| input | runs | exit 0 | exit 1 | exit 2 | bad | longest (s) | most memory (MB) |")
         print("|---|---|---|---|---|---|---|---|")
@@ -271,14 +342,16 @@ def main():
 
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = []
-        made = made_results(campaign.binary, out)
+        made, sweep = made_results(campaign.binary, out), made_sweep(campaign.binary, out, COMPARISON)
         for kind, number in (("rawlog", 1000), ("text", 1000), ("ini", 300), ("session", 300), ("map", 300), ("plan", 300),
-                             ("table", 200), ("server", 50)):
+                             ("table", 200), ("server", 50), ("served", 100), ("learnt", 100), ("simulated", 200),
+                             ("compared", 100)):
             stream = recorded_stream(campaign.binary, out, bases.good_rawlog) if kind == "server" else b""
             for i in range(math.ceil(number * arguments.scale)):
                 random_stream = rng(f"{kind} {i}")
                 base = random_stream.choice({"rawlog": bases.rawlogs, "text": bases.texts, "ini": bases.inis,
-                                             "server": [stream]}.get(kind, [made]))
+                                             "server": [stream], "served": bases.texts + bases.rawlogs,
+                                             "learnt": [bases.turns], "compared": [sweep]}.get(kind, [made]))
                 if kind == "ini":
                     jobs.append(pool.submit(campaign.ini, i, base, random_stream, bases.good_rawlog))
                 else:

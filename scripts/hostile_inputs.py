@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import signal
 import socket
 import struct
@@ -21,6 +22,7 @@ class Bases:
 
     def __init__(self, binary, out):
         self.texts = [self.carmen(), self.gfs(), self.dpslam()]
+        self.turns = self.circle()
         self.rawlogs = []
         for text in self.texts:
             log, rawlog = out / "good.log", out / "good.rawlog"
@@ -55,6 +57,22 @@ class Bases:
             lines.append(f"FLASER 181 {scan} {pose} {pose} {stamp:.3f} robot {stamp:.3f}")
         return "\n".join(lines).encode()
 
+    def circle(self):
+        """A robot that drives and turns by turns, in a hall of 4 to 6 m."""
+        lines, x, y, phi = [], 0.0, 0.0, 0.0
+        for i in range(120):
+            step, turn = (0, 0.2) if i % 3 == 0 else (0.1 + 0.1 * (i % 2), 0)
+            phi, x, y = phi + turn, x + step * math.cos(phi), y + step * math.sin(phi)
+            pose, stamp, scan = f"{x:.3f} {y:.3f} {phi:.3f}", 100 + 0.2 * i, []
+            for k in range(181):
+                heading = phi + math.radians(k - 90)
+                along = x * math.cos(heading) + (y - 1.5) * math.sin(heading)
+                wall = 5 + math.cos(3 * heading)
+                scan.append(round(-along + math.sqrt(max(along ** 2 + wall ** 2 - x ** 2 - (y - 1.5) ** 2, 0.01)), 2))
+            lines.append(f"ODOM {pose} 0.5 0 0 {stamp:.3f} robot {stamp:.3f}")
+            lines.append(f"FLASER 181 {' '.join(map(str, scan))} {pose} {pose} {stamp:.3f} robot {stamp:.3f}")
+        return "\n".join(lines).encode()
+
     def gfs(self):
         lines = []
         for i in range(20):
@@ -78,6 +96,14 @@ def made_results(binary, out):
     times = [line.split()[0] for line in (made / "trajectory.tum").read_text().splitlines() if not line.startswith("#")]
     (made / "relations").write_text("".join(f"{a} {b} 0.1 0 0 0 0 0\n" for a, b in zip(times, times[1:])))
     return made
+
+
+def made_sweep(binary, out, arguments):
+    """The folder of a slam-compare of one run."""
+    folder = out / "sweep"
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([binary / "slam-compare", *arguments, out / "good.rawlog", "-q", "-o", folder], check=True)
+    return folder
 
 
 def recorded_stream(binary, out, rawlog):

@@ -228,6 +228,15 @@ TEST_F(Bags, RecordedByRos1) {
   EXPECT_EQ(more, 2u);
 }
 
+/// What is written to the folder of a recording does not change the recording.
+TEST_F(Bags, MayHaveTheirRawlogInTheirFolder) {
+  std::filesystem::create_directory(folder.path("drive"));
+  test::writeDatabase(folder.path("drive/drive_0.db3"), test::messagesOf(drive, Encoding::cdr));
+  const std::string recording = "'" + folder.path("drive") + "' ";
+  const test::Outcome converted = run(LOG2RAWLOG, recording + "'" + folder.path("drive/out.rawlog") + "'");
+  EXPECT_EQ(converted.status, 0) << converted.err;
+}
+
 /// The counts are those of rosbag2's metadata.yaml.
 TEST_F(Bags, RecordedByRos2) {
   for (const std::string name : {"talker.db3", "talker.mcap"}) {

@@ -333,6 +333,31 @@ TEST_F(HybridSlam, AResultThatNeedsTooMuchMemoryDoesNotCostTheOthers) {
   EXPECT_GT(incomplete, 0u);
 }
 
+/// The limit is reached while mapping; there may be no room for the grid of the results either.
+TEST_F(HybridSlam, WhereTheMemoryEndsThereAreResults) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need their address space";
+#endif
+  test::Log log;
+  for (int i = 0; i < 30; ++i) {  // 85 m steps to the north-east
+    log.push_back(test::odometry(1000 + 0.2 * i, {60. * i, 60. * i, 0}));
+    log.push_back(test::scan(1000 + 0.2 * i));
+  }
+  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  for (const int megabytes : {560, 600, 640}) {
+    SCOPED_TRACE(megabytes);
+    fs::remove_all(output);
+    test::ChildProgram program(
+        folder, "run",
+        {"/bin/sh", "-c",
+         "ulimit -v " + std::to_string(1024 * megabytes) + "; exec '" HYBRID_SLAM "' -q -o '" + output +
+             "' '" + path + "' --set grid.resolution=0.02"});
+    EXPECT_EQ(program.wait(), 1);
+    EXPECT_THAT(program.err(), HasSubstr("results cover the log up to this point"));
+    EXPECT_FALSE(files::loadTum(output + "/trajectory.tum").empty());
+  }
+}
+
 TEST_F(HybridSlam, ARunUnderNohupOutlivesItsTerminal) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(400));
   test::ChildProgram program(

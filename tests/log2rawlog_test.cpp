@@ -324,12 +324,23 @@ TEST_F(Log2Rawlog, OutputThatCannotBeWritten) {
 /// A file size limit simulates a full disk: writing fails in the middle.
 TEST_F(Log2Rawlog, ALinkStaysAndItsFileGetsTheRawlog) {
   const std::string path = folder.write("in.clf", scanRow("1") + scanRow("2")),
-                    real = folder.write("real.rawlog", "old");
+                    real = folder.write("real.rawlog", "");
   fs::create_symlink(real, rawlog);
   EXPECT_EQ(convert(path), 0) << err;
   EXPECT_TRUE(fs::is_symlink(rawlog));
   EXPECT_EQ(fs::read_symlink(rawlog), real);
-  EXPECT_NE(test::contentOf(real), "old");
+  EXPECT_GT(fs::file_size(real), 0u);
+}
+
+// A killed hybrid-slam-live leaves its recording under the name that a rawlog has until it is complete.
+TEST_F(Log2Rawlog, ConvertsTheRecordingOfAKilledRunToItsFinalName) {
+  ASSERT_EQ(convert(folder.write("in.clf", scanRow("1") + scanRow("2"))), 0) << err;
+  const std::string left = folder.path(".partial.recording.rawlog"), recorded = test::contentOf(rawlog);
+  fs::rename(rawlog, left);
+  rawlog = folder.path("recording.rawlog");
+  EXPECT_EQ(convert(left), 0) << err;
+  EXPECT_EQ(test::contentOf(left), recorded);
+  EXPECT_TRUE(fs::exists(rawlog));
 }
 
 TEST_F(Log2Rawlog, DiskFull) {

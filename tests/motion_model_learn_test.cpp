@@ -275,9 +275,17 @@ TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
   expectError(learn(log), "cannot write: " + output);
 }
 
+TEST_F(MotionModelLearn, ReplacesWhatItHasLearntOnly) {
+  const std::string log = logOf(40);
+  folder.write("motion.ini", "[motion_model]\n");
+  EXPECT_EQ(learn(log), 2);
+  EXPECT_THAT(err, HasSubstr("the output exists and is no learnt motion model: " + output));
+  EXPECT_EQ(test::contentOf(output), "[motion_model]\n");
+}
+
 TEST_F(MotionModelLearn, CtrlCLeavesNoPartialFile) {
   const std::string log = logOf(4000);
-  folder.write("motion.ini", "before");
+  folder.write("motion.ini", "# Learnt by motion-model-learn before");
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     test::ChildProgram program(folder, "run",
                                {MOTION_MODEL_LEARN, ini, log, "-o", output, "-q", "-n", "300"});
@@ -288,7 +296,7 @@ TEST_F(MotionModelLearn, CtrlCLeavesNoPartialFile) {
     EXPECT_THAT(test::withoutProgress(program.err()),
                 MatchesRegex("motion-model-learn: error: interrupted: entry [0-9]+ of [^\n]*; nothing was "
                              "written\n"));
-    EXPECT_EQ(test::contentOf(output), "before");
+    EXPECT_THAT(test::contentOf(output), testing::EndsWith("before"));
     EXPECT_FALSE(fs::exists(folder.path(".partial.motion.ini")));
   }
 }

@@ -79,6 +79,18 @@ TEST_F(SimulFloorplan, WritesRawlogGroundTruthAndPicture) {
   EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
 }
 
+TEST_F(SimulFloorplan, ReplacesAnEarlierSimulationOnly) {
+  for (const char* name : {"out.rawlog", "out.tum", "out.png"}) {
+    write(name, "of the user");
+    test::expectInputError(simulate(kRun), "simul-floorplan",
+                           "the output exists and is no earlier simulation: " + std::string(name));
+    EXPECT_EQ(test::contentOf(folder.path(name)), "of the user");
+    fs::remove(folder.path(name));
+  }
+  ASSERT_EQ(simulate(kRun).status, 0);
+  EXPECT_EQ(simulate(kRun).status, 0);
+}
+
 TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {
   ASSERT_EQ(simulate("room.ini -o a.rawlog").status, 0);
   ASSERT_EQ(simulate("room.ini -q -s 1 -o b.rawlog").status, 0);
@@ -245,7 +257,7 @@ TEST_F(SimulFloorplan, APlanOfManyKilometresHasASmallPicture) {
   EXPECT_EQ(simulate(kRun).status, 0);
   EXPECT_LT(fs::file_size(folder.path("out.png")), 10000000u);
   write("room.route", "start 1 1 0\nspeed 100\ngo 90000 1\ngo 1 1\n");
-  fs::remove(folder.path("out.rawlog"));
+  for (const char* name : {"out.rawlog", "out.tum", "out.png"}) fs::remove(folder.path(name));
   expectInputError(kRun, "route too long: 180.0 km");
 }
 

@@ -179,6 +179,14 @@ TEST_F(SlamCompare, OptionsMayPrecedeTheFiles) {
   }
 }
 
+TEST_F(SlamCompare, AReportThatIsNotOursStays) {
+  fs::create_directory(folder.path("out"));
+  folder.write("out/report.html", "mine");
+  EXPECT_THAT(errorLine(run(kSmall)),
+              HasSubstr("the output exists and is of no comparison: out/report.html"));
+  EXPECT_EQ(test::contentOf(folder.path("out/report.html")), "mine");
+}
+
 TEST_F(SlamCompare, EveryWrongInputIsOneLineAndStartsNoRun) {
   folder.write("far.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
   folder.write("broken.relations", "1287388800.0 1287388801.0 1 0 0 0 0 0\n1287388800.0 oops\n");

@@ -211,7 +211,8 @@ TEST_F(SlamEval, AFailedWriteIsAnError) {
   const Outcome o = shell(std::string("('") + SLAM_EVAL_PROGRAM +
                           "' ate --trajectory truth.tum --reference truth.tum >/dev/full)");
   EXPECT_EQ(o.status, 1);
-  EXPECT_EQ(o.err, "slam-eval: error: cannot write to standard output\n");
+  EXPECT_EQ(o.err,
+            "slam-eval: error: cannot write: standard output; expected free disk space or an open pipe\n");
 }
 
 /// The Intel log's odometry as a trajectory: inaccurate, but with all difficulties for the metric.

@@ -116,6 +116,14 @@ TEST_F(SlamMerge, ResultsThatAreThereStay) {
   EXPECT_THAT(again.out, HasSubstr("c/2"));
 }
 
+TEST_F(SlamMerge, NamesMayBeNoUtf8) {
+  map("a", 4);
+  fs::rename(folder.path("a"), folder.path("caf\xe9"));
+  const Outcome outcome = run("'caf\xe9' 'caf\xe9' -q -o c");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(content("c/metrics.json"), HasSubstr("caf\uFFFD"));
+}
+
 TEST_F(SlamMerge, OtherCellSizes) {
   map("a", 4);
   map("b", 4, "--set grid.resolution=0.05");

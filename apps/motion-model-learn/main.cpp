@@ -6,14 +6,17 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <sstream>
+#include <string>
 
 #include "FilterArguments.h"
 #include "InputFiles.h"
 #include "Program.h"
 #include "SettingArguments.h"
 #include "Stop.h"
+#include "files/InputFile.h"
 #include "files/OutputFolder.h"
 #include "readings/LogWarnings.h"
 #include "run/FilteredMotions.h"
@@ -62,6 +65,8 @@ run::Configuration configurationOf(const CommandLine& line, const CLI::App& app)
   return run::Configuration(line.files.config, settings);
 }
 
+constexpr const char* kOrigin = "Learnt by motion-model-learn";
+
 /// INI comments on the origin of the learnt section.
 std::vector<std::string> comments(const CommandLine& line, const run::Configuration& configuration,
                                   const EmIteration& prior, const LearntMotionModel& learnt) {
@@ -73,8 +78,7 @@ std::vector<std::string> comments(const CommandLine& line, const run::Configurat
   const UpdateInterval interval = configuration.filter.updateInterval();
   const std::string priorName = line.files.config.empty() ? "the defaults" : line.files.config;
   std::vector<std::string> all{
-      text("Learnt by motion-model-learn " HYBRID_SLAM_VERSION " from ", line.files.log, " with ", priorName,
-           "."),
+      text(kOrigin, " " HYBRID_SLAM_VERSION " from ", line.files.log, " with ", priorName, "."),
       text("For updates every ", interval.distance, " m or ", mrpt::RAD2DEG(interval.angle),
            " deg: the variances hold for steps of this size."),
       text(learnt.best.number, " iterations; log-likelihood per update ", learnt.best.logLikelihood,
@@ -93,6 +97,11 @@ int learn(const CommandLine& line, run::Configuration configuration) {
     if (std::filesystem::equivalent(input, line.output, ignored))
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
+  files::expectReplaceable(line.output, "learnt motion model", [](const std::string& file) {
+    std::string start(std::char_traits<char>::length(kOrigin) + 2, ' ');
+    std::ifstream(file).read(start.data(), static_cast<std::streamsize>(start.size()));
+    return start == std::string("# ") + kOrigin;
+  });
   warn(configuration.warnings);
   const readings::RawlogSummary log =
       summarise(line.files.log, configuration.input, [] { return stop.load(); });

@@ -4,6 +4,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -60,6 +61,19 @@ void writeTogether(const FilesAndWriters& filesAndWriters) {
   for (const auto& part : parts) part->commit();
 }
 
+/// An earlier simulation, which has all its files, is replaced; other files of these names are not.
+void expectReplaceable(const std::vector<fs::path>& simulation, const fs::path& sessionPlan) {
+  std::error_code ignored;
+  const auto hasContent = [&](const fs::path& file) {
+    return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
+  };
+  if (std::all_of(simulation.begin(), simulation.end(), hasContent)) return;
+  for (const fs::path& file : {simulation[0], simulation[1], simulation[2], sessionPlan})
+    if (hasContent(file))
+      throw InputError("the output exists and is no earlier simulation", file.string(),
+                       "expected the name of a new log, or of one with its .tum and .png");
+}
+
 void run(const CommandLine& line) {
   simulation::SimulationOptions options;
   simulation::LaserOptions laser;
@@ -79,6 +93,18 @@ void run(const CommandLine& line) {
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 
+  fs::path truth = output, picture = output, sessionPlan = output;
+  truth.replace_extension(".tum");
+  picture.replace_extension(".png");
+  sessionPlan.replace_extension(".truth.plan");
+  for (const fs::path& file : {output, truth, picture, sessionPlan})
+    for (const std::string& input :
+         {line.config, besideConfig(line, options.plan, "plan"), besideConfig(line, options.route, "route"),
+          options.things.empty() ? "" : besideConfig(line, options.things, "things")})
+      if (fs::equivalent(file, input, ignored))
+        throw InputError("the output is an input", file.string(), "expected another name with -o");
+  expectReplaceable({output, truth, picture}, sessionPlan);
+
   const simulation::BuildingPlan fixed =
       simulation::BuildingPlan::load(besideConfig(line, options.plan, "plan"));
   const simulation::Route route = simulation::Route::load(besideConfig(line, options.route, "route"));
@@ -91,10 +117,6 @@ void run(const CommandLine& line) {
   if (!things.empty()) route.checkClear(fixed.with(things.everywhere()), options.robotRadius);
   const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
 
-  fs::path truth = output, picture = output, sessionPlan = output;
-  truth.replace_extension(".tum");
-  picture.replace_extension(".png");
-  sessionPlan.replace_extension(".truth.plan");
   FilesAndWriters files = {
       {output,
        [&](const std::string& f) { simulation::writeRawlog(simulation::toRawlog(log, options.form), f); }},
@@ -103,12 +125,6 @@ void run(const CommandLine& line) {
   if (!things.empty())
     files.emplace_back(sessionPlan,
                        [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
-  for (const auto& [file, write] : files)
-    for (const std::string& input :
-         {line.config, besideConfig(line, options.plan, "plan"), besideConfig(line, options.route, "route"),
-          options.things.empty() ? "" : besideConfig(line, options.things, "things")})
-      if (fs::equivalent(file, input, ignored))
-        throw InputError("the output is an input", file.string(), "expected another name with -o");
   writeTogether(files);
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()

@@ -26,6 +26,7 @@
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
+#include "run/JsonText.h"
 #include "run/LogSettings.h"
 #include "run/TrajectoryRecorder.h"
 #include "study/comparison/Comparison.h"
@@ -251,6 +252,12 @@ int execute(const CommandLine& line, const std::string& command) {
   }
   if (truth.revisits || truth.plan)
     truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
+  std::error_code isNone;
+  for (const char* report : {"results.csv", "summary.csv", "summary.json", "report.html"})
+    if (const fs::path file = fs::path(line.output) / report;
+        !fs::exists(runs, isNone) && fs::exists(file, isNone))
+      throw InputError("the output exists and is of no comparison", file.string(),
+                       "expected a new folder, or one with `runs`");
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
   std::error_code none;
@@ -325,7 +332,7 @@ int execute(const CommandLine& line, const std::string& command) {
   folder.write("summary.csv",
                [&](std::ostream& out) { comparison::writeSummary(groups, report.summaries, out); });
   folder.write("summary.json", [&](std::ostream& out) {
-    out << comparison::summaryJson(groups, report.summaries).dump(2) << '\n';
+    out << run::jsonText(comparison::summaryJson(groups, report.summaries));
   });
   std::string missing;
   folder.write("report.html", [&](std::ostream& out) { missing = comparison::writeReport(report, out); });

@@ -20,6 +20,7 @@
 #include "files/Trajectory.h"
 #include "readings/EndPointReader.h"
 #include "run/FinishedPath.h"
+#include "run/JsonText.h"
 #include "run/PlanFiles.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
 #include "study/evaluation/NormalizedError.h"
@@ -308,8 +309,9 @@ int evaluate(int argc, char** argv) {
                     : *neesRelations ? neesRelationsJson(line)
                     : *plan          ? planJson(line)
                                      : rpeJson(line);
-  std::cout << json.dump(2) << std::endl;
-  if (!std::cout) throw std::runtime_error("cannot write to standard output");
+  std::cout << run::jsonText(json) << std::flush;
+  if (!std::cout)
+    throw std::runtime_error("cannot write: standard output; expected free disk space or an open pipe");
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <mrpt/core/exceptions.h>
 
 #include <algorithm>
+#include <new>
 #include <regex>
 
 namespace hybrid_slam {
@@ -23,6 +24,7 @@ std::string InputError::visible(std::string text) {
 }
 
 std::string messageOf(const std::exception& exception) {
+  if (dynamic_cast<const std::bad_alloc*>(&exception)) return "out of memory";
   const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
   std::string text = mrpt ? mrpt->originalWhat : exception.what();
   if (const auto end = text.find("] "); mrpt && end != std::string::npos)

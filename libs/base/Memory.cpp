@@ -31,8 +31,9 @@ ResidentLimit::ResidentLimit(double bytes) { limit = bytes; }
 
 ResidentLimit::~ResidentLimit() { limit = kNone; }
 
-void expectBelowLimit() {
-  if (const double most = limit; most < kNone && residentBytes() > most) throw std::bad_alloc();
+void expectBelowLimit(size_t more) {
+  if (const double most = limit; most < kNone && residentBytes() + static_cast<double>(more) > most)
+    throw std::bad_alloc();
 }
 
 }  // namespace hybrid_slam

@@ -23,7 +23,7 @@ class ResidentLimit {
   ResidentLimit& operator=(const ResidentLimit&) = delete;
 };
 
-/// @throws std::bad_alloc above the limit
-void expectBelowLimit();
+/// @throws std::bad_alloc above the limit, or if this many more bytes would be
+void expectBelowLimit(size_t more = 0);
 
 }  // namespace hybrid_slam

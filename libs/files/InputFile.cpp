@@ -17,6 +17,27 @@ void expectFile(const std::string& path, const std::string& expected) {
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("not a file", path, expected);
 }
 
+namespace {
+
+/// Returns whether a file of a folder belongs to a recording of ROS 2, unlike results written there.
+bool isOfRecording(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".db3" || extension == ".mcap" || extension == ".zstd" ||
+         file.filename() == "metadata.yaml";
+}
+
+}  // namespace
+
+void expectReplaceable(const std::string& path, const std::string& kind,
+                       const std::function<bool(const std::string&)>& isOfKind) {
+  std::error_code ignored;
+  const bool hasContent =
+      std::filesystem::is_regular_file(path, ignored) && std::filesystem::file_size(path, ignored) > 0;
+  if (hasContent && !isOfKind(path))
+    throw InputError("the output exists and is no " + kind, path,
+                     "expected the name of a new file, or of a " + kind + " to replace");
+}
+
 std::string stateOf(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code ignored;
@@ -24,7 +45,7 @@ std::string stateOf(const std::string& path) {
   if (fs::is_directory(path, ignored)) {
     files.clear();
     for (const auto& entry : fs::directory_iterator(path, ignored))
-      if (entry.is_regular_file(ignored)) files.insert(entry.path().string());
+      if (isOfRecording(entry.path()) && entry.is_regular_file(ignored)) files.insert(entry.path().string());
   }
   std::ostringstream all;
   for (const std::string& file : files)

@@ -134,13 +134,21 @@ TEST(GrowingFile, TwoWritersOfOneNameDoNotMixTheirRows) {
   EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv"));
 }
 
-TEST(GrowingFile, ReplacesWhatAKilledWriterHasLeft) {
+TEST(GrowingFile, WhatAKilledWriterHasLeftStays) {
   const TemporaryFolder root;
   root.write(".partial.steps.csv", "rows of a killed run\n");
   GrowingFile file(root.path("steps.csv"));
   file.stream() << "row\n";
   file.finish();
   EXPECT_EQ(test::contentOf(root.path("steps.csv")), "row\n");
+  EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv", ".partial.steps.csv"));
+  EXPECT_EQ(test::contentOf(root.path(".partial.steps.csv")), "rows of a killed run\n");
+  {
+    const PartialFile running(root.path("map"));
+    PartialFile::removeLeft(root.path("map"));
+    EXPECT_TRUE(fs::exists(root.path(".partial.map")));
+  }
+  PartialFile::removeLeft(root.path("steps.csv"));
   EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv"));
 }
 

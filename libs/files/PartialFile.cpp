@@ -1,7 +1,6 @@
 #include "files/PartialFile.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -36,26 +35,34 @@ PartialFile::PartialFile(const std::string& path) : final_(path) {
   claim();
 }
 
-/// The lock distinguishes the file of a running writer from that of a killed one. Links and pipes are not
-/// ours. A file that cannot be opened is left to the writer, who reports it.
+/// Files that have the name are those of other writers, or what killed ones have left, such as a recording:
+/// they stay. The lock distinguishes them.
 void PartialFile::claim() {
   for (int number = 1;;) {
-    struct stat there {};
-    const bool isOther = ::lstat(partial_.c_str(), &there) == 0 && !S_ISREG(there.st_mode);
-    lock_ = isOther
-                ? -1
-                : ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-    if (lock_ < 0 && !isOther) return;
-    const bool isLocked = !isOther && lock(lock_) != Lock::ofAnother;
-    if (isLocked && isNamed(lock_, partial_)) return;
-    if (lock_ >= 0) ::close(lock_);
-    if (!isLocked) partial_ = nameOf(final_, "-" + std::to_string(++number));
+    lock_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (lock_ < 0 && errno != EEXIST) fail(errno);
+    if (lock_ < 0) {
+      partial_ = nameOf(final_, "-" + std::to_string(++number));
+      continue;
+    }
+    lock(lock_);
+    if (isNamed(lock_, partial_)) return;  // else `removeLeft` was faster
+    ::close(lock_);
   }
+}
+
+void PartialFile::removeLeft(const std::string& path) {
+  const std::string left = partialName(path);
+  const int file = ::open(left.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return;
+  std::error_code ignored;
+  if (lock(file) != Lock::ofAnother) fs::remove(left, ignored);
+  ::close(file);
 }
 
 /// Finds the file again if a folder above it was moved. Returns false if it was removed, or replaced.
 bool PartialFile::follow() {
-  if (lock_ < 0 || isNamed(lock_, partial_)) return true;
+  if (isNamed(lock_, partial_)) return true;
   const fs::path moved = pathOf(lock_);
   if (moved.empty()) return false;
   final_ = (moved.parent_path() / fs::path(final_).filename()).string();

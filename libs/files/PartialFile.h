@@ -8,11 +8,11 @@ namespace hybrid_slam::files {
 
 /// Until `commit`, the file is called `.partial.NAME`, in the folder of NAME; without `commit` it is removed.
 /// If that folder is moved meanwhile, the file moves with it.
-/// If another writer, in any process, uses that name, it is `.partial-2.NAME`, and so on. Files left by
-/// killed processes are replaced.
+/// If that name is taken, by another writer or by a file that a killed one has left, it is `.partial-2.NAME`,
+/// and so on: what is left may be a recording.
 class PartialFile {
  public:
-  /// @throws InputError if the name is a folder or device, which must not be replaced
+  /// @throws InputError if the name is a folder or device, which must not be replaced, or cannot be written
   explicit PartialFile(const std::string& path);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
@@ -20,6 +20,8 @@ class PartialFile {
 
   /// The partial name of a file with one writer.
   static std::string partialName(const std::string& path);
+  /// Removes the partial file of this name that a killed writer has left.
+  static void removeLeft(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then
   const std::string& finalPath() const { return final_; }

@@ -17,6 +17,7 @@
 #include "files/RawlogWriter.h"
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
+#include "testing/Restricted.h"
 #include "testing/TestLogs.h"
 
 namespace {
@@ -110,6 +111,27 @@ TEST(PartialFile, RemovedOrReplacedIsAnError) {
     EXPECT_FALSE(std::filesystem::exists(root.path("out/map")));
     EXPECT_EQ(std::filesystem::exists(root.path("out/.partial.map")), isReplaced) << "it is not ours";
   }
+}
+
+TEST(PartialFile, ThatOfAnotherUserStays) {
+  TemporaryFolder root;
+  std::filesystem::permissions(root.path(""), std::filesystem::perms::all);
+  std::ofstream(root.path(".partial.map")) << "of another";
+  std::filesystem::permissions(root.path(".partial.map"), std::filesystem::perms::none);
+  EXPECT_TRUE(test::holdsWithoutRoot(root.path(""), [&] {
+    {
+      PartialFile file(root.path("map"));
+      std::ofstream(file.path()) << "ours";
+      file.commit();
+    }
+    return test::contentOf(root.path("map")) == "ours" && std::filesystem::exists(root.path(".partial.map"));
+  }));
+}
+
+TEST(PartialFile, AFolderThatCannotBeWrittenIsAnError) {
+  TemporaryFolder root;
+  EXPECT_THAT(test::errorOf([&] { PartialFile(root.path("none/map")); }),
+              testing::StartsWith("cannot write: " + root.path("none/map")));
 }
 
 TEST(PartialFile, LinksAndPipesThatHaveItsNameStay) {

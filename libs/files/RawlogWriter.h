@@ -31,6 +31,8 @@ class RawlogWriter {
   void finish();
   /// Like `finish` on a full disk: keeps the truncated file, which RawlogReader can read up to the cut.
   void finishCut();
+  /// Returns whether no other writer, running or killed, has a file for the same path.
+  bool isOnly() const { return file_.path() == PartialFile::partialName(file_.finalPath()); }
   /// The final path; another one after `finish` if the folder was moved meanwhile.
   const std::string& path() const { return file_.finalPath(); }
 

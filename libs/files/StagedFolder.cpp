@@ -129,6 +129,12 @@ void StagedFolder::setOwn(const std::string& name) {
   ownState_ = stateOf((final_ / own_).string());
 }
 
+std::string StagedFolder::keepOwn() {
+  std::error_code error;
+  if (own_.empty() || !isOwn(final_, own_) || !fs::copy_file(final_ / own_, stage_ / own_, error)) return {};
+  return finalPath(own_);
+}
+
 bool StagedFolder::isOfAnother(const std::string& name) const {
   std::error_code ignored;
   return !isOwn(final_, name) && fs::is_regular_file(final_ / name, ignored);

@@ -32,6 +32,9 @@ class StagedFolder {
 
   /// Names a result that this run has just written to the final folder.
   void setOwn(const std::string& name);
+  /// Puts the own result of the final folder among the new ones, which lack it. Returns its path there; empty
+  /// if there is none.
+  std::string keepOwn();
   /// Returns whether another run has written this file to the final folder, or has replaced ours.
   bool isOfAnother(const std::string& name) const;
   /// The hidden folder.

@@ -3,38 +3,52 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "files/DatedName.h"
+#include "files/Locks.h"
 
 namespace hybrid_slam::live {
 
 Recording::Recording(const std::string& folder, const std::string& name, EventLog& log)
-    : folder_(folder), name_(name), log_(log) {}
+    : folder_(folder),
+      name_(name),
+      place_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
+      log_(log) {}
+
+Recording::~Recording() {
+  finish();
+  if (place_ >= 0) ::close(place_);
+}
+
+std::string Recording::path() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return path_;
+}
+
+/// Returns where the folder is now; where it was, if it was removed.
+std::string Recording::folder() const {
+  const std::string moved = place_ < 0 || files::isNamed(place_, folder_) ? folder_ : files::pathOf(place_);
+  return moved.empty() ? folder_ : moved;
+}
 
 void Recording::open() {
   namespace fs = std::filesystem;
   const fs::path stem = fs::path(name_).stem(), extension = fs::path(name_).extension();
+  const std::string folder = Recording::folder();
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);  // it may have been removed
   files::claimDatedName([&](const std::string& date) {
-    path_ = (fs::path(folder_) / (stem.string() + "-" + date + extension.string())).string();
-    const std::string partial = files::PartialFile::partialName(path_);
-    const int file = ::open(partial.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (file < 0 && errno != EEXIST)
-      throw InputError(
-          "cannot write", path_,
-          std::string("expected a writable folder with free disk space: ") + std::strerror(errno));
-    if (file < 0) return false;
-    ::close(file);
-    const bool isFree = !fs::exists(path_);  // looked at now, as another recording may just have ended
-    if (!isFree) fs::remove(partial);
+    path_ = (fs::path(folder) / (stem.string() + "-" + date + extension.string())).string();
+    writer_ = std::make_unique<files::RawlogWriter>(path_);
+    const bool isFree =
+        writer_->isOnly() && !fs::exists(path_);  // looked at now: another may just have ended
+    if (!isFree) writer_.reset();
     return isFree;
   });
-  writer_ = std::make_unique<files::RawlogWriter>(path_);
 }
 
 void Recording::write(const mrpt::obs::CObservation& observation) {
@@ -42,7 +56,7 @@ void Recording::write(const mrpt::obs::CObservation& observation) {
   if (entries_++ == 0) open();
   if (!writer_) return;
   if (isDiskAlmostFull()) {
-    log_.report("recording", "stopped; the run continues (disk almost full: " + folder_ + "; expected " +
+    log_.report("recording", "stopped; the run continues (disk almost full: " + folder() + "; expected " +
                                  fixedText(reserve_ / 1e6, 0) +
                                  " MB of free disk space for the results, [live] disk_reserve)");
     return end();
@@ -58,7 +72,7 @@ void Recording::write(const mrpt::obs::CObservation& observation) {
 // Who sends the observations decides how many there are; the results must still find space.
 bool Recording::isDiskAlmostFull() const {
   std::error_code unknown;  // then `available` is the largest number
-  return static_cast<double>(std::filesystem::space(folder_, unknown).available) < reserve_;
+  return static_cast<double>(std::filesystem::space(folder(), unknown).available) < reserve_;
 }
 
 void Recording::flush() {

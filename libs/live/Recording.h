@@ -21,7 +21,7 @@ class Recording {
  public:
   /// @param name  file name; the date and time are inserted before its extension
   Recording(const std::string& folder, const std::string& name, EventLog& log);
-  ~Recording() { finish(); }
+  ~Recording();
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
@@ -34,22 +34,25 @@ class Recording {
   void flush();
   void finish();
   /// Returns the path; empty before the first observation.
-  const std::string& path() const { return path_; }
+  std::string path() const;
   size_t entries() const { return entries_; }  ///< observations taken, even if they could not be written
 
  private:
   using Clock = std::chrono::steady_clock;
   void open();
+  std::string folder() const;
   void sync();
   bool isDiskAlmostFull() const;
   void end();
   void endAt(const std::exception& fault);
 
-  std::string folder_, name_, path_;
+  std::string folder_, name_;
+  int place_;  ///< the open folder, which may be moved
   size_t entries_ = 0;
   double reserve_ = 1e9;  ///< bytes
   EventLog& log_;
-  std::mutex mutex_;                             ///< guards the next two
+  mutable std::mutex mutex_;  ///< guards the next three
+  std::string path_;
   std::unique_ptr<files::RawlogWriter> writer_;  ///< null before the first observation and after the end
   Clock::time_point lastFlush_ = Clock::now();
 };

@@ -53,6 +53,34 @@ TEST(Recording, MovesWithItsFolder) {
   EXPECT_EQ(entriesOf(recording.path()), 2u);
 }
 
+TEST(Recording, MayBeginAfterItsFolderHasMoved) {
+  const files::TemporaryFolder folder;
+  test::Events events;
+  for (const bool isRemoved : {false, true}) {
+    std::filesystem::create_directory(folder.path("out"));
+    Recording recording(folder.path("out"), "run.rawlog", events.log());
+    isRemoved ? std::filesystem::remove(folder.path("out"))
+              : (std::filesystem::rename(folder.path("out"), folder.path("moved")), true);
+    recording.write(*test::scan(1000, {}));
+    recording.finish();
+    EXPECT_EQ(std::filesystem::path(recording.path()).parent_path(),
+              folder.path(isRemoved ? "out" : "moved"));
+    EXPECT_EQ(entriesOf(recording.path()), 1u);
+  }
+}
+
+TEST(Recording, LeavesDiskSpaceWhereItsFolderIsNow) {
+  const files::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("out"));
+  test::Events events;
+  Recording recording(folder.path("out"), "run.rawlog", events.log());
+  recording.write(*test::scan(1000, {}));
+  std::filesystem::rename(folder.path("out"), folder.path("moved"));
+  recording.keepFree(1e18);
+  recording.write(*test::scan(1001, {}));
+  EXPECT_EQ(events.count("disk almost full: " + folder.path("moved")), 1u) << events.text();
+}
+
 TEST(Recording, WithoutAnObservationThereIsNoFile) {
   const files::TemporaryFolder folder;
   test::Events events;

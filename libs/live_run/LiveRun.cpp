@@ -176,7 +176,7 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
     recorded = summarise(recording_.path(), configuration_.input);
     if (configuration_.input.requireOdometry && !recorded.hasOdometryReadings)
       throw InputError("it ends before the first odometry", recording_.path(), "expected a longer recording");
-  } catch (const InputError& e) {  // the disk was full from the start
+  } catch (const InputError& e) {  // the disk was full from the start, or the recording was removed
     recorded = {};
     log_.report("results", "without those that need the recording (" + messageOf(e) + ")");
   }
@@ -195,7 +195,16 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
     log_.report("results", "written up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);
   }
-  if (const std::string place = run_.placeNote(); !place.empty()) throw std::runtime_error(place);
+  const std::string incomplete = recorded.scans < run_.readings()
+                                     ? "the recording has " + std::to_string(recorded.scans) + " of " +
+                                           counted(run_.readings(), "scan(s): ") + recording_.path() +
+                                           "; the map is not refined"
+                                     : run_.placeNote();
+  if (!incomplete.empty()) {
+    log_.report("results", summary);
+    log_.report("map", run_.verdict().line());
+    throw std::runtime_error(incomplete);
+  }
   return summary + ", " + recording_.path() + "\n" + run_.verdict().line();
 }
 

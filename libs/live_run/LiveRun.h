@@ -63,11 +63,11 @@ class LiveRun {
   /// @param lost      number of lost cycles, for metrics.json
   /// @param patience  s, for the waiting readings; empty: as long as they take
   /// @return the summary and the verdict, a line each
-  /// @throws std::runtime_error if there was no scan, or with the filter's failure, after the results
-  ///         up to it have been written; the recording is kept
+  /// @throws std::runtime_error if there was no scan; after the results have been written, with the filter's
+  ///         failure, or if the recording lacks scans
   std::string finish(size_t lost, std::optional<double> patience = {});
 
-  const std::string& recording() const { return recording_.path(); }  ///< the rawlog of this run
+  std::string recording() const { return recording_.path(); }  ///< the rawlog of this run
   size_t skipped() const { return skipped_; }
 
  private:

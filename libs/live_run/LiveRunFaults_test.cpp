@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <pthread.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +14,8 @@
 #include "base/Errors.h"
 #include "files/RawlogReader.h"
 #include "live/Recording.h"
+#include "testing/ErrorOf.h"
+#include "testing/FullDisk.h"
 #include "testing/LiveRunTest.h"
 
 namespace hybrid_slam::live {
@@ -23,8 +23,10 @@ namespace {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
+using test::FullDisk;
 using test::LiveRunTest;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 
 TEST_F(LiveRunTest, WithoutAScanThereAreNoResults) {
   EXPECT_THROW(runLive({test::odometry(1, {}), test::odometry(2, {})}), std::runtime_error);
@@ -70,22 +72,10 @@ TEST_F(LiveRunTest, AKilledProgramLeavesAReadableRecording) {
   EXPECT_THAT(reader.defect(), HasSubstr("cut off"));
 }
 
-/// Simulates a full disk while it exists: no file can grow beyond a size.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-};
+/// Returns the error with which a run ends after it has written its results.
+std::string errorAtEnd(LiveRun& run) {
+  return test::errorOf<std::runtime_error>([&] { run.finish(0); });
+}
 
 void take(LiveRun& run, const test::Log& log) {
   for (const auto& object : log) {
@@ -103,7 +93,9 @@ TEST_F(LiveRunTest, AFullDiskEndsTheRecordingNotTheRun) {
   take(run, test::laps(300));
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   disk.reset();
-  EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
+  EXPECT_THAT(errorAtEnd(run),
+              MatchesRegex("the recording has [0-9]+ of 300 scans: .*; the map is not refined"));
+  EXPECT_EQ(events.count("results: 300 scans"), 1u) << events.text();
   files::RawlogReader reader(recording());
   size_t objects = 0;
   while (reader.next()) ++objects;
@@ -129,7 +121,7 @@ TEST_F(LiveRunTest, ARecordingThatEndsBeforeTheFirstOdometryDoesNotCount) {
   EXPECT_EQ(events.count("stopped; the run continues"), 1u) << events.text();
   take(run, test::laps(30));
   disk.reset();
-  EXPECT_THAT(run.finish(0), HasSubstr("35 scans"));
+  EXPECT_THAT(errorAtEnd(run), HasSubstr("the recording has 0 of 35 scans"));
   EXPECT_EQ(events.count("results: without those that need the recording (it ends before"), 1u)
       << events.text();
   EXPECT_FALSE(std::filesystem::exists(folder.path("live/map.simplemap.gz")));
@@ -148,7 +140,8 @@ TEST_F(LiveRunTest, TheRecordingStopsBeforeItTakesTheDiskSpaceOfTheResults) {
 
 TEST_F(LiveRunTest, ADiskWithoutTheReserveCostsOnlyTheRecording) {
   options.maxWaiting = 1000, options.diskReserve = 1e9;
-  EXPECT_THAT(runLive(test::laps(30)), HasSubstr("30 scans"));
+  EXPECT_THAT(test::errorOf<std::runtime_error>([&] { runLive(test::laps(30)); }),
+              HasSubstr("the recording has 0 of 30 scans"));
   EXPECT_EQ(events.count("recording: stopped; the run continues (disk almost full"), 1u) << events.text();
   EXPECT_EQ(events.count("results: without those that need the recording"), 1u) << events.text();
   EXPECT_FALSE(result("live/trajectory.tum").empty());
@@ -165,7 +158,7 @@ TEST_F(LiveRunTest, ADiskThatIsFullUntilTheEndCostsOnlyWhatNeedsTheRecording) {
   take(run, test::laps(300));
   EXPECT_TRUE(test::happens([&] { return filtered == 300; }));
   disk.reset();
-  EXPECT_THAT(run.finish(0), HasSubstr("300 scans"));
+  EXPECT_THAT(errorAtEnd(run), HasSubstr("the recording has 0 of 300 scans"));
   EXPECT_EQ(std::filesystem::file_size(recording()), 0u);
   EXPECT_EQ(events.count("results: without those that need the recording (empty file"), 1u) << events.text();
   for (const char* name : {"trajectory.tum", "map.png", "map.pgm", "lines.csv", "plan.svg", "session.hslam"})
@@ -177,6 +170,19 @@ TEST_F(LiveRunTest, ADiskThatIsFullUntilTheEndCostsOnlyWhatNeedsTheRecording) {
   EXPECT_EQ(metrics["verdict"], "doubtful");
   const std::string steps = result("live/steps.csv");
   EXPECT_EQ(metrics["updates"], std::count(steps.begin(), steps.end(), '\n') - 1);
+}
+
+TEST_F(LiveRunTest, ARemovedRecordingCostsOnlyWhatNeedsIt) {
+  run::Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  LiveRun run(c, options, events.log(), true);
+  take(run, test::laps(30));
+  for (const std::string& file : test::filesIn(folder.path("live"), ".partial."))
+    EXPECT_TRUE(std::filesystem::remove(file));
+  EXPECT_THAT(errorAtEnd(run), HasSubstr("the recording has 0 of 30 scans"));
+  EXPECT_EQ(events.count("recording: stopped"), 1u) << events.text();
+  EXPECT_FALSE(result("live/trajectory.tum").empty());
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
 }
 
 // No thread can have such a stack.

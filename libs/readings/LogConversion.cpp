@@ -64,6 +64,7 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   std::error_code ignored;
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
+  files::expectReplaceable(rawlogPath, "rawlog", isRawlog);
   const Source source(logPath);
   if (bags::isBag(logPath)) {
     BagLog log(logPath, planOf(contentsOf(logPath, options.isStopped), bag, logPath), options, report);

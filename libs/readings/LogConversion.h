@@ -14,8 +14,8 @@ namespace hybrid_slam::readings {
 /// (LogSummary::defect), unless `strict`.
 ///
 /// @throws InputError for an input that is missing, unreadable, truncated, not a log, or without scans, for
-///         an output that cannot be written or is the input, and for a broken line if `strict`;
-///         std::runtime_error if stopped. No file is left at `rawlogPath` then
+///         an output that cannot be written, is the input, or is a file other than a rawlog, and for a broken
+///         line if `strict`; std::runtime_error if stopped. No file is left at `rawlogPath` then
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
                       const LogConversionOptions& options, const BrokenLineReport& report,
                       const BagOptions& bag = {});

@@ -1,6 +1,5 @@
 #include "readings/RawlogSource.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -106,7 +105,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   size_t firstScan = 0;
   Uses uses;
   std::map<std::string, double> last;  // timestamp of each laser's previous scan
-  double earliest = 0, latest = 0;
+  Duration duration;
   const auto noteOdometry = [&](bool isRight, bool& hasSome) {
     if (isRight)
       hasSome = true;
@@ -137,13 +136,11 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (const double sweep = sweeps.of(scan); sweep > 0) summary.sweeps[scan.sensorLabel] = sweep;
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
-    const bool isFirst = last.empty();
     const auto [before, isNew] = last.try_emplace(scan.sensorLabel, t);
     if (!isNew && t < before->second) note(summary.stepsBack, reader.entry());
     if (!isNew && t - before->second > kDay) note(summary.timeJumps, reader.entry());
     if (!isNew && t == before->second) note(summary.repeatedStamps, reader.entry());
-    earliest = isFirst ? t : std::min(earliest, t);
-    latest = isFirst ? t : std::max(latest, t);
+    duration.add(t);
     before->second = t;
   };
   while (const auto object = reader.next()) {
@@ -172,7 +169,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     hasBegun = hasBegun || beginning.next();
   }
   summary.hasMotion = summary.hasOdometryReadings ? readingsMove : actionsMove;  // readings replace actions
-  summary.duration = latest - earliest;
+  summary.duration = duration.seconds();
   summary.entries = reader.entry();
   summary.defect = reader.defect();
   summary.brokenLines = {reader.brokenLines(), reader.firstBroken()};

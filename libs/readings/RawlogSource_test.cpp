@@ -142,6 +142,15 @@ TEST(RawlogSource, TimestampsSteppingBackKeepTheOrderOfTheLog) {
   EXPECT_NEAR(back.summary.duration, 3, 1e-6);
 }
 
+TEST(RawlogSource, AnImpossibleTimestampIsNotPartOfTheDuration) {
+  for (const double wrong : {4e9, 1.0}) {
+    const Replayed r = replayed({test::odometry(1e9, {0, 0, 0}), scan(1e9), scan(1e9 + 1), scan(wrong),
+                                 scan(1e9 + 2), scan(1e9 + 4)});
+    EXPECT_EQ(r.summary.timeJumps.count, 1u);
+    EXPECT_NEAR(r.summary.duration, 3, 1e-6) << "the steps around it are not known";
+  }
+}
+
 TEST(RawlogSource, MissingTimestamps) {
   const Replayed r = replayed({test::odometry(10, {0, 0, 0}), scan(10), test::odometry(11, {1, 0, 0}),
                                scan(test::kNoTime), test::odometry(12, {2, 0, 0}), scan(12)});

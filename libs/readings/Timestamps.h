@@ -5,6 +5,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace hybrid_slam::readings {
@@ -24,5 +25,28 @@ inline double seconds(const mrpt::Clock::time_point& t) { return mrpt::Clock::to
 inline std::optional<double> timeOf(const mrpt::obs::CObservation& observation) {
   return isStamped(observation) ? std::optional(seconds(observation.timestamp)) : std::nullopt;
 }
+
+/// The time that readings cover (s): from the earliest timestamp to the latest. With a step forward of over a
+/// day (an impossible timestamp, two logs in one), the sum of the other steps forward.
+class Duration {
+ public:
+  void add(double t) {
+    if (isEmpty_) earliest_ = latest_ = last_ = t;
+    isEmpty_ = false;
+    const double step = t - last_;
+    if (step > kDay)
+      hasJump_ = true;
+    else if (step > 0)
+      steps_ += step;
+    earliest_ = std::min(earliest_, t);
+    latest_ = std::max(latest_, t);
+    last_ = t;
+  }
+  double seconds() const { return hasJump_ ? steps_ : latest_ - earliest_; }
+
+ private:
+  bool isEmpty_ = true, hasJump_ = false;
+  double earliest_ = 0, latest_ = 0, last_ = 0, steps_ = 0;
+};
 
 }  // namespace hybrid_slam::readings

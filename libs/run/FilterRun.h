@@ -117,7 +117,8 @@ class FilterRun {
   ///                 If `file` cannot be read again, nothing is refined and there is no map.simplemap.gz
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
-  /// @throws InputError if a result cannot be written; std::runtime_error for a worse map than expected
+  /// @throws InputError if a result cannot be written, after which it can be called again;
+  ///         std::runtime_error for a worse map than expected
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
   /// Returns why results of the finished run are missing, which notes name; empty if none are.
@@ -132,10 +133,11 @@ class FilterRun {
   struct Result {
     files::Trajectory trajectory;
     std::vector<mrpt::math::TPose2D> path;
-    mrpt::maps::COccupancyGridMap2D grid;
+    std::optional<mrpt::maps::COccupancyGridMap2D> grid;  ///< none if there is no memory for it
     std::vector<DatabaseLine> lines;
     ScanMap map;  ///< with our filters: the same grid and lines
   };
+  static const mrpt::maps::COccupancyGridMap2D& gridOf(const Result& result);
   template <class State>
   void visit(State& state);
   void replaceStuckOdometry(readings::Reading& reading);

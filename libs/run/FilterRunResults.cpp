@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -14,7 +15,9 @@
 #include "base/DeskewedScan.h"
 #include "base/Numbers.h"
 #include "files/InputFile.h"
+#include "readings/Timestamps.h"
 #include "run/FilterRun.h"
+#include "run/JsonText.h"
 #include "run/LoopNote.h"
 #include "run/MapFiles.h"
 #include "run/PlanFiles.h"
@@ -29,12 +32,10 @@
 namespace hybrid_slam::run {
 namespace {
 
-/// Returns the time (s) from the earliest to the latest pose.
 double durationOf(const files::Trajectory& trajectory) {
-  const auto [first, last] =
-      std::minmax_element(trajectory.begin(), trajectory.end(),
-                          [](const auto& a, const auto& b) { return a.timestamp < b.timestamp; });
-  return first == trajectory.end() ? 0 : last->timestamp - first->timestamp;
+  readings::Duration duration;
+  for (const auto& pose : trajectory) duration.add(pose.timestamp);
+  return duration.seconds();
 }
 
 nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std::vector<double>& times) {
@@ -115,14 +116,28 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
   result.lines = result.map.lines.lines();
 }
 
+/// @throws std::bad_alloc if there was no memory for it
+const mrpt::maps::COccupancyGridMap2D& FilterRun::gridOf(const Result& result) {
+  if (!result.grid) throw std::bad_alloc();
+  return *result.grid;
+}
+
 std::string FilterRun::finish(const std::string& file, const readings::RawlogSummary& log,
                               const nlohmann::ordered_json& more) {
   const mrpt::system::CTimeLoggerEntry writing(profiler(), "7 write results");
   finishCheckpoint();
   staged_.follow();
+  whyMissing_.clear();  // of an attempt that failed
+  refinementLoops_.clear();
   const bool hasRoom = !isMemoryFull();  // the results below are copies
-  Result result{{}, filter_->bestPath(), filter_->bestGrid(), filter_->bestLines(), ScanMap()};
-  if (configuration_.filter.useLines && !localizer_) result.map = currentMap();
+  Result result{{}, filter_->bestPath(), {}, filter_->bestLines(), ScanMap()};
+  bool hasMap = false;
+  try {
+    if (hybrid_ || (configuration_.filter.useLines && !localizer_)) result.map = currentMap();
+    hasMap = true;
+    result.grid = filter_->bestGrid();
+  } catch (const std::bad_alloc&) {  // costs the files of the grid
+  }
   result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
   result.trajectory = recorder_.trajectory(result.path);
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
@@ -140,6 +155,9 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
         result = std::move(refined);
       } catch (const UnreadableLog& e) {
         notes_.push_back(std::string("map not refined: ") + e.what());
+      } catch (const InputError& e) {  // the map is too large
+        notes_.push_back("map not refined: " + messageOf(e));
+        refinementLoops_.clear();
       } catch (const std::bad_alloc&) {
         notes_.emplace_back("map not refined: out of memory");
         refinementLoops_.clear();
@@ -154,17 +172,24 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     writeMap(result, file, log);
   }
   if (verdict_.level > worstVerdict_) throw std::runtime_error("its map is " + verdict_.name());
-  writeOrNote("map.png",
-              [&] { savePicture(folder_, result.grid, result.trajectory, result.lines, verdict_.places); });
+  writeOrNote("map.png", [&] {
+    savePicture(folder_, gridOf(result), result.trajectory, result.lines, verdict_.places);
+  });
   if (hybrid_)
-    writeOrNote("session", [&] { saveSessionTo(folder_.path(kSessionName), result.map, result.path); });
+    writeOrNote("session", [&] {
+      if (!hasMap) throw std::bad_alloc();
+      saveSessionTo(folder_.path(kSessionName), result.map, result.path);
+    });
+  if (!std::filesystem::exists(folder_.path(kSessionName)))
+    if (const std::string kept = staged_.keepOwn(); !kept.empty())
+      notes_.push_back("the last checkpoint stays: " + kept);
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), refinementLoops_); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
   logHasChanged_ = hasChanged(file, log);
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
-  folder_.write("metrics.json", [&](std::ostream& out) { out << all.dump(2) << '\n'; });
+  folder_.write("metrics.json", [&](std::ostream& out) { out << jsonText(all); });
   staged_.publish();
 
   const double wall = all.at("wall_s");
@@ -195,12 +220,15 @@ bool FilterRun::writeOrNote(const std::string& result, const Write& write) {
 }
 
 void FilterRun::writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log) {
-  savedCell_ = result.grid.getResolution();
-  writeOrNote("map.yaml", [&] { saveRosMap(folder_, result.grid, result.trajectory); });
-  writeOrNote("map.gridmap.gz", [&] { saveGridMap(folder_, result.grid); });
+  savedCell_ = result.grid ? result.grid->getResolution() : cell_;
+  writeOrNote("map.yaml", [&] { saveRosMap(folder_, gridOf(result), result.trajectory); });
+  writeOrNote("map.gridmap.gz", [&] { saveGridMap(folder_, gridOf(result)); });
   saveLines(folder_, result.lines);
   if (configuration_.filter.useLines)
-    writeOrNote("plan", [&] { savePlan(folder_, floorPlanOf(result.lines, result.map.grid)); });
+    writeOrNote("plan", [&] {
+      gridOf(result);
+      savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
+    });
   VerdictCheck check;
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);

@@ -152,6 +152,7 @@ void FilterRun::saveIfDue() {
 void FilterRun::finishCheckpoint() {
   if (checkpoint_.valid()) try {
       checkpoint_.get();
+      staged_.follow();  // the checkpoint has moved with its folder
       staged_.setOwn(checkpointName_);
     } catch (const std::exception& e) {
       notes_.push_back("no checkpoint: " + messageOf(e));
@@ -196,7 +197,7 @@ void FilterRun::resume(SessionReader& session) {
                      "expected method hybrid or general");
   updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
-  const files::PartialFile left(session.file());  // removes what a killed run leaves of its next checkpoint
+  files::PartialFile::removeLeft(session.file());  // what a killed run leaves of its next checkpoint
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {

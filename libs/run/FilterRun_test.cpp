@@ -105,6 +105,20 @@ TEST_F(FilterRunTest, ARunThatFillsTheMemoryEndsWithResultsAndASession) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("full/session.hslam")));
 }
 
+TEST_F(FilterRunTest, TheSessionHoldsTheMapWithAndWithoutRefinement) {
+  for (const char* refine : {"run.refine=0", "run.refine=1"})
+    for (const char* method : {"run.method=hybrid", "run.method=general"}) {
+      Configuration c = configuration("mapped", {"grid.resolution=0.1", refine, method});
+      c.run.overwrite = true;
+      FilterRun run(c);
+      process(run, c);
+      finish(run, c, log);
+      EXPECT_FALSE(
+          SessionReader(folder.path("mapped/session.hslam")).header().map.grid.tiles().bounds().empty())
+          << refine << " " << method;
+    }
+}
+
 TEST_F(FilterRunTest, ASessionThatWouldFillTheMemoryIsLeftOut) {
   Configuration c = configuration("large");
   FilterRun run(c);
@@ -204,6 +218,39 @@ TEST_F(FilterRunTest, AnUpdateThatFailsLeavesResultsWithoutASession) {
   const std::string steps = result("out/steps.csv");
   EXPECT_EQ(nlohmann::json::parse(result("out/metrics.json"))["updates"],
             std::count(steps.begin(), steps.end(), '\n') - 1);
+}
+
+TEST_F(FilterRunTest, ResultsWithoutASessionKeepTheLastCheckpoint) {
+  Configuration c = configuration("out", {"grid.resolution=0.1"});
+  c.run.checkpointEvery = 1e-9;
+  FilterRun run(c);
+  process(run, c);
+  readings::Reading far;
+  far.scans = {test::scan(1100)};
+  far.timestamp = 1100;
+  far.motion = {5e7, 5e7, 0};
+  EXPECT_THROW(run.process(far), InputError);
+  run.finishCheckpoint();
+  const std::string before = result("out/session.hslam");
+  EXPECT_FALSE(before.empty());
+  finish(run, c, log);
+  EXPECT_THAT(run.takeNotes(), Contains("the last checkpoint stays: " + folder.path("out/session.hslam")));
+  EXPECT_EQ(result("out/session.hslam"), before);
+  EXPECT_FALSE(result("out/metrics.json").empty());
+
+  // As if killed after the checkpoint.
+  std::filesystem::create_directory(folder.path("resumed"));
+  std::filesystem::copy(folder.path("out/session.hslam"), folder.path("resumed"));
+  Configuration resumed = c;
+  resumed.run.output = folder.path("resumed");
+  resumed.run.resume = folder.path("resumed/session.hslam");
+  SessionReader session(resumed.run.resume);
+  FilterRun again(resumed);
+  again.limitSession(1e4);  // a smaller machine
+  again.resume(session);
+  finish(again, resumed, log);
+  EXPECT_EQ(result("resumed/session.hslam"), before);
+  EXPECT_FALSE(result("resumed/metrics.json").empty());
 }
 
 TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {

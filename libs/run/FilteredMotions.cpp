@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "base/Errors.h"
@@ -41,8 +42,8 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   const std::string& file = configuration.run.rawlog;
   readings::RawlogSource source(file, configuration.input, log);
   FilterConfiguration filter = configuration.filter;
-  filter.improved.exponent = 1;  // EM is about the likelihood itself
-  HybridFilter hybrid(filter);
+  filter.improved.exponent = 1;                                // EM is about the likelihood itself
+  const auto hybrid = std::make_unique<HybridFilter>(filter);  // large for a stack
 
   Expectation expectation;
   size_t scans = 0, updates = 0;
@@ -50,11 +51,11 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   Progress progress(log.scans, isQuiet);
   while (const auto reading = source.next()) {
     if (stop) throw std::runtime_error("interrupted: " + source.place());
-    const size_t before = hybrid.updates();
-    hybrid.process(reading->motion, reading->scans);
+    const size_t before = hybrid->updates();
+    hybrid->process(reading->motion, reading->scans);
     progress.update(++scans, progressNote);
-    const FilterStep& step = hybrid.lastStep();
-    if (hybrid.updates() == before || step.motions.empty()) continue;  // the first update moves nothing
+    const FilterStep& step = hybrid->lastStep();
+    if (hybrid->updates() == before || step.motions.empty()) continue;  // the first update moves nothing
     addSamples(expectation.samples, step);
     logLikelihoods += step.logLikelihood;
     ++updates;

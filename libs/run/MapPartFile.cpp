@@ -1,5 +1,7 @@
 #include "run/MapPartFile.h"
 
+#include <memory>
+
 #include "run/KnownMap.h"
 #include "run/SessionFile.h"
 #include "slam/filter/HybridFilter.h"
@@ -16,12 +18,12 @@ MapPartFile readMapPart(const std::string& name) {
   read.part.path = session.header().path;
   read.times = session.header().times;
   if (!session.hasRun()) return read;
-  HybridFilter filter(read.configuration->filter);
+  const auto filter = std::make_unique<HybridFilter>(read.configuration->filter);  // large for a stack
   session.read([&](StateReader& in) {
-    filter.load(in);
-    in.check(filter.updates() == read.part.path.size(), "its filter does not belong to its path");
+    filter->load(in);
+    in.check(filter->updates() == read.part.path.size(), "its filter does not belong to its path");
   });
-  if (filter.isMapOfUpdates()) read.part.scans = filter.updateScans();
+  if (filter->isMapOfUpdates()) read.part.scans = filter->updateScans();
   return read;
 }
 

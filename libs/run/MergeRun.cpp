@@ -10,6 +10,7 @@
 #include "base/Clock.h"
 #include "base/Numbers.h"
 #include "files/StagedFolder.h"
+#include "run/JsonText.h"
 #include "run/MapFiles.h"
 #include "run/MapPartFile.h"
 #include "run/ResultFiles.h"
@@ -109,7 +110,7 @@ MergeOutcome merge(const MergeOptions& options) {
       {"lines", lines.size()},
       {"wall_s", secondsSince(start)},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}});
-  folder.write("metrics.json", [&](std::ostream& file) { file << metrics.dump(2) << '\n'; });
+  folder.write("metrics.json", [&](std::ostream& file) { file << jsonText(metrics); });
   staged.publish();
   outcome.isMerged = true;
   outcome.note = staged.note();

@@ -40,11 +40,12 @@ void writeHeader(StateWriter& out, SessionHeader& header) {
 }
 
 void saveSession(const std::string& path, const std::string& bytes) {
+  const std::string compressed = files::gzipped(bytes);  // before anything is open
   files::PartialFile partial(path);
   const int file = ::open(partial.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) partial.fail(errno);
   errno = 0;
-  const bool isWritten = writeAll(file, files::gzipped(bytes));
+  const bool isWritten = writeAll(file, compressed);
   const int error = errno;
   ::close(file);
   if (!isWritten) partial.fail(error);

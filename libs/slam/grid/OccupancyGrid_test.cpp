@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "base/Errors.h"
 #include "base/RandomStream.h"
 
 namespace hybrid_slam {
@@ -113,6 +115,18 @@ TEST(OccupancyGrid, InvalidBeamsAndEmptyScansLeaveItAsItIs) {
   grid.insert(ScanBeams(scan), {}, update());
   grid.insert(ScanBeams(LaserScan()), {}, update());
   EXPECT_TRUE(grid.tiles().bounds().empty());
+}
+
+// Cells are numbered by an int: with 5 cm, the last one ends at 107,374 km.
+TEST(OccupancyGrid, AScanAtTheEndOfTheNumbersIsAnError) {
+  for (const double x : {0x1p31 * 0.05 - 45, -0x1p31 * 0.05 + 45, 1e300, std::nan("")}) {
+    OccupancyGrid grid(0.05);
+    EXPECT_THROW(grid.insert(beams({{0, 50}, {1, 50}}), {x, 0, 0}, update()), InputError) << x;
+    EXPECT_TRUE(grid.tiles().bounds().empty());
+  }
+  OccupancyGrid grid(0.01);
+  grid.insert(beams({{0, 50}}), {9.9e6, -9.9e6, 0}, update());
+  EXPECT_FALSE(grid.tiles().bounds().empty()) << "in reach with the smallest cells";
 }
 
 /// The cells that a beam crosses, found by clipping it to each cell.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/Errors.h"
 #include "base/LaserScan.h"
 
 namespace hybrid_slam {
@@ -85,10 +86,20 @@ struct ScanBeams {
   }
 };
 
+/// Returns whether a pose is near enough to the map's origin, 10,000 km, for its cells to have a number.
+inline bool isInReach(const mrpt::math::TPose2D& pose) {
+  constexpr double kReach = 1e7;  // m; 1e9 cells of 1 cm
+  return std::abs(pose.x) <= kReach && std::abs(pose.y) <= kReach;
+}
+
 /// A robot pose in units of cells, with its sine, its cosine and the lasers' positions computed once.
 struct GridPose {
+  /// @throws InputError for a pose out of reach
   GridPose(const mrpt::math::TPose2D& robot, const ScanBeams& scan, double cellSize)
       : cosPhi(std::cos(robot.phi)), sinPhi(std::sin(robot.phi)) {
+    if (!isInReach(robot))
+      throw InputError("the map is too large", "poses of the robot",
+                       "expected them within 10,000 km of the map's origin");
     for (size_t i = 0; i < scan.origins.size(); ++i) {
       const mrpt::math::TPoint2D& at = scan.origins[i];
       origins[i] = {(robot.x + cosPhi * at.x - sinPhi * at.y) / cellSize,

@@ -28,6 +28,8 @@ void TileGrid::growTo(int bx, int by) {
   if (count > kMostBlocks)
     throw InputError("the map is too large", "poses of the robot",
                      "expected at most " + std::to_string(kMostBlocks) + " blocks of 512 x 512 cells");
+  constexpr size_t kMostUnchecked = 1 << 20;  // bytes
+  if (const size_t bytes = count * sizeof(CowPtr<Block>); bytes > kMostUnchecked) expectBelowLimit(bytes);
   std::vector<CowPtr<Block>> blocks(count);
   for (int row = 0; row < rows_; ++row)
     std::copy_n(blocks_.begin() + row * columns_, columns_,

@@ -48,6 +48,22 @@ TEST(TileGrid, GrowsWithinALimitOfTheMemory) {
   EXPECT_NO_THROW(grow()) << "without a limit";
 }
 
+// One step may take a robot far away, and a window of blocks has 16 bytes for each block in between.
+TEST(TileGrid, AWindowOverTheLimitOfTheMemoryIsNotMade) {
+  constexpr int kBlock = 16;  // tiles
+  const auto grow = [] {
+    TileGrid grid;
+    grid.writableTile(0, 0);
+    grid.writableTile(3000 * kBlock, 3000 * kBlock);  // 144 MB
+  };
+  {
+    const ResidentLimit limit(residentBytes() + 4e7);
+    EXPECT_THROW(grow(), std::bad_alloc);
+  }
+  const ResidentLimit limit(residentBytes() + 2e8);
+  EXPECT_NO_THROW(grow());
+}
+
 TEST(TileGrid, IsUnknownWhereNothingWasWritten) {
   const TileGrid grid;
   EXPECT_EQ(grid.at({0, 0}), 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/grid/RaySamples.h"
+#include "slam/grid/ScanBeams.h"
 
 namespace hybrid_slam {
 
@@ -35,6 +36,7 @@ Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& ce
 }  // namespace
 
 void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
+  if (!isInReach(pose)) return;
   GridOptions options;
   options.resolution = kResolution;
   for (; !waiting_.empty() && waiting_.front().distance < distance - delay_; waiting_.pop_front())

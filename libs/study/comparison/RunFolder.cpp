@@ -14,6 +14,7 @@
 #include "base/Errors.h"
 #include "files/Checksum.h"
 #include "files/FolderReplacement.h"
+#include "run/JsonText.h"
 #include "run/ResultFiles.h"
 #include "study/comparison/JsonFile.h"
 
@@ -101,11 +102,12 @@ std::ifstream opened(const fs::path& file) {
 }
 
 /// Returns whether a file has the recorded size and checksum. The size is compared first: damage may make a
-/// small file terabytes long. In folders of earlier builds the record is the checksum alone.
+/// small file terabytes long, or name a device. In folders of earlier builds the record is the checksum
+/// alone.
 bool isIntact(const fs::path& file, const nlohmann::json& record) {
   std::error_code missing;
   const auto sum = record.is_object() ? record.value("crc32", nlohmann::json()) : record;
-  if (!sum.is_number_unsigned()) return false;
+  if (!sum.is_number_unsigned() || !fs::is_regular_file(file, missing)) return false;
   if (record.is_object() && record.value("bytes", nlohmann::json()) != fs::file_size(file, missing))
     return false;
   return files::checksumOf(file.string()) == sum.get<uint32_t>();
@@ -151,7 +153,7 @@ void RunFolder::expect(const RunIdentity& identity) const {
   if (!isThere(file(kOrigin))) return;
   const auto origin = originIn(file(kOrigin));
   if (!origin) differs(folder_, std::string(kOrigin) + " is broken");
-  if (origin->otherSections != identity.otherSections)
+  if (origin->otherSections != nlohmann::json::parse(run::jsonText(identity.otherSections)))
     differs(folder_, "MRPT's sections of the INI file have changed");
   if (origin->logSize != identity.logSize || origin->logTime != identity.logTime)
     differs(folder_, "the log " + identity.log + " has changed since");
@@ -166,7 +168,7 @@ void RunFolder::begin(const RunIdentity& identity) const {
                                       {"log_time_ns", identity.logTime},
                                       {"other_sections", identity.otherSections}};
   std::ofstream out(partial_ / kOrigin);
-  out << origin.dump(2) << '\n';
+  out << run::jsonText(origin);
   if (!out.flush()) throw std::runtime_error("cannot write: " + partial_.string() + "; is the disk full?");
 }
 
@@ -182,7 +184,7 @@ void RunFolder::finish() const {
     if (const auto sum = files::checksumOf(entry.path().string()))
       checksums[entry.path().filename().string()] = {{"bytes", entry.file_size()}, {"crc32", *sum}};
   std::ofstream out(partial_ / kChecksums);
-  out << checksums.dump(2) << '\n';
+  out << run::jsonText(checksums);
   out.close();
   if (!out) throw std::runtime_error("cannot write: " + partial_.string() + "; is the disk full?");
   std::error_code isTaken;

@@ -89,6 +89,18 @@ TEST_F(RunFolderTest, AFileThatHasGrownToATerabyteIsDamagedAtOnce) {
   EXPECT_EQ(folder.damage(), "map.gridmap.gz");
 }
 
+// It has no end.
+TEST_F(RunFolderTest, AChecksumOfADeviceIsDamage) {
+  finishRun();
+  for (const char* record : {"1", R"({"bytes": 18446744073709551615, "crc32": 1})"}) {
+    std::ifstream in(folder.file("checksums.json"));
+    auto records = nlohmann::ordered_json::parse(in);
+    records["/dev/zero"] = nlohmann::json::parse(record);
+    std::ofstream(folder.file("checksums.json")) << records;
+    EXPECT_EQ(folder.damage(), "/dev/zero") << record;
+  }
+}
+
 TEST_F(RunFolderTest, AFileOfTheReportWithoutAChecksumIsDamage) {
   finishRun();
   std::ofstream(folder.file("checksums.json")) << "{}";

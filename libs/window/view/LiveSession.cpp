@@ -111,13 +111,21 @@ std::string LiveSession::run() {
     });
     verdict.follow(view, watch);
   });
-  client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
-             [&] {
-               if (const bool isConnected = client.isConnected(); isConnected != snapshot()->isConnected)
-                 snapshot_.change([&](LiveSnapshot& next) { next.isConnected = isConnected; });
-               if (wantsSave_.exchange(false)) live.requestSave();
-               return isStopping_ || live.hasFailed();
-             });
+  try {
+    client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
+               [&] {
+                 if (const bool isConnected = client.isConnected(); isConnected != snapshot()->isConnected)
+                   snapshot_.change([&](LiveSnapshot& next) { next.isConnected = isConnected; });
+                 if (wantsSave_.exchange(false)) live.requestSave();
+                 return isStopping_ || live.hasFailed();
+               });
+  } catch (const std::exception&) {
+    try {
+      live.finish(client.lost(), live::kPatience);  // the results so far
+    } catch (const std::exception&) {               // there are none
+    }
+    throw;
+  }
   snapshot_.change([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   const std::string summary = live.finish(client.lost(), live::kPatience);
   const auto last = isOutdated ? watch.snapshot(live.view()) : nullptr;

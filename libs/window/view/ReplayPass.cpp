@@ -27,15 +27,11 @@ Lane::Lane(const run::Configuration& all, run::RunOptions::Method method, const 
     : configuration(withMethod(all, method, folder)), run(configuration), watch(configuration, true) {}
 
 void Lane::finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target) {
-  if (!std::exchange(isFinished, true)) {
-    configuration.run.output = target;
-    try {
-      run.finish(file, log, nlohmann::ordered_json::object());
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  isFinished = true;
+  if (isWritten) return;
+  configuration.run.output = target;
+  run.finish(file, log, nlohmann::ordered_json::object());
+  isWritten = true;
 }
 
 ReplayPass::ReplayPass(const run::Configuration& configuration, const std::vector<Method>& methods,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,16 +19,16 @@ namespace hybrid_slam::window {
 struct Lane {
   Lane(const run::Configuration& all, run::RunOptions::Method method, const std::string& folder);
 
-  /// On the first call, writes the results to its folder.
+  /// Writes the results to its folder, unless an earlier call has done so.
   /// @param target  final folder, for config.ini
-  /// @throws InputError if that failed, now or on the first call
+  /// @throws InputError if they cannot be written
   void finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target);
 
   run::Configuration configuration;
   run::FilterRun run;
   FilterWatch watch;
-  bool isFinished = false;     ///< accepts no more scans
-  std::exception_ptr failure;  ///< why the results could not be written
+  bool isFinished = false;  ///< accepts no more scans
+  bool isWritten = false;   ///< all its results are
 };
 
 /// The filters and how far they have come.
