@@ -82,7 +82,9 @@ class Campaign:
             _, status, usage = os.wait4(child.pid, 0)
             child.returncode = os.waitstatus_to_exitcode(status)
             timer.cancel()
-        seconds, megabytes = time.monotonic() - start - (interrupt or 0), usage.ru_maxrss / 1024
+        seconds, megabytes = time.monotonic() - start, usage.ru_maxrss / 1024
+        if interrupt and seconds > interrupt:
+            seconds -= interrupt
         text = report.read_text(errors="replace")
         code, what = child.returncode, ""
         if code < 0:

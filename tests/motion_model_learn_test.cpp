@@ -277,10 +277,13 @@ TEST_F(MotionModelLearn, TheOutputMustBeAnotherFileThatCanBeWritten) {
 
 TEST_F(MotionModelLearn, ReplacesWhatItHasLearntOnly) {
   const std::string log = logOf(40);
-  folder.write("motion.ini", "[motion_model]\n");
-  EXPECT_EQ(learn(log), 2);
-  EXPECT_THAT(err, HasSubstr("the output exists and is no learnt motion model: " + output));
-  EXPECT_EQ(test::contentOf(output), "[motion_model]\n");
+  for (const std::string text :
+       {"[motion_model]\n", "# Learnt by motion-model-learn\n[motion_model]\n\n[grid]\n"}) {
+    folder.write("motion.ini", text);
+    EXPECT_EQ(learn(log), 2);
+    EXPECT_THAT(err, HasSubstr("the output exists and is no learnt motion model: " + output));
+    EXPECT_EQ(test::contentOf(output), text);
+  }
 }
 
 TEST_F(MotionModelLearn, CtrlCLeavesNoPartialFile) {

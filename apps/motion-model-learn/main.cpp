@@ -98,9 +98,11 @@ int learn(const CommandLine& line, run::Configuration configuration) {
       throw InputError("the output is the input", line.output, "expected another name after -o");
   }
   files::expectReplaceable(line.output, "learnt motion model", [](const std::string& file) {
-    std::string start(std::char_traits<char>::length(kOrigin) + 2, ' ');
-    std::ifstream(file).read(start.data(), static_cast<std::streamsize>(start.size()));
-    return start == std::string("# ") + kOrigin;
+    std::ifstream text(file);
+    std::string row;
+    bool isOurs = std::getline(text, row) && row.rfind(std::string("# ") + kOrigin, 0) == 0;
+    while (isOurs && std::getline(text, row)) isOurs = row[0] != '[' || row == "[motion_model]";
+    return isOurs;
   });
   warn(configuration.warnings);
   const readings::RawlogSummary log =

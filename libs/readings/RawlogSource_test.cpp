@@ -151,6 +151,12 @@ TEST(RawlogSource, AnImpossibleTimestampIsNotPartOfTheDuration) {
   }
 }
 
+TEST(RawlogSource, AStepBackByYearsIsNotPartOfTheDuration) {
+  const Replayed r =
+      replayed({test::odometry(3e9, {0, 0, 0}), scan(3e9), scan(3e9 + 2), scan(1e8), scan(1e8 + 3)});
+  EXPECT_NEAR(r.summary.duration, 5, 1e-6);
+}
+
 TEST(RawlogSource, MissingTimestamps) {
   const Replayed r = replayed({test::odometry(10, {0, 0, 0}), scan(10), test::odometry(11, {1, 0, 0}),
                                scan(test::kNoTime), test::odometry(12, {2, 0, 0}), scan(12)});

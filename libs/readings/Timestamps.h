@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace hybrid_slam::readings {
@@ -26,15 +27,15 @@ inline std::optional<double> timeOf(const mrpt::obs::CObservation& observation) 
   return isStamped(observation) ? std::optional(seconds(observation.timestamp)) : std::nullopt;
 }
 
-/// The time that readings cover (s): from the earliest timestamp to the latest. With a step forward of over a
-/// day (an impossible timestamp, two logs in one), the sum of the other steps forward.
+/// The time that readings cover (s): from the earliest timestamp to the latest. With a step of over a day (an
+/// impossible timestamp, two logs in one), the sum of the other steps forward.
 class Duration {
  public:
   void add(double t) {
     if (isEmpty_) earliest_ = latest_ = last_ = t;
     isEmpty_ = false;
     const double step = t - last_;
-    if (step > kDay)
+    if (std::abs(step) > kDay)
       hasJump_ = true;
     else if (step > 0)
       steps_ += step;

@@ -131,9 +131,10 @@ void FilterRun::replaceStuckOdometry(readings::Reading& reading) {
 
 bool FilterRun::isMemoryFull() {
   if (configuration_.run.method == Method::stock || residentBytes() <= mostBytes_) return false;
-  finishCheckpoint();  // its bytes are a copy
-  ::malloc_trim(0);    // the allocator keeps what earlier particles have freed
-  return residentBytes() > mostBytes_;
+  finishCheckpoint();             // its bytes are a copy
+  ::malloc_trim(0);               // the allocator keeps what earlier particles have freed
+  constexpr double kFull = 0.95;  // else a run at the limit would spend its time here
+  return residentBytes() > kFull * mostBytes_;
 }
 
 // Scans of new ground, in a log or from a server, would end the program and the whole machine without

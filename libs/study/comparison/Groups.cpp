@@ -58,10 +58,11 @@ Variant parseVariant(const std::string& text) {
   const auto isWordCharacter = [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '.' || c == '+';
   };
-  if (variant.name.empty() || variant.name[0] == '.' ||
+  constexpr size_t kLongest = 100;  // it is part of a folder's name
+  if (variant.name.empty() || variant.name[0] == '.' || variant.name.size() > kLongest ||
       !std::all_of(variant.name.begin(), variant.name.end(), isWordCharacter))
     throw InputError("wrong variant name `" + variant.name + "`", where,
-                     "expected letters, digits, `_`, `.`, `+`");
+                     "expected at most 100 letters, digits, `_`, `.`, `+`");
 
   std::istringstream items(text.substr(colon + 1));
   for (std::string item; std::getline(items, item, ',');) {

@@ -39,6 +39,7 @@ TEST(Variant, EveryWrongOneIsNamed) {
       EXPECT_THAT(error, HasSubstr("--variant")) << text;
   }
   EXPECT_THAT(errorOf([] { parseVariant("magic/x:a.b=c"); }), HasSubstr("unknown method `magic`"));
+  EXPECT_THAT(errorOf([] { parseVariant(std::string(101, 'x') + ":a.b=c"); }), HasSubstr("at most 100"));
 }
 
 TEST(Setting, KeysControlledByTheComparisonAreErrors) {
