@@ -31,6 +31,7 @@ std::string messageOf(const std::exception& exception) {
     text.erase(0, end + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
   if (text.find("==== MRPT") != std::string::npos) text = withoutCallStacks(text);
   text.erase(text.find_last_not_of(" \n") + 1);
+  if (text == "dereferencing nullptr poly_ptr") return "out of memory";  // what MRPT could not allocate
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
