@@ -252,15 +252,14 @@ int execute(const CommandLine& line, const std::string& command) {
   }
   if (truth.revisits || truth.plan)
     truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
-  std::error_code isNone;
+  std::error_code none;
   for (const char* report : {"results.csv", "summary.csv", "summary.json", "report.html"})
     if (const fs::path file = fs::path(line.output) / report;
-        !fs::exists(runs, isNone) && fs::exists(file, isNone))
+        !fs::exists(runs, none) && fs::exists(file, none))
       throw InputError("the output exists and is of no comparison", file.string(),
                        "expected a new folder, or one with `runs`");
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
-  std::error_code none;
   if (fs::exists(runs, none) && !fs::is_directory(runs, none))
     throw InputError("not a folder", runs.string(), "expected the folder of the runs");
   if (!sweep.empty())

@@ -20,7 +20,6 @@
 #include "base/LaserScan.h"
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
-#include "testing/TestLogs.h"
 
 namespace hybrid_slam::readings {
 namespace {
@@ -323,22 +322,6 @@ TEST(LogConversion, AFailureLeavesNoFile) {
   EXPECT_THAT(errorOf(good, good), HasSubstr("the output is the input"));
   EXPECT_THAT(errorOf(good, folder.path("none/out.rawlog")), HasSubstr("cannot write"));
   EXPECT_EQ(errorOf(good, out), "no error");
-}
-
-TEST(LogConversion, ReplacesAnEarlierRawlogOnly) {
-  const files::TemporaryFolder folder;
-  const auto convert = [&](const std::string& in, const std::string& out) {
-    return test::errorOf([&] { convertLog(in, out, {}, [](size_t, const std::string&) {}); });
-  };
-  const std::string first = laser("FLASER", 181, "0 0 0", "1"), second = laser("FLASER", 180, "0 0 0", "2");
-  const std::string a = folder.write("a.clf", first), b = folder.write("b.clf", second);
-  EXPECT_THAT(convert(a, b), HasSubstr("the output exists and is no rawlog: " + b));
-  EXPECT_EQ(test::contentOf(b), second);
-  EXPECT_EQ(convert(a, folder.write("new.rawlog", "")), "no error");
-  EXPECT_EQ(convert(a, folder.path("out.rawlog")), "no error");
-  const std::string before = test::contentOf(folder.path("out.rawlog"));
-  EXPECT_EQ(convert(b, folder.path("out.rawlog")), "no error");
-  EXPECT_NE(test::contentOf(folder.path("out.rawlog")), before);
 }
 
 /// Tests on the public logs of doc/datasets.md.

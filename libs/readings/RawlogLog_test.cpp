@@ -279,6 +279,20 @@ TEST(RawlogLog, ACutOneIsConvertedUpToTheCutUnlessStrict) {
   EXPECT_TRUE(std::filesystem::exists(out));
 }
 
+TEST(RawlogLog, ReplacesAnEarlierRawlogOnly) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writePlain(folder.path("in.rawlog"), observations());
+  const std::string text = folder.write("b.clf", "a second log of the user");
+  EXPECT_THAT(test::errorOf([&] { convert(log, text, {}); }),
+              HasSubstr("the output exists and is no rawlog: " + text));
+  EXPECT_EQ(test::contentOf(text), "a second log of the user");
+  convert(log, folder.write("empty.rawlog", ""), {});
+  const std::string out = test::writePlain(folder.path("out.rawlog"), {scan(1)}),
+                    before = test::contentOf(out);
+  convert(log, out, {});
+  EXPECT_NE(test::contentOf(out), before);
+}
+
 TEST(RawlogLog, AFailureLeavesNoFile) {
   const files::TemporaryFolder folder;
   const std::string log = test::writePlain(folder.path("in.rawlog"), observations()),

@@ -136,7 +136,7 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     if (hybrid_ || (configuration_.filter.useLines && !localizer_)) result.map = currentMap();
     hasMap = true;
     result.grid = filter_->bestGrid();
-  } catch (const std::exception&) {  // no memory: std::bad_alloc, in MRPT's filter also others
+  } catch (const std::bad_alloc&) {  // costs the files of the grid
   }
   result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
   result.trajectory = recorder_.trajectory(result.path);
