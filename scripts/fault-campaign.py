@@ -352,6 +352,35 @@ class Campaign:
         self.row("hybrid-slam-live, disk full", count, f"an error line each; {failed} without results, the others with "
                  f"all that need no whole recording; {mapped} of {recorded} recordings could be mapped up to the cut")
 
+    def fill_disk_resumed(self, count):
+        """A run that cannot write its results keeps the checkpoint that it began with."""
+        folder, whole = self.out / "full-resumed", self.out / "full-resumed-whole"
+        session = folder / "session.hslam"
+        new = [self.bin / "hybrid-slam", LOG, "-q", "-n", "20", "--checkpoint-every", "0.2", "-o", folder]
+        child = start(*new)
+        deadline = time.monotonic() + 60
+        while not session.exists() and child.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        child.kill()
+        child.communicate()
+        checkpoint = session.read_bytes()
+        resume = [self.bin / "hybrid-slam", "--resume", session, "-q", "--checkpoint-every", "0.2"]
+        self.expect(run(*resume)[0] == 0, "not resumed")
+        os.rename(folder, whole)
+        largest = (whole / "session.hslam").stat().st_size
+        for limit in [self.limit(largest) for _ in range(count)]:
+            folder.mkdir()
+            session.write_bytes(checkpoint)
+            code, err = run(*resume, limit=limit)
+            self.expect(code in (1, 2) and "error: " in err, f"resumed at {limit} bytes: {code} {err}")
+            self.expect(not (folder / "metrics.json").exists(), f"resumed at {limit} bytes: results")
+            self.expect(run(*resume)[0] == 0, f"resumed at {limit} bytes: the checkpoint is lost")
+            self.expect((folder / "map.pgm").read_bytes() == (whole / "map.pgm").read_bytes(),
+                        f"resumed at {limit} bytes: another map")
+            shutil.rmtree(folder)
+        self.row("hybrid-slam --resume, disk full", count,
+                 f"{count} ended with an error line, and could be resumed again with space")
+
     def fill_disk_eval(self, count):
         """slam-eval writes to standard output, here a file."""
         folder, path = self.out / "evaluated", self.out / "evaluated/trajectory.tum"
@@ -381,8 +410,9 @@ class Campaign:
 
 # Method of Campaign, and the option with its number of times.
 FAULTS = {"write_nowhere": None, "fill_disks": "limits", "fill_disk_live": "limits", "fill_disk_eval": "limits",
-          "kill_sessions": "kills", "kill_replays": "kills", "kill_comparisons": "kills", "kill_lives": "kills",
-          "restart_server": "restarts", "unplug": "steps", "step_stamps": "steps", "step_clocks": "steps"}
+          "fill_disk_resumed": "limits", "kill_sessions": "kills", "kill_replays": "kills", "kill_comparisons": "kills",
+          "kill_lives": "kills", "restart_server": "restarts", "unplug": "steps", "step_stamps": "steps",
+          "step_clocks": "steps"}
 
 
 def main():

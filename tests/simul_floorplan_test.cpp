@@ -89,6 +89,22 @@ TEST_F(SimulFloorplan, ReplacesAnEarlierSimulationOnly) {
   }
   ASSERT_EQ(simulate(kRun).status, 0);
   EXPECT_EQ(simulate(kRun).status, 0);
+  // A recording with its truth and a picture has the same names.
+  for (const char* name : {"out.rawlog", "out.tum", "out.png"}) {
+    const std::string before = test::contentOf(folder.path(name));
+    write(name, "of the user");
+    test::expectInputError(simulate(kRun), "simul-floorplan",
+                           "the output exists and is no earlier simulation: out.rawlog");
+    EXPECT_EQ(test::contentOf(folder.path(name)), "of the user");
+    write(name, before);
+  }
+  for (const std::string form : {"pairs", "observations"}) {
+    const std::string set = " --set simulation.form=" + form;
+    EXPECT_EQ(simulate(kRun + set).status, 0);
+    EXPECT_EQ(simulate(kRun + set).status, 0);
+    test::expectInputError(simulate(kRun + set + " --set simulation.start_time=1300000000.4"),
+                           "simul-floorplan", "the output exists and is no earlier simulation: out.rawlog");
+  }
 }
 
 TEST_F(SimulFloorplan, TheSameSeedGivesTheSameBytesInEveryFile) {

@@ -12,6 +12,7 @@
 #include "SessionArguments.h"
 #include "SettingArguments.h"
 #include "Stop.h"
+#include "base/Errors.h"
 #include "files/InstalledFiles.h"
 #include "live/ObservationClient.h"
 #include "live/Token.h"
@@ -95,8 +96,9 @@ std::string runLive(run::Configuration& configuration, const live::LiveOptions& 
                 });
   } catch (const std::exception&) {
     try {
-      finish();                        // the results so far
-    } catch (const std::exception&) {  // there are none
+      finish();  // the results so far
+    } catch (const std::exception& e) {
+      log->report("results", messageOf(e));
     }
     throw;
   }

@@ -20,6 +20,7 @@
 #include "files/InstalledFiles.h"
 #include "files/PartialFile.h"
 #include "study/simulation/BuildingPlan.h"
+#include "study/simulation/EarlierSimulation.h"
 #include "study/simulation/MovableThings.h"
 #include "study/simulation/Route.h"
 #include "study/simulation/SimulationOutput.h"
@@ -61,19 +62,6 @@ void writeTogether(const FilesAndWriters& filesAndWriters) {
   for (const auto& part : parts) part->commit();
 }
 
-/// An earlier simulation, which has all its files, is replaced; other files of these names are not.
-void expectReplaceable(const std::vector<fs::path>& simulation, const fs::path& sessionPlan) {
-  std::error_code ignored;
-  const auto hasContent = [&](const fs::path& file) {
-    return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
-  };
-  if (std::all_of(simulation.begin(), simulation.end(), hasContent)) return;
-  for (const fs::path& file : {simulation[0], simulation[1], simulation[2], sessionPlan})
-    if (hasContent(file))
-      throw InputError("the output exists and is no earlier simulation", file.string(),
-                       "expected the name of a new log, or of one with its .tum and .png");
-}
-
 void run(const CommandLine& line) {
   simulation::SimulationOptions options;
   simulation::LaserOptions laser;
@@ -93,17 +81,14 @@ void run(const CommandLine& line) {
     throw InputError("no such folder", "folder " + output.parent_path().string(),
                      "expected an existing folder");
 
-  fs::path truth = output, picture = output, sessionPlan = output;
-  truth.replace_extension(".tum");
-  picture.replace_extension(".png");
-  sessionPlan.replace_extension(".truth.plan");
-  for (const fs::path& file : {output, truth, picture, sessionPlan})
+  const simulation::SimulationFiles out(output);
+  for (const fs::path& file : {out.rawlog, out.truth, out.picture, out.plan})
     for (const std::string& input :
          {line.config, besideConfig(line, options.plan, "plan"), besideConfig(line, options.route, "route"),
           options.things.empty() ? "" : besideConfig(line, options.things, "things")})
       if (fs::equivalent(file, input, ignored))
         throw InputError("the output is an input", file.string(), "expected another name with -o");
-  expectReplaceable({output, truth, picture}, sessionPlan);
+  expectReplaceable(out, options.startTime);
 
   const simulation::BuildingPlan fixed =
       simulation::BuildingPlan::load(besideConfig(line, options.plan, "plan"));
@@ -118,13 +103,12 @@ void run(const CommandLine& line) {
   const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
 
   FilesAndWriters files = {
-      {output,
+      {out.rawlog,
        [&](const std::string& f) { simulation::writeRawlog(simulation::toRawlog(log, options.form), f); }},
-      {truth, [&](const std::string& f) { simulation::writeGroundTruth(log.groundTruth, f); }},
-      {picture, [&](const std::string& f) { simulation::writePicture(plan, log.groundTruth, f); }}};
+      {out.truth, [&](const std::string& f) { simulation::writeGroundTruth(log.groundTruth, f); }},
+      {out.picture, [&](const std::string& f) { simulation::writePicture(plan, log.groundTruth, f); }}};
   if (!things.empty())
-    files.emplace_back(sessionPlan,
-                       [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
+    files.emplace_back(out.plan, [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
   writeTogether(files);
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()
@@ -133,7 +117,7 @@ void run(const CommandLine& line) {
                                      mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
     std::printf("%s: %zu scans, %zu odometry readings, %.1f m in %.1f s; ground truth %s, picture %s\n",
                 output.c_str(), log.scans.size(), log.odometry.size(), route.progressAt(seconds).distance,
-                seconds, truth.c_str(), picture.c_str());
+                seconds, out.truth.c_str(), out.picture.c_str());
   }
 }
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "files/PartialFile.h"
+
 namespace hybrid_slam::files {
 
 namespace fs = std::filesystem;
@@ -87,7 +89,7 @@ bool FolderReplacement::removeHidden() const {
   fs::remove(hidden_ / results_.back(), ignored);  // first, so that the next run ends what a kill interrupts
   for (const std::string& name : results_) {
     fs::remove(hidden_ / name, ignored);
-    fs::remove(hidden_ / (".partial." + name), ignored);
+    PartialFile::removeLeft((hidden_ / name).string());
   }
   for (const auto& other : fs::directory_iterator(hidden_, ignored))
     if (fs::read_symlink(other.path(), ignored) == linkTo(other.path()) ||

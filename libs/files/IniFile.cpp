@@ -102,7 +102,7 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
   std::vector<std::string> warnings;
   for (std::string line; std::getline(in, line);) {
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
-    if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // byte order mark of some editors
+    removeByteOrderMark(line);
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
     const auto end = line.find(']'), equals = line.find('=');
     if (line.front() == '[' && end != std::string::npos) {

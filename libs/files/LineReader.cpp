@@ -13,6 +13,10 @@ constexpr size_t kLineBuffer = 1 << 16;
 
 }  // namespace
 
+void removeByteOrderMark(std::string& line) {
+  if (line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);
+}
+
 LineReader::LineReader(const std::string& path)
     : path_(path),
       file_(std::make_unique<CompressedFile>(path, "expected a log, plain or compressed")),
@@ -36,13 +40,13 @@ bool LineReader::next(std::string& line) {
     if (line.size() > kLongestLine)
       throw InputError("not a text log", path_ + ", line " + std::to_string(number_ + 1),
                        "expected lines of at most 1 MiB");
-    if (newline) {
-      ++number_;
-      return true;
-    }
+    if (newline) return count(line);
   }
-  if (line.empty()) return false;
-  ++number_;
+  return !line.empty() && count(line);
+}
+
+bool LineReader::count(std::string& line) {
+  if (++number_ == 1) removeByteOrderMark(line);
   return true;
 }
 

@@ -13,6 +13,10 @@ class CompressedFile;
 
 constexpr size_t kLongestLine = 1 << 20;  ///< bytes; no text log and no table has longer ones
 
+/// Removes the byte order mark that some editors write at the beginning of a UTF-8 file.
+/// @param line  the first one of the file
+void removeByteOrderMark(std::string& line);
+
 /// Reads a text file as a stream with constant memory. Compression (CompressedFile.h) is detected from
 /// the content, not the name.
 class LineReader {
@@ -23,8 +27,8 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// Reads the next line, without its line break; returns false after the last one. The last line may lack a
-  /// line break.
+  /// Reads the next line, without its line break and the file's byte order mark; returns false after the last
+  /// one. The last line may lack a line break.
   /// @throws InputError for a truncated or damaged compressed file, for a read error, and for a line longer
   ///         than 1 MiB, which no text log has
   bool next(std::string& line);
@@ -35,6 +39,7 @@ class LineReader {
 
  private:
   bool fill();
+  bool count(std::string& line);
 
   std::string path_;
   std::unique_ptr<CompressedFile> file_;

@@ -73,6 +73,17 @@ TEST(LineReader, ReadsPlainAndGzippedLinesWithTheirNumbers) {
   }
 }
 
+TEST(LineReader, SkipsTheByteOrderMarkOfTheFile) {
+  const TemporaryFolder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const std::string end : {"\n", ""}) {
+    LineReader lines(folder.write("lines", mark + "one\n" + mark + "two" + end));
+    EXPECT_THAT(readAll(lines), ElementsAre("one", mark + "two"));
+    lines.rewind();
+    EXPECT_THAT(readAll(lines), ElementsAre("one", mark + "two"));
+  }
+}
+
 TEST(LineReader, EmptyFileHasNoLine) {
   const TemporaryFolder folder;
   LineReader lines(folder.write("empty", ""));

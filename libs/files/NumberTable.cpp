@@ -40,6 +40,11 @@ void forEachLine(const std::string& file, const std::string& expected,
   if (!input) throw InputError("cannot open the file", where, expected);
   std::string line;
   size_t number = 1;
+  const auto give = [&] {
+    if (number == 1) removeByteOrderMark(line);
+    use(line, number++);
+    line.clear();
+  };
   std::vector<char> buffer(1 << 16);
   int count = 0;
   while ((count = gzread(input.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0)
@@ -47,8 +52,7 @@ void forEachLine(const std::string& file, const std::string& expected,
       if (c == '\n') {
         if (number == kMostLines)
           throw InputError("too many lines", where, "expected at most " + std::to_string(kMostLines));
-        use(line, number++);
-        line.clear();
+        give();
       } else if (line.size() < kLongestLine) {
         line += c;
       } else {
@@ -58,7 +62,7 @@ void forEachLine(const std::string& file, const std::string& expected,
   int state = Z_OK;
   gzerror(input.get(), &state);  // gzread reports no error for a truncated gzip file
   if (count < 0 || state != Z_OK) throw InputError("cannot read the file", where, expected);
-  if (!line.empty()) use(line, number);
+  if (!line.empty()) give();
 }
 
 }  // namespace

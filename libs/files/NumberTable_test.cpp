@@ -45,6 +45,18 @@ TEST_F(NumberTable, KeepsFileOrderAndLineNumbers) {
   EXPECT_EQ(rows[2].line, 6u);
 }
 
+TEST_F(NumberTable, SkipsTheByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const char* end : {"\n", ""}) {
+    write(mark + "1 2 3" + end);
+    const auto rows = readNumberTable(file, "a b c");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_THAT(rows[0].values, ElementsAre(1, 2, 3));
+  }
+  write(mark + "a,b\n1,2\n");
+  EXPECT_EQ(readNumberTable(file, "a,b").size(), 1u);
+}
+
 TEST_F(NumberTable, ReadsGzippedFilesLikePlainOnes) {
   std::string text;  // more than one read buffer
   for (int i = 0; i < 20000; ++i) text += std::to_string(i) + " 0.5 -1\n";

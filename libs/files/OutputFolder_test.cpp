@@ -148,6 +148,7 @@ TEST(GrowingFile, WhatAKilledWriterHasLeftStays) {
     PartialFile::removeLeft(root.path("map"));
     EXPECT_TRUE(fs::exists(root.path(".partial.map")));
   }
+  root.write(".partial-2.steps.csv", "rows of another\n");
   PartialFile::removeLeft(root.path("steps.csv"));
   EXPECT_THAT(namesIn(root.path("")), UnorderedElementsAre("steps.csv"));
 }

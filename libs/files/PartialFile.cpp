@@ -20,6 +20,17 @@ std::string nameOf(const fs::path& path, const std::string& number) {
   return (path.parent_path() / (".partial" + number + "." + path.filename().string())).string();
 }
 
+/// Returns whether a name is `.partial.NAME` or `.partial-N.NAME`.
+bool isPartial(const std::string& name, const std::string& final) {
+  const std::string start = ".partial", end = "." + final;
+  if (name.size() < start.size() + end.size() || name.rfind(start, 0) != 0 ||
+      name.compare(name.size() - end.size(), end.size(), end) != 0)
+    return false;
+  const std::string number = name.substr(start.size(), name.size() - start.size() - end.size());
+  return number.empty() || (number.size() > 1 && number.front() == '-' &&
+                            number.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
 }  // namespace
 
 std::string PartialFile::partialName(const std::string& path) { return nameOf(path, ""); }
@@ -52,12 +63,15 @@ void PartialFile::claim() {
 }
 
 void PartialFile::removeLeft(const std::string& path) {
-  const std::string left = partialName(path);
-  const int file = ::open(left.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return;
   std::error_code ignored;
-  if (lock(file) != Lock::ofAnother) fs::remove(left, ignored);
-  ::close(file);
+  const fs::path folder = fs::path(path).parent_path();
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+    if (!isPartial(entry.path().filename().string(), fs::path(path).filename().string())) continue;
+    const int file = ::open(entry.path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    if (lock(file) != Lock::ofAnother) fs::remove(entry.path(), ignored);
+    ::close(file);
+  }
 }
 
 /// Finds the file again if a folder above it was moved. Returns false if it was removed, or replaced.

@@ -20,7 +20,7 @@ class PartialFile {
 
   /// The partial name of a file with one writer.
   static std::string partialName(const std::string& path);
-  /// Removes the partial file of this name that a killed writer has left.
+  /// Removes the partial files of this name that killed writers have left.
   static void removeLeft(const std::string& path);
 
   const std::string& path() const { return partial_; }  ///< where to write until then

@@ -18,6 +18,7 @@
 #include "files/FolderReplacement.h"
 #include "files/InputFile.h"
 #include "files/Locks.h"
+#include "files/PartialFile.h"
 
 namespace hybrid_slam::files {
 
@@ -130,8 +131,16 @@ void StagedFolder::setOwn(const std::string& name) {
 }
 
 std::string StagedFolder::keepOwn() {
+  if (own_.empty() || !isOwn(final_, own_)) return {};
+  const fs::path own = final_ / own_, kept = stage_ / own_;
   std::error_code error;
-  if (own_.empty() || !isOwn(final_, own_) || !fs::copy_file(final_ / own_, stage_ / own_, error)) return {};
+  fs::create_hard_link(own, kept, error);  // takes no space
+  if (error && !fs::copy_file(own, kept, error)) {
+    std::error_code ignored;
+    fs::remove(kept, ignored);  // a part of it
+    throw InputError("cannot keep", own.string(),
+                     "expected free disk space for a copy beside the new results: " + error.message());
+  }
   return finalPath(own_);
 }
 
@@ -303,6 +312,7 @@ void StagedFolder::cannotRename(const std::string& reason) const {
 
 void StagedFolder::replaceFinal() {
   if (!overwrite_ && holdsResults(final_)) takeDatedSubfolder();  // copied there meanwhile
+  for (const std::string& name : results_) PartialFile::removeLeft((final_ / name).string());
   if (isBeside_ && ::rename(stage_.c_str(), final_.c_str()) == 0) return;
   const FolderReplacement replacement(stage_, final_, results_);
   if (isBeside_ && replacement.exchange())

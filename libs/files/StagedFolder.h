@@ -34,6 +34,7 @@ class StagedFolder {
   void setOwn(const std::string& name);
   /// Puts the own result of the final folder among the new ones, which lack it. Returns its path there; empty
   /// if there is none.
+  /// @throws InputError if that fails; the result stays in the final folder
   std::string keepOwn();
   /// Returns whether another run has written this file to the final folder, or has replaced ours.
   bool isOfAnother(const std::string& name) const;

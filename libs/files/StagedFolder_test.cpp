@@ -6,6 +6,7 @@
 #include "base/Errors.h"
 #include "files/DatedName.h"
 #include "testing/ErrorOf.h"
+#include "testing/FullDisk.h"
 #include "testing/StagedFolderTest.h"
 
 namespace hybrid_slam::files {
@@ -248,6 +249,37 @@ TEST_F(StagedFolderTest, ACheckpointThatAnotherHasReplacedIsNotOurs) {
     EXPECT_THAT(staged.folder(), MatchesRegex(out + "/" + kDate));
     fs::remove_all(out);
   }
+}
+
+// A checkpoint is larger than the results of a run that failed early.
+TEST_F(StagedFolderTest, TheOwnCheckpointIsKeptWholeOnAFullDisk) {
+  const std::string checkpoint(100000, '1');
+  fs::create_directory(out);
+  root.write("out/extra", checkpoint);
+  StagedFolder staged(out, kNames, false, "extra");
+  {
+    const test::FullDisk disk(1000);
+    EXPECT_EQ(staged.keepOwn(), out + "/extra");
+    write(staged, "2");
+    staged.publish();
+  }
+  EXPECT_EQ(contentOf(out + "/map"), "2");
+  EXPECT_EQ(contentOf(out + "/extra"), checkpoint);
+}
+
+TEST_F(StagedFolderTest, WhatKilledRunsLeftOfTheirResultsIsRemoved) {
+  fs::create_directory(out);
+  for (const char* name : {".partial.extra", ".partial-2.extra", ".partial-31.map"})
+    root.write(std::string("out/") + name, "a part");
+  const std::vector<std::string> others = {".partial.recording", ".partial-.extra", ".partial-2b.extra",
+                                           "2.extra"};
+  for (const std::string& name : others) root.write("out/" + name, "of the user");
+  StagedFolder staged(out, kNames, true);
+  write(staged, "1");
+  staged.publish();
+  for (const char* name : {".partial.extra", ".partial-2.extra", ".partial-31.map"})
+    EXPECT_FALSE(fs::exists(out + "/" + name)) << name;
+  for (const std::string& name : others) EXPECT_EQ(contentOf(out + "/" + name), "of the user") << name;
 }
 
 TEST_F(StagedFolderTest, AnotherRunMayTakeTheNameOfAMovedFolder) {

@@ -65,8 +65,10 @@ RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double rep
   const readings::RawlogSummary log = readings::summarise(file, {}, stop);
   warnings_ = readings::warningsOf(log, file);
   state_ = log.state;
-  if (!log.defect.empty())
-    warnings_.push_back("log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point");
+  if (!log.defect.empty()) {
+    defect_ = "log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point";
+    warnings_.push_back(defect_);
+  }
 }
 
 void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
@@ -99,6 +101,7 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
   if (!stop() && files::stateOf(file_) != state_)
     throw std::runtime_error("log has changed while it was served: " + std::string(reader.unit()) + " " +
                              std::to_string(reader.entry()) + " of " + file_ + "; served up to this point");
+  if (!stop() && !defect_.empty()) throw std::runtime_error(defect_);
 }
 
 }  // namespace hybrid_slam::live

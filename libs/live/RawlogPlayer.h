@@ -24,11 +24,14 @@ class RawlogPlayer : public CycleSource {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Plays the log to its end. Converts the odometry of action-observation pairs to CObservationOdometry.
-  /// @throws std::runtime_error at its end if the log has been written to or replaced since it was opened
+  /// @throws std::runtime_error at its end if the log is truncated or damaged, or has been written to or
+  /// replaced since
+  ///         it was opened
   void run(const CycleSink& sink, const StopCheck& stop) override;
 
  private:
   std::string file_, state_;  ///< files::stateOf, before the first pass
+  std::string defect_;        ///< how the log is truncated; empty if complete
   std::vector<std::string> warnings_;
   double cycleRate_, replayRate_;
 };

@@ -76,7 +76,13 @@ TEST(RawlogPlayer, SaysWhatIsWrongWithTheLog) {
               testing::ElementsAre("1 timestamp equal to that of the previous scan: first at entry 12 of " +
                                    file + "; kept"));
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-  EXPECT_THAT(RawlogPlayer(file, 5, kFast).warnings().back(), testing::HasSubstr("served up to this point"));
+  RawlogPlayer cut(file, 5, kFast);
+  EXPECT_THAT(cut.warnings().back(), testing::HasSubstr("served up to this point"));
+  size_t cycles = 0;
+  EXPECT_EQ(test::errorOf<std::runtime_error>(
+                [&] { cut.run([&](const auto&) { ++cycles; }, [] { return false; }); }),
+            cut.warnings().back());
+  EXPECT_GT(cycles, 5u) << "what is there is served first";
 }
 
 TEST(RawlogPlayer, ThinsAFastLog) {

@@ -151,6 +151,16 @@ TEST(RawlogSource, AnImpossibleTimestampIsNotPartOfTheDuration) {
   }
 }
 
+TEST(RawlogSource, LasersWithClocksThatDifferDoNotLengthenTheDuration) {
+  test::Log log{test::odometry(1e9, {0, 0, 0})};
+  for (int i = 0; i < 10; ++i) {
+    log.push_back(scan(1e9 + i, {}, 3));
+    log.push_back(scan(1e9 + i + 1.5, {}, 3, "REAR"));
+    if (i == 4) log.push_back(scan(4e9, {}, 3));
+  }
+  EXPECT_NEAR(replayed(log).summary.duration, 5.5 + 5.5, 1e-6) << "9 s of each laser, and a clock ahead";
+}
+
 TEST(RawlogSource, AStepBackByYearsIsNotPartOfTheDuration) {
   const Replayed r =
       replayed({test::odometry(3e9, {0, 0, 0}), scan(3e9), scan(3e9 + 2), scan(1e8), scan(1e8 + 3)});

@@ -27,27 +27,26 @@ inline std::optional<double> timeOf(const mrpt::obs::CObservation& observation) 
   return isStamped(observation) ? std::optional(seconds(observation.timestamp)) : std::nullopt;
 }
 
-/// The time that readings cover (s): from the earliest timestamp to the latest. With a step of over a day (an
-/// impossible timestamp, two logs in one), the sum of the other steps forward.
+/// The time that readings cover (s): from the earliest timestamp to the latest. A step of over a day (an
+/// impossible timestamp, two logs in one) begins another part; the durations of the parts are added.
 class Duration {
  public:
   void add(double t) {
-    if (isEmpty_) earliest_ = latest_ = last_ = t;
-    isEmpty_ = false;
-    const double step = t - last_;
-    if (std::abs(step) > kDay)
-      hasJump_ = true;
-    else if (step > 0)
-      steps_ += step;
+    if (isEmpty_ || std::abs(t - last_) > kDay) {
+      before_ = seconds();
+      earliest_ = latest_ = t;
+      isEmpty_ = false;
+    }
     earliest_ = std::min(earliest_, t);
     latest_ = std::max(latest_, t);
     last_ = t;
   }
-  double seconds() const { return hasJump_ ? steps_ : latest_ - earliest_; }
+  double seconds() const { return before_ + latest_ - earliest_; }
 
  private:
-  bool isEmpty_ = true, hasJump_ = false;
-  double earliest_ = 0, latest_ = 0, last_ = 0, steps_ = 0;
+  bool isEmpty_ = true;
+  double before_ = 0;  // of the earlier parts
+  double earliest_ = 0, latest_ = 0, last_ = 0;
 };
 
 }  // namespace hybrid_slam::readings

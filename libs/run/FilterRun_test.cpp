@@ -14,6 +14,7 @@
 #include "files/Gzip.h"
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
+#include "testing/ErrorOf.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::run {
@@ -267,6 +268,25 @@ TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {
   process(run, second);
   finish(run, second, log);
   EXPECT_EQ(run.mapNote(), "");
+}
+
+TEST_F(FilterRunTest, AStartOutOfViewOfTheMapIsAnError) {
+  Configuration first = configuration("first");
+  {
+    FilterRun run(first);
+    process(run, first);
+    finish(run, first, log);
+  }
+  for (std::string RunOptions::*use : {&RunOptions::continueFrom, &RunOptions::localizeIn})
+    for (const mrpt::math::TPose2D& start :
+         {mrpt::math::TPose2D(-60, 0, 0), {60, 0, 0}, {0, -60, 0}, {0, 60, 0}}) {
+      Configuration second = configuration("second");
+      second.run.*use = folder.path("first/session.hslam");
+      second.run.start = start;
+      EXPECT_THAT(
+          test::errorOf([&] { FilterRun run(second); }),
+          testing::HasSubstr("start out of view of the map: command line, option --start; expected at most"));
+    }
 }
 
 /// A robot in surroundings that look the same after a turn of 24 deg.

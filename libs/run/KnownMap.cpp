@@ -1,5 +1,6 @@
 #include "run/KnownMap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/Errors.h"
@@ -8,6 +9,25 @@
 #include "run/SessionFile.h"
 
 namespace hybrid_slam::run {
+namespace {
+
+/// Rejects a start from where the laser would see nothing of the map.
+void expectInView(const mrpt::math::TPose2D& start, const OccupancyGrid& grid, double maxRange,
+                  const std::string& file) {
+  const CellBox box = grid.tiles().bounds();
+  if (box.empty()) return;
+  const double cell = grid.resolution();
+  const double xMin = cell * box.min.x, xMax = cell * box.max.x, yMin = cell * box.min.y,
+               yMax = cell * box.max.y;
+  if (std::max({xMin - start.x, start.x - xMax, yMin - start.y, start.y - yMax}) > maxRange)
+    throw InputError("start out of view of the map", "command line, option --start",
+                     "expected at most " + numberText(maxRange) + " m (grid.max_range) outside x from " +
+                         numberText(std::round(xMin)) + " to " + numberText(std::round(xMax)) +
+                         " m, y from " + numberText(std::round(yMin)) + " to " +
+                         numberText(std::round(yMax)) + " m, the map of " + file);
+}
+
+}  // namespace
 
 ScanMap readKnownMap(const std::string& file) {
   if (isSession(file)) return SessionReader(file).header().map;
@@ -30,6 +50,7 @@ std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration) {
     throw InputError("another cell size than the map's", "section [grid], key `resolution`",
                      "expected " + numberText(cell) + " m as in " + file);
   configuration.filter.grid.resolution = cell;
+  if (run.start) expectInView(*run.start, map.grid, configuration.filter.grid.maxRange, file);
   if (!run.continueFrom.empty()) map.grid.limit(0.2, 0.8);
   return map;
 }

@@ -17,8 +17,8 @@ ScanMap readKnownMap(const std::string& file);
 /// Reads the map of `continueFrom` or `localizeIn`; empty without one. Sets the cell size of the filter to
 /// that of the map. In a map to continue, probabilities are limited to 0.2 to 0.8, so that objects that have
 /// moved vanish.
-/// @throws InputError for a file that is not a map, and if the configuration requires another cell size or
-/// method
+/// @throws InputError for a file that is not a map, if the configuration requires another cell size or
+/// method, and for a start from where nothing of the map is in view
 std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration);
 
 }  // namespace hybrid_slam::run

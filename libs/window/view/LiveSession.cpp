@@ -122,7 +122,8 @@ std::string LiveSession::run() {
   } catch (const std::exception&) {
     try {
       live.finish(client.lost(), live::kPatience);  // the results so far
-    } catch (const std::exception&) {               // there are none
+    } catch (const std::exception& e) {
+      log_.report("results", messageOf(e));
     }
     throw;
   }
