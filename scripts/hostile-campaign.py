@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Damaged and hostile input against the programs; the counts of doc/reliability.md.
 
-  scripts/hostile-campaign.py BIN OUT [--scale 1] [--jobs 2] [--seed 1]
+  scripts/hostile-campaign.py BIN OUT [--scale 1] [--jobs 2] [--seed 1] [--seconds 10]
 
 BIN: a folder of programs (build/release/bin, build/sanitize/bin). At scale 1: 1,000 damaged rawlogs, 1,000 damaged text
 logs and the rawlogs that log2rawlog makes of them, 300 INI files, 300 sessions, 300 maps, 300 drawings of plans, 200
 tables, 50 servers that send nonsense to hybrid-slam-live; 100 damaged logs each for observation-server, which has a
 client, and motion-model-learn, 200 inputs of simul-floorplan, 100 folders of slam-compare with damaged results.
-A run is bad if it ends by a signal, prints a sanitizer's report, takes over 10 s or 1 GB, ends with another exit status
+A run is bad if it ends by a signal, prints a sanitizer's report, takes over 10 s (--seconds) or 1 GB, ends with another exit status
 than 0, 1 or 2, fails without one line `PROGRAM: error: `, or succeeds with results that are not finite numbers. The
 input of a bad run is kept in OUT/bad. Exit status 1 if there is one. HYBRID_SLAM_DATASETS adds pieces of public logs.
 """
@@ -33,7 +33,7 @@ import zlib
 from hostile_inputs import (ROOT, Bases, damaged_bytes, damaged_messages, damaged_text, made_results, made_sweep,
                             recorded_stream)
 
-MAX_SECONDS, MAX_MEGABYTES = 10, 1024
+MAX_MEGABYTES = 1024
 SETTINGS = [["-m", method] for method in ("general", "linemap", "ortho", "stock")] + [
     ["--set", f"{key}={value}"] for key, values in {
         "particle_filter.proposal": ("standard", "auxiliary_standard", "auxiliary_optimal"),
@@ -62,8 +62,8 @@ def finite_results(folder):
 
 
 class Campaign:
-    def __init__(self, binary, out):
-        self.binary, self.out = binary, out
+    def __init__(self, binary, out, seconds):
+        self.binary, self.out, self.most_seconds = binary, out, seconds
         self.counts = collections.defaultdict(collections.Counter)
         self.slowest, self.largest = collections.Counter(), collections.Counter()
         self.bad, self.lock = [], threading.Lock()
@@ -77,7 +77,7 @@ class Campaign:
                                      env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
             if interrupt:
                 threading.Timer(interrupt, lambda: child.poll() is None and child.send_signal(signal.SIGINT)).start()
-            timer = threading.Timer(MAX_SECONDS * 6, child.kill)
+            timer = threading.Timer(self.most_seconds * 6, child.kill)
             timer.start()
             _, status, usage = os.wait4(child.pid, 0)
             child.returncode = os.waitstatus_to_exitcode(status)
@@ -93,7 +93,7 @@ class Campaign:
             what = "sanitizer"
         elif code not in (0, 1, 2):
             what = f"exit {code}"
-        elif seconds > MAX_SECONDS:
+        elif seconds > self.most_seconds:
             what = f"{seconds:.0f} s"
         elif megabytes > MAX_MEGABYTES:
             what = f"{megabytes:.0f} MB"
@@ -334,10 +334,11 @@ def main():
     parser.add_argument("--scale", type=float, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=10, help="longest good run")
     arguments = parser.parse_args()
     out = arguments.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
-    bases, campaign = Bases(arguments.bin.resolve(), out), Campaign(arguments.bin.resolve(), out)
+    bases, campaign = Bases(arguments.bin.resolve(), out), Campaign(arguments.bin.resolve(), out, arguments.seconds)
 
     def rng(number):
         return random.Random(f"{arguments.seed} {number}")

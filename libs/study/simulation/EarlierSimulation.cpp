@@ -1,7 +1,7 @@
 #include "study/simulation/EarlierSimulation.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <cmath>
@@ -24,15 +24,15 @@ bool hasContent(const fs::path& file) {
   return fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) > 0;
 }
 
-/// Returns the time of the first observation, s; NaN without one.
+/// Returns the time of the first scan, s; NaN without one.
 double startOfRawlog(const fs::path& file) {
   files::RawlogReader reader(file.string());
-  for (int i = 0; i < 2; ++i) {  // the first object may be an action
-    const auto object = reader.next();
-    auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+  for (int i = 0; i < 10; ++i) {  // before it: a comment, odometry, an action
+    mrpt::serialization::CSerializable::Ptr object = reader.next();
     const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
-    if (frame && frame->size() > 0) observation = *frame->begin();
-    if (observation) return mrpt::Clock::toDouble(observation->timestamp);
+    if (frame && frame->size() > 0) object = *frame->begin();
+    if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object))
+      return mrpt::Clock::toDouble(scan->timestamp);
   }
   return std::nan("");
 }

@@ -13,7 +13,7 @@ struct SimulationFiles {
   std::filesystem::path plan;  ///< only with movable things
 };
 
-/// @param startTime  UNIX time of the first scan, s: in a simulation exactly that of its rawlog and truth
+/// @param startTime  UNIX time of the first scan, s: exactly that of a simulation's rawlog and truth
 /// @throws InputError if a file exists, is not empty and is not of an earlier simulation with this start time
 void expectReplaceable(const SimulationFiles& files, double startTime);
 
