@@ -284,18 +284,18 @@ TEST_F(HybridSlam, WhereTheMapsOfMrptsFilterFillTheMemoryTheResultsEndThere) {
   GTEST_SKIP() << "sanitizers need their address space";
 #endif
   test::Log log;
-  for (int i = 0; i < 60; ++i) {  // 20 m steps to the north-east
-    log.push_back(test::odometry(1000 + i, {14. * i, 14. * i, 0}));
+  for (int i = 0; i < 60; ++i) {  // 40 m steps to the north-east
+    log.push_back(test::odometry(1000 + i, {28. * i, 28. * i, 0}));
     log.push_back(test::scan(1000 + i));
   }
   const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
   test::ChildProgram program(folder, "run",
                              {"/bin/sh", "-c",
-                              "ulimit -v 2000000; exec '" HYBRID_SLAM "' -q -m stock -n 5 -o '" + output +
+                              "ulimit -v 1400000; exec '" HYBRID_SLAM "' -q -m stock -n 5 -o '" + output +
                                   "' '" + ini + "' '" + path + "' --set motion_model.turn_var_d=0"});
   EXPECT_EQ(program.wait(), 1);
   EXPECT_THAT(program.err(),
-              HasSubstr("run failed: maps of 5 particles too large for MRPT's filter: over 1.0 GB"));
+              HasSubstr("run failed: maps of 5 particles too large for MRPT's filter: over 0.7 GB"));
   EXPECT_THAT(program.err(), HasSubstr("results cover the log up to this point"));
   EXPECT_TRUE(fs::exists(output + "/map.png"));
   EXPECT_GT(files::loadTum(output + "/trajectory.tum").size(), 5u);
