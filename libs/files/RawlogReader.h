@@ -25,6 +25,7 @@ class RawlogReader {
 
   /// Returns the next object; null at the end, or where the log is truncated or broken (see `defect`).
   /// @throws InputError if the first object is not a rawlog object
+  /// @throws std::bad_alloc
   mrpt::serialization::CSerializable::Ptr next();
 
   size_t entry() const { return entry_; }                ///< objects read so far

@@ -2,8 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <new>
 
 #include "base/Errors.h"
 #include "base/RandomStream.h"
@@ -231,6 +236,27 @@ TEST(RawlogReader, AFileThatIsNotALogIsAnError) {
     for (char& c : bytes) c = static_cast<char>(random.bits());
     EXPECT_THAT(readAll(folder.write("random", bytes)).error, HasSubstr("not a log"));
   }
+}
+
+TEST(RawlogReader, LackingMemoryIsNotTakenForDamage) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need their address space";
+#endif
+  const TemporaryFolder folder;
+  const std::string log = test::writePlain(
+      folder.path("log"), {test::scan(1000), test::scan(1001, {}, 1000000), test::scan(1002)});
+  RawlogReader reader(log);
+  EXPECT_TRUE(reader.next());
+  ::malloc_trim(0);
+  size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit before{};
+  ::getrlimit(RLIMIT_AS, &before);
+  const rlimit now{pages * static_cast<size_t>(::sysconf(_SC_PAGESIZE)), before.rlim_max};
+  ::setrlimit(RLIMIT_AS, &now);
+  EXPECT_THROW(reader.next(), std::bad_alloc);
+  ::setrlimit(RLIMIT_AS, &before);
+  EXPECT_EQ(reader.defect(), "");
 }
 
 }  // namespace

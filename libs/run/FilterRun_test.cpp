@@ -270,6 +270,27 @@ TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {
   EXPECT_EQ(run.mapNote(), "");
 }
 
+TEST_F(FilterRunTest, ResultsDoNotReplaceAnInput) {
+  Configuration first = configuration("out");
+  {
+    FilterRun run(first);
+    process(run, first);
+    finish(run, first, log);
+  }
+  const std::vector<std::pair<std::string RunOptions::*, std::string>> inputs = {
+      {&RunOptions::localizeIn, "session.hslam"},
+      {&RunOptions::localizeIn, "map.yaml"},
+      {&RunOptions::priorPlan, "plan.geojson"},
+      {&RunOptions::rawlog, "trajectory.tum"}};
+  for (const auto& [input, name] : inputs) {
+    Configuration again = configuration("out");
+    again.run.overwrite = true;
+    again.run.*input = folder.path("out/" + name);
+    EXPECT_THAT(test::errorOf([&] { FilterRun run(again); }),
+                HasSubstr("the results would replace an input: " + folder.path("out/" + name)));
+  }
+}
+
 TEST_F(FilterRunTest, AStartOutOfViewOfTheMapIsAnError) {
   Configuration first = configuration("first");
   {

@@ -30,7 +30,7 @@ double startOfRawlog(const fs::path& file) {
   for (int i = 0; i < 10; ++i) {  // before it: a comment, odometry, an action
     mrpt::serialization::CSerializable::Ptr object = reader.next();
     const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
-    if (frame && frame->size() > 0) object = *frame->begin();
+    if (frame && !frame->empty()) object = *frame->begin();
     if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object))
       return mrpt::Clock::toDouble(scan->timestamp);
   }
