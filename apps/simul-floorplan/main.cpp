@@ -4,7 +4,6 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
