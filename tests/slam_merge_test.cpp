@@ -116,6 +116,15 @@ TEST_F(SlamMerge, ResultsThatAreThereStay) {
   EXPECT_THAT(again.out, HasSubstr("c/2"));
 }
 
+TEST_F(SlamMerge, ResultsDoNotReplaceAnInput) {
+  map("a", 4);
+  const std::string before = content("a/session.hslam");
+  for (const char* maps : {"a a", "a/map.yaml a", "a/session.hslam a/map.yaml"})
+    test::expectInputError(run(std::string(maps) + " --overwrite -o a"), "slam-merge",
+                           "the results would replace an input: a/");
+  EXPECT_EQ(content("a/session.hslam"), before);
+}
+
 TEST_F(SlamMerge, NamesMayBeNoUtf8) {
   map("a", 4);
   fs::rename(folder.path("a"), folder.path("caf\xe9"));

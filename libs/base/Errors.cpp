@@ -16,6 +16,17 @@ std::string withoutCallStacks(const std::string& text) {
   return std::regex_replace(std::regex_replace(text, head, ""), stack, "");
 }
 
+/// The exception's message without the code location and call stack of MRPT.
+std::string plainMessageOf(const std::exception& exception) {
+  const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
+  std::string text = mrpt ? mrpt->originalWhat : exception.what();
+  if (const auto end = text.find("] "); mrpt && end != std::string::npos)
+    text.erase(0, end + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
+  if (text.find("==== MRPT") != std::string::npos) text = withoutCallStacks(text);
+  text.erase(text.find_last_not_of(" \n") + 1);
+  return text;
+}
+
 }  // namespace
 
 std::string InputError::visible(std::string text) {
@@ -23,15 +34,15 @@ std::string InputError::visible(std::string text) {
   return text;
 }
 
+bool isOutOfMemory(const std::exception& exception) {
+  // MRPT's allocator returns null, which its pointers report.
+  return dynamic_cast<const std::bad_alloc*>(&exception) ||
+         plainMessageOf(exception) == "dereferencing nullptr poly_ptr";
+}
+
 std::string messageOf(const std::exception& exception) {
-  if (dynamic_cast<const std::bad_alloc*>(&exception)) return "out of memory";
-  const auto* mrpt = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&exception);
-  std::string text = mrpt ? mrpt->originalWhat : exception.what();
-  if (const auto end = text.find("] "); mrpt && end != std::string::npos)
-    text.erase(0, end + 2);  // "FILE:LINE: [FUNCTION] MESSAGE"
-  if (text.find("==== MRPT") != std::string::npos) text = withoutCallStacks(text);
-  text.erase(text.find_last_not_of(" \n") + 1);
-  if (text == "dereferencing nullptr poly_ptr") return "out of memory";  // what MRPT could not allocate
+  if (isOutOfMemory(exception)) return "out of memory";
+  std::string text = plainMessageOf(exception);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }

@@ -23,6 +23,9 @@ class InputError : public std::runtime_error {
   static std::string visible(std::string text);
 };
 
+/// Returns whether memory ran out, in our code or in MRPT's: a file that was being read is not to blame.
+bool isOutOfMemory(const std::exception& exception);
+
 /// The message of an exception on one line, without the code location and call stack that MRPT adds.
 std::string messageOf(const std::exception& exception);
 

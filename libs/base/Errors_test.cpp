@@ -10,8 +10,12 @@ namespace hybrid_slam {
 namespace {
 
 TEST(MessageOf, LackingMemoryHasOneName) {
+  const std::runtime_error mrpts("dereferencing nullptr poly_ptr"), another("out of range");
   EXPECT_EQ(messageOf(std::bad_alloc()), "out of memory");
-  EXPECT_EQ(messageOf(std::runtime_error("dereferencing nullptr poly_ptr")), "out of memory");
+  EXPECT_EQ(messageOf(mrpts), "out of memory");
+  EXPECT_TRUE(isOutOfMemory(std::bad_alloc()));
+  EXPECT_TRUE(isOutOfMemory(mrpts));
+  EXPECT_FALSE(isOutOfMemory(another));
 }
 
 TEST(MessageOf, TheMessageOfAnMrptException) {

@@ -1,6 +1,8 @@
 #include "files/DatedName.h"
 
 #include <ctime>
+#include <filesystem>
+#include <regex>
 
 namespace hybrid_slam::files {
 
@@ -21,6 +23,11 @@ std::string claimDatedName(const std::function<bool(const std::string& name)>& c
   std::string name = stamp;
   for (int number = 2; !claim(name); ++number) name = stamp + "-" + std::to_string(number);
   return name;
+}
+
+bool hasDate(const std::string& path) {
+  static const std::regex date(R"(.*-\d{4}-\d\d-\d\dT\d\d-\d\d-\d\d(-\d+)?)");
+  return std::regex_match(std::filesystem::path(path).stem().string(), date);
 }
 
 }  // namespace hybrid_slam::files

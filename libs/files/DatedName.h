@@ -12,4 +12,7 @@ namespace hybrid_slam::files {
 /// the next name.
 std::string claimDatedName(const std::function<bool(const std::string& name)>& claim);
 
+/// Returns whether a file's name ends with such a date before its extension, as that of a recording does.
+bool hasDate(const std::string& path);
+
 }  // namespace hybrid_slam::files

@@ -48,7 +48,7 @@ std::string readGzip(const std::string& path, const std::string& what, size_t mo
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError("cannot read", path, expected);
   z_stream stream{};
-  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::runtime_error("zlib: out of memory");
+  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, inflateEnd);
   std::string out;
   std::vector<char> from(kBlock), to(kBlock);

@@ -37,7 +37,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
       note(walk.passedOver());
       if (object) return object;  // otherwise an empty entry, or one that is passed over
     } catch (const std::exception& e) {
-      if (messageOf(e) == "out of memory") throw std::bad_alloc();  // the log is not to blame
+      if (isOutOfMemory(e)) throw std::bad_alloc();
       if (entry_ == 0) throw InputError("not a log", file_, kExpected);
       const bool isCut = dynamic_cast<const ObjectCut*>(&e) != nullptr;
       defect_ = !isCut                       ? "unreadable object (" + messageOf(e) + ")"

@@ -125,6 +125,15 @@ bool StagedFolder::holdsResults(const fs::path& folder) const {
   });
 }
 
+void StagedFolder::expectKept(const std::vector<std::string>& inputs) const {
+  if (!overwrite_) return;
+  std::error_code ignored;
+  for (const std::string& input : inputs)
+    for (const std::string& name : results_)
+      if (fs::equivalent(input, final_ / name, ignored))
+        throw InputError("the results would replace an input", input, "expected another folder with -o");
+}
+
 void StagedFolder::setOwn(const std::string& name) {
   own_ = name;
   ownState_ = stateOf((final_ / own_).string());

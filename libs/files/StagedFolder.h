@@ -30,6 +30,8 @@ class StagedFolder {
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
+  /// @throws InputError if the results would replace one of these files, which the run reads
+  void expectKept(const std::vector<std::string>& inputs) const;
   /// Names a result that this run has just written to the final folder.
   void setOwn(const std::string& name);
   /// Puts the own result of the final folder among the new ones, which lack it. Returns its path there; empty

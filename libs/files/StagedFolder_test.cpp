@@ -312,6 +312,16 @@ TEST_F(StagedFolderTest, AFolderInPlaceOfAResultIsAnError) {
   EXPECT_THAT(namesIn(out + "/map"), IsEmpty());
 }
 
+TEST(DatedName, IsRecognisedAtTheEndOfAName) {
+  EXPECT_TRUE(hasDate("out/recording-2026-11-26T10-00-00.rawlog"));
+  EXPECT_TRUE(hasDate("robot-2026-11-26T10-00-00-12.rawlog"));
+  for (const char* name :
+       {"out-2026-11-26T10-00-00/out.rawlog", "recording.rawlog", "robot-2026-11-26.rawlog"})
+    EXPECT_FALSE(hasDate(name)) << name;
+  EXPECT_TRUE(
+      claimDatedName([](const std::string& name) { return hasDate("a-" + name + ".rawlog"); }).size() > 0);
+}
+
 TEST(DatedName, IsTheFirstThatIsFree) {
   int calls = 0;
   EXPECT_THAT(claimDatedName([&](const std::string&) { return ++calls == 3; }),

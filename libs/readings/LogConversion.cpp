@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/Errors.h"
+#include "files/DatedName.h"
 #include "files/InputFile.h"
 #include "files/LineReader.h"
 #include "files/RawlogReader.h"
@@ -56,6 +57,13 @@ bool isRawlog(const std::string& file) {
   }
 }
 
+/// A conversion can be repeated, a recording cannot.
+void expectNoRecording(const std::string& rawlog) {
+  std::error_code ignored;
+  if (files::hasDate(rawlog) && std::filesystem::file_size(rawlog, ignored) > 0 && !ignored)
+    throw InputError("the output would replace a recording", rawlog, "expected the name of a new file");
+}
+
 }  // namespace
 
 LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
@@ -65,6 +73,7 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
   if (std::filesystem::equivalent(logPath, rawlogPath, ignored))
     throw InputError("the output is the input", rawlogPath, "expected two different files");
   files::expectReplaceable(rawlogPath, "rawlog", isRawlog);
+  expectNoRecording(rawlogPath);
   const Source source(logPath);
   if (bags::isBag(logPath)) {
     BagLog log(logPath, planOf(contentsOf(logPath, options.isStopped), bag, logPath), options, report);

@@ -293,6 +293,17 @@ TEST(RawlogLog, ReplacesAnEarlierRawlogOnly) {
   EXPECT_NE(test::contentOf(out), before);
 }
 
+TEST(RawlogLog, NeverReplacesARecording) {
+  const files::TemporaryFolder folder;
+  const std::string log = test::writePlain(folder.path("in.rawlog"), observations());
+  const std::string name = folder.path("recording-2026-11-26T10-00-00.rawlog");
+  convert(log, name, {});
+  const std::string before = test::contentOf(name);
+  EXPECT_THAT(test::errorOf([&] { convert(log, name, pairs()); }),
+              HasSubstr("the output would replace a recording: " + name));
+  EXPECT_EQ(test::contentOf(name), before);
+}
+
 TEST(RawlogLog, AFailureLeavesNoFile) {
   const files::TemporaryFolder folder;
   const std::string log = test::writePlain(folder.path("in.rawlog"), observations()),

@@ -49,7 +49,7 @@ const std::string kExpected =
 
 Configuration::Configuration(const std::string& file, const std::vector<std::string>& settings,
                              const files::Sections& more)
-    : more_(more) {
+    : iniFile(file), more_(more) {
   warnings = files::loadIni(source, file, settings, sections(), kStockSection, kExpected);
   input.check();
   files::findInputFiles({&run.rawlog});

@@ -47,7 +47,8 @@ struct Configuration {
   readings::InputOptions input;
   FilterConfiguration filter;
   OrthoOptions ortho;
-  /// The file as read, with the command-line settings; `stock` reads MRPT's sections from it.
+  std::string iniFile;  ///< empty: none
+  /// The contents of the file as read, with the command-line settings; `stock` reads MRPT's sections from it.
   mrpt::config::CConfigFileMemory source;
 
   /// A line for each unknown section of the file.

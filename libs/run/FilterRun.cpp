@@ -55,17 +55,6 @@ std::string ownFile(const RunOptions& run) {
   return !name.empty() && fs::equivalent(run.resume, run.output / name, ignored) ? name.string() : "";
 }
 
-/// Rejects an input that the results would replace, and that they do not contain.
-void expectKept(const RunOptions& run) {
-  for (const std::string& input : {run.rawlog, run.localizeIn, run.priorPlan}) {
-    const std::string name = fs::path(input).filename().string();
-    std::error_code ignored;
-    if (run.overwrite && std::count(kResultFiles.begin(), kResultFiles.end(), name) > 0 &&
-        fs::equivalent(input, run.output + "/" + name, ignored))
-      throw InputError("the results would replace an input", input, "expected another folder with -o");
-  }
-}
-
 }  // namespace
 
 FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
@@ -77,7 +66,8 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       mostBytes_(memoryLimit() / 4),
       refinementBytes_(memoryLimit() / 4),
       sessionBytes_(memoryLimit() / 8) {
-  expectKept(configuration.run);
+  const RunOptions& run = configuration.run;
+  staged_.expectKept({configuration.iniFile, run.rawlog, run.localizeIn, run.priorPlan});
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
   if (configuration.run.method == Method::stock) {

@@ -289,6 +289,9 @@ TEST_F(FilterRunTest, ResultsDoNotReplaceAnInput) {
     EXPECT_THAT(test::errorOf([&] { FilterRun run(again); }),
                 HasSubstr("the results would replace an input: " + folder.path("out/" + name)));
   }
+  Configuration again(folder.path("out/config.ini"), {"run.output=" + folder.path("out")});
+  again.run.overwrite = true;
+  EXPECT_THAT(test::errorOf([&] { FilterRun run(again); }), HasSubstr("would replace an input"));
 }
 
 TEST_F(FilterRunTest, AStartOutOfViewOfTheMapIsAnError) {

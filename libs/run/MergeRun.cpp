@@ -79,6 +79,7 @@ MergeOutcome merge(const MergeOptions& options) {
     return outcome;
   }
   files::StagedFolder staged(options.output, kResultFiles, options.overwrite);
+  staged.expectKept({sessionIn(options.older), sessionIn(options.newer)});
   const files::OutputFolder& folder = staged.files();
   MergedMap merged = hybrid_slam::merged(older.part, newer.part, placement, configuration.filter);
 
