@@ -2,8 +2,8 @@
 # Measures what grows with laps, days and kilometres in long runs: the tables of doc/reliability.md.
 #   scripts/long-runs.sh [laps | refinement | day | drive | drive100 ...]      default: all five
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md) for `laps` and `refinement`. The results and logs go to
-# OUT (out/long-runs; 5 GB). HOURS (24) and RATE (2500 cycles/s) are those of `day`, KM ("1 2 5 10") and KM_LOOPS ("1 2",
-# with the default settings) those of `drive`. Each needs a quarter of an hour on a free core.
+# OUT (out/long-runs; 5 GB). HOURS (24) and RATE (2500 cycles/s) are those of `day`, KM and KM_LOOPS (with the
+# default settings; both "1 2 5 10") those of `drive`. Each needs a quarter of an hour on a free core, `drive` half an hour.
 source "$(dirname "$0")/lib.sh"
 if [[ $# -eq 0 && -z ${HYBRID_SLAM_DATASETS:-} ]]; then
   echo "HYBRID_SLAM_DATASETS is unset: no laps, no refinement" >&2
@@ -152,7 +152,7 @@ drive() {
     floor_of "$km"
     drive_row "$km" paper "$config/csie-lms100.ini"
   done
-  for km in ${KM_LOOPS:-1 2}; do
+  for km in ${KM_LOOPS:-1 2 5 10}; do
     floor_of "$km"
     drive_row "$km" default
   done
