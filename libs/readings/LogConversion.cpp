@@ -57,10 +57,12 @@ bool isRawlog(const std::string& file) {
   }
 }
 
-/// A conversion can be repeated, a recording cannot.
+/// A conversion can be repeated, a recording cannot. A link to one would be followed.
 void expectNoRecording(const std::string& rawlog) {
   std::error_code ignored;
-  if (files::hasDate(rawlog) && std::filesystem::file_size(rawlog, ignored) > 0 && !ignored)
+  const std::string target = std::filesystem::weakly_canonical(rawlog, ignored).string();
+  if ((files::hasDate(rawlog) || files::hasDate(target)) && std::filesystem::file_size(rawlog, ignored) > 0 &&
+      !ignored)
     throw InputError("the output would replace a recording", rawlog, "expected the name of a new file");
 }
 

@@ -301,6 +301,10 @@ TEST(RawlogLog, NeverReplacesARecording) {
   const std::string before = test::contentOf(name);
   EXPECT_THAT(test::errorOf([&] { convert(log, name, pairs()); }),
               HasSubstr("the output would replace a recording: " + name));
+  const std::string link = folder.path("latest.rawlog");
+  std::filesystem::create_symlink(name, link);
+  EXPECT_THAT(test::errorOf([&] { convert(log, link, pairs()); }),
+              HasSubstr("the output would replace a recording: " + link));
   EXPECT_EQ(test::contentOf(name), before);
 }
 
