@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/Errors.h"
+#include "base/Memory.h"
 #include "base/Numbers.h"
 #include "base/RandomStream.h"
 #include "study/simulation/BuildingPlan.h"
@@ -93,6 +94,7 @@ mrpt::obs::CObservation2DRangeScan Laser::scan(const BuildingPlan& plan, const M
   observation.stdError = static_cast<float>(spec_.sigma);
   observation.beamAperture = static_cast<float>(spec_.divergence);
   observation.sensorPose = mrpt::poses::CPose3D(options_.x, options_.y, 0, options_.yaw, 0, 0);
+  expectMemory(16 * beamCount_);
   observation.resizeScan(beamCount_);
 
   const mrpt::math::TPose2D mounting(options_.x, options_.y, options_.yaw);
