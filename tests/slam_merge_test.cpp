@@ -122,6 +122,13 @@ TEST_F(SlamMerge, ResultsDoNotReplaceAnInput) {
   for (const char* maps : {"a a", "a/map.yaml a", "a/session.hslam a/map.yaml"})
     test::expectInputError(run(std::string(maps) + " --overwrite -o a"), "slam-merge",
                            "the results would replace an input: a/");
+  std::string yaml = content("a/map.yaml");
+  yaml.replace(yaml.find("map.pgm"), 7, "a/map.pgm");
+  folder.write("elsewhere.yaml", yaml);
+  test::expectInputError(run("a/session.hslam elsewhere.yaml --overwrite -o a"), "slam-merge",
+                         "the results would replace an input: a/");
+  test::expectInputError(run("elsewhere.yaml elsewhere.yaml --overwrite -o a"), "slam-merge",
+                         "the results would replace an input: a/map.pgm");
   EXPECT_EQ(content("a/session.hslam"), before);
 }
 

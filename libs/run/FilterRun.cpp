@@ -67,8 +67,9 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       refinementBytes_(memoryLimit() / 4),
       sessionBytes_(memoryLimit() / 8) {
   const RunOptions& run = configuration.run;
-  staged_.expectKept({configuration.iniFile, run.rawlog, run.localizeIn, run.priorPlan});
   std::optional<ScanMap> map = mapOfEarlierRun(configuration);
+  staged_.expectKept({configuration.iniFile, run.rawlog, run.priorPlan});
+  for (const std::string& name : {run.continueFrom, run.localizeIn}) staged_.expectKept(filesOfMap(name));
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
   if (configuration.run.method == Method::stock) {
     auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,

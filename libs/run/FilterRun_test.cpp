@@ -278,16 +278,25 @@ TEST_F(FilterRunTest, ResultsDoNotReplaceAnInput) {
     finish(run, first, log);
   }
   const std::vector<std::pair<std::string RunOptions::*, std::string>> inputs = {
-      {&RunOptions::localizeIn, "session.hslam"},
-      {&RunOptions::localizeIn, "map.yaml"},
-      {&RunOptions::priorPlan, "plan.geojson"},
-      {&RunOptions::rawlog, "trajectory.tum"}};
+      {&RunOptions::localizeIn, "session.hslam"},   {&RunOptions::localizeIn, "map.yaml"},
+      {&RunOptions::continueFrom, "session.hslam"}, {&RunOptions::continueFrom, "map.yaml"},
+      {&RunOptions::priorPlan, "plan.geojson"},     {&RunOptions::rawlog, "trajectory.tum"}};
   for (const auto& [input, name] : inputs) {
     Configuration again = configuration("out");
     again.run.overwrite = true;
     again.run.*input = folder.path("out/" + name);
     EXPECT_THAT(test::errorOf([&] { FilterRun run(again); }),
                 HasSubstr("the results would replace an input: " + folder.path("out/" + name)));
+  }
+  std::string yaml = test::contentOf(folder.path("out/map.yaml"));
+  yaml.replace(yaml.find("map.pgm"), 7, "out/map.pgm");
+  folder.write("elsewhere.yaml", yaml);
+  for (std::string RunOptions::*input : {&RunOptions::continueFrom, &RunOptions::localizeIn}) {
+    Configuration again = configuration("out");
+    again.run.overwrite = true;
+    again.run.*input = folder.path("elsewhere.yaml");
+    EXPECT_THAT(test::errorOf([&] { FilterRun run(again); }),
+                HasSubstr("the results would replace an input: " + folder.path("out/map.pgm")));
   }
   Configuration again(folder.path("out/config.ini"), {"run.output=" + folder.path("out")});
   again.run.overwrite = true;

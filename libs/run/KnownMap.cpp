@@ -5,7 +5,9 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "files/LineReader.h"
 #include "run/MapReader.h"
+#include "run/RosMapFile.h"
 #include "run/SessionFile.h"
 
 namespace hybrid_slam::run {
@@ -32,6 +34,13 @@ void expectInView(const mrpt::math::TPose2D& start, const OccupancyGrid& grid, d
 ScanMap readKnownMap(const std::string& file) {
   if (isSession(file)) return SessionReader(file).header().map;
   return {readMap(file), LineDatabase()};
+}
+
+std::vector<std::string> filesOfMap(const std::string& map) {
+  if (map.empty()) return {};
+  const std::string file = sessionIn(map);
+  if (isSession(file) || !files::isText(file)) return {file};
+  return {file, readRosMapFile(file).picture};
 }
 
 std::optional<ScanMap> mapOfEarlierRun(Configuration& configuration) {

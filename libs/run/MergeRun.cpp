@@ -11,6 +11,7 @@
 #include "base/Numbers.h"
 #include "files/StagedFolder.h"
 #include "run/JsonText.h"
+#include "run/KnownMap.h"
 #include "run/MapFiles.h"
 #include "run/MapPartFile.h"
 #include "run/ResultFiles.h"
@@ -79,7 +80,7 @@ MergeOutcome merge(const MergeOptions& options) {
     return outcome;
   }
   files::StagedFolder staged(options.output, kResultFiles, options.overwrite);
-  staged.expectKept({sessionIn(options.older), sessionIn(options.newer)});
+  for (const std::string& map : {options.older, options.newer}) staged.expectKept(filesOfMap(map));
   const files::OutputFolder& folder = staged.files();
   MergedMap merged = hybrid_slam::merged(older.part, newer.part, placement, configuration.filter);
 

@@ -1,7 +1,6 @@
 #include "run/Replay.h"
 
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,8 +16,6 @@
 #include "run/Resume.h"
 
 namespace hybrid_slam::run {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -99,21 +96,6 @@ class Pass {
   Progress progress_;
 };
 
-/// Returns whether a file is in a folder.
-bool isIn(const std::string& file, const std::string& folder) {
-  std::error_code ignored;
-  return !file.empty() && fs::equivalent(fs::canonical(file, ignored).parent_path(), folder, ignored);
-}
-
-/// Says why a second run cannot start from the map or plan of the first; empty if it can.
-std::string missingStart(const FilterRun& run, const RunOptions& options) {
-  for (const std::string& file : {options.continueFrom, options.priorPlan})
-    if (isIn(file, run.folder())) return "these results may have replaced " + file;
-  if (!options.resume.empty() && run.hasEarlierMap())
-    return "the session does not hold the map that the run began with";
-  return {};
-}
-
 /// Returns whether a run with more particles may succeed where this one failed.
 bool isRetryDue(const ReplayOutcome& outcome, const Configuration& c) {
   const auto method = c.run.method;
@@ -140,8 +122,8 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   ReplayOutcome outcome =
       Pass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
   if (!isRetryDue(outcome, configuration)) return outcome;
-  if (const std::string missing = missingStart(*run, configuration.run); !missing.empty()) {
-    outcome.warnings.push_back("no second run: " + missing);
+  if (!configuration.run.resume.empty() && run->hasEarlierMap()) {
+    outcome.warnings.push_back("no second run: the session does not hold the map that the run began with");
     return outcome;
   }
 
