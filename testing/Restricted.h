@@ -5,6 +5,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -35,6 +37,16 @@ inline bool holdsInChild(const std::function<bool()>& restrict, const std::funct
   }
   int status = 1;
   return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+/// Limits the address space of this process to what it uses and `more` bytes.
+inline bool restrictMemory(size_t more) {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t all = 0;
+  pages >> all;
+  const rlim_t most = all * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
+  const rlimit limit{most, most};
+  return setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
 /// Lets a system call of this process fail or kill it.

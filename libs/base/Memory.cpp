@@ -1,5 +1,6 @@
 #include "base/Memory.h"
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -18,6 +19,12 @@ std::atomic<double> limit{kNone};
 void expectMemory(size_t bytes) {
   constexpr size_t kMargin = 1 << 20;
   ::operator delete(::operator new(bytes + kMargin));
+}
+
+void resizeScan(mrpt::obs::CObservation2DRangeScan& scan, size_t beams) {
+  constexpr size_t kBeamBytes = 9;  // range, intensity and validity
+  expectMemory(kBeamBytes * beams);
+  scan.resizeScan(beams);
 }
 
 double residentBytes() {

@@ -13,10 +13,6 @@
 #include <mrpt/poses/CPosePDFParticles.h>
 #include <mrpt/poses/CPosePDFSOG.h>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <fstream>
 #include <memory>
 #include <new>
 #include <vector>
@@ -327,27 +323,20 @@ TEST(ObjectReader, WithoutMemoryNoObjectIsBuilt) {
   const auto scan = CObservation2DRangeScan::Create();
   scan->resizeScan(size_t{1} << 20);
   const std::string bytes = bytesOf(scan);
-  const auto limitMemory = [] {
-    std::ifstream pages("/proc/self/statm");
-    rlim_t all = 0;
-    pages >> all;
-    const rlim_t most = all * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + 4'000'000;
-    const rlimit limit{most, most};
-    return setrlimit(RLIMIT_AS, &limit) == 0;
-  };
-  EXPECT_TRUE(test::holdsInChild(limitMemory, [&] {
-    std::vector<std::unique_ptr<char[]>> rest;
-    try {
-      for (;;) rest.push_back(std::make_unique<char[]>(1 << 20));
-    } catch (const std::bad_alloc&) {  // what earlier tests have freed is used
-    }
-    try {
-      buildObject(bytes);
-    } catch (const std::bad_alloc&) {
-      return true;
-    }
-    return false;
-  }));
+  EXPECT_TRUE(test::holdsInChild([] { return test::restrictMemory(4'000'000); },
+                                 [&] {
+                                   std::vector<std::unique_ptr<char[]>> rest;
+                                   try {
+                                     for (;;) rest.push_back(std::make_unique<char[]>(1 << 20));
+                                   } catch (const std::bad_alloc&) {  // what earlier tests have freed is used
+                                   }
+                                   try {
+                                     buildObject(bytes);
+                                   } catch (const std::bad_alloc&) {
+                                     return true;
+                                   }
+                                   return false;
+                                 }));
 }
 #endif
 

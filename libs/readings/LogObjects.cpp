@@ -28,8 +28,6 @@ mrpt::poses::CPose3D sensorPoseOf(const LaserRecord& record) {
   return {record.laserPose.x, record.laserPose.y, 0, record.laserPose.phi + middle, 0, 0};
 }
 
-constexpr size_t kBeamBytes = 9;  // in MRPT's scan
-
 CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double maxRange) {
   auto observation = CObservation2DRangeScan::Create();
   observation->timestamp = mrpt::Clock::fromDouble(record.time);
@@ -37,10 +35,9 @@ CObservation2DRangeScan::Ptr observationOf(const LaserRecord& record, double max
   observation->maxRange = static_cast<float>(std::min(maxRange, record.maxRange.value_or(maxRange)));
   observation->rightToLeft = record.angles.step >= 0;
   const size_t beams = record.ranges.size();
-  expectMemory(kBeamBytes * beams);
   observation->aperture = static_cast<float>(static_cast<double>(beams - 1) * std::abs(record.angles.step));
   observation->sensorPose = sensorPoseOf(record);
-  observation->resizeScan(beams);
+  resizeScan(*observation, beams);
   for (size_t i = 0; i < beams; ++i) {
     const float range = record.ranges[i];
     // NaN in a rawlog would reach programs that ignore the validity flags.

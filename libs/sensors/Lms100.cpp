@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "base/Clock.h"
+#include "base/Memory.h"
 
 IMPLEMENTS_GENERIC_SENSOR(Lms100, hybrid_slam::sensors)
 
@@ -50,7 +51,7 @@ CObservation2DRangeScan::Ptr observationOf(const live::cola::Scan& scan, const L
   const CPose3D pose(options.x, options.y, options.z, mrpt::DEG2RAD(options.yaw),
                      mrpt::DEG2RAD(options.pitch), mrpt::DEG2RAD(options.roll));
   observation->sensorPose = pose + CPose3D(0, 0, 0, options.isRightToLeft ? middle : -middle, 0, 0);
-  observation->resizeScan(scan.ranges.size());
+  resizeScan(*observation, scan.ranges.size());
   for (size_t i = 0; i < scan.ranges.size(); ++i) {
     observation->setScanRange(i, scan.ranges[i]);
     observation->setScanRangeValidity(i, scan.ranges[i] > 0 && scan.ranges[i] < observation->maxRange);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Memory.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam {
@@ -33,7 +34,7 @@ mrpt::obs::CObservation2DRangeScan toObservation(const LaserScan& scan) {
   out.rightToLeft = true;
   out.maxRange = static_cast<float>(scan.maxRange);
   out.sensorPose = mrpt::poses::CPose3D(scan.sensorPose);
-  out.resizeScan(scan.beams.size());
+  resizeScan(out, scan.beams.size());
   for (size_t i = 0; i < scan.beams.size(); ++i) {
     const Beam& beam = scan.beams[i];
     out.setScanRange(i, beam.valid ? static_cast<float>(beam.range) : 0);

@@ -94,8 +94,7 @@ mrpt::obs::CObservation2DRangeScan Laser::scan(const BuildingPlan& plan, const M
   observation.stdError = static_cast<float>(spec_.sigma);
   observation.beamAperture = static_cast<float>(spec_.divergence);
   observation.sensorPose = mrpt::poses::CPose3D(options_.x, options_.y, 0, options_.yaw, 0, 0);
-  expectMemory(16 * beamCount_);
-  observation.resizeScan(beamCount_);
+  resizeScan(observation, beamCount_);
 
   const mrpt::math::TPose2D mounting(options_.x, options_.y, options_.yaw);
   const double step = options_.scanTime / static_cast<double>(beamCount_ - 1);  // s

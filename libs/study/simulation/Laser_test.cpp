@@ -6,11 +6,15 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <cmath>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/RandomStream.h"
 #include "study/simulation/BuildingPlan.h"
+#include "testing/Restricted.h"
 
 namespace hybrid_slam::simulation {
 namespace {
@@ -165,6 +169,28 @@ std::string errorOf(const LaserOptions& options) {
   }
   return "no error";
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve address space
+TEST(Laser, WithoutMemoryThereIsNoScan) {
+  const BuildingPlan plan(room());
+  const Laser laser(exactLms100());
+  RandomStream random(1, 0, 0);
+  EXPECT_TRUE(test::holdsInChild([] { return test::restrictMemory(0); },
+                                 [&] {
+                                   std::vector<std::unique_ptr<char[]>> rest;
+                                   try {
+                                     for (;;) rest.push_back(std::make_unique<char[]>(1 << 19));
+                                   } catch (const std::bad_alloc&) {  // what earlier tests have freed is used
+                                   }
+                                   try {
+                                     laser.scan(plan, {4, 3, 0}, random);
+                                   } catch (const std::bad_alloc&) {
+                                     return true;
+                                   }
+                                   return false;
+                                 }));
+}
+#endif
 
 TEST(Laser, UnsupportedModesAreErrors) {
   LaserOptions options;
