@@ -126,6 +126,16 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   }
 }
 
+TEST_F(HybridSlam, OdometryThatJumpsAllTheTimeLeavesTheMapInDoubt) {
+  test::Log log;
+  for (int i = 0; i < 40; ++i) {
+    log.push_back(test::odometry(1000 + i, {i % 2 * 1e4, 0, 0}));
+    log.push_back(test::scan(1000 + i));
+  }
+  EXPECT_EQ(replay(log), 0);
+  EXPECT_THAT(out, HasSubstr("verdict: doubtful: 39 odometry readings are impossible or jump, in 40 scans"));
+}
+
 TEST_F(HybridSlam, ImpossibleOdometryIsSkipped) {
   for (const double jump : {1e9, 1e30, 1e300}) {
     SCOPED_TRACE(jump);

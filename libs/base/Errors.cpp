@@ -35,9 +35,10 @@ std::string InputError::visible(std::string text) {
 }
 
 bool isOutOfMemory(const std::exception& exception) {
-  // MRPT's allocator returns null, which its pointers report.
-  return dynamic_cast<const std::bad_alloc*>(&exception) ||
-         plainMessageOf(exception) == "dereferencing nullptr poly_ptr";
+  if (dynamic_cast<const std::bad_alloc*>(&exception)) return true;
+  const std::string message = plainMessageOf(exception);
+  return message == "dereferencing nullptr poly_ptr" ||  // MRPT's allocator returned null
+         message.find("(-4:Insufficient memory)") != std::string::npos;  // OpenCV
 }
 
 std::string messageOf(const std::exception& exception) {

@@ -10,11 +10,15 @@ namespace hybrid_slam {
 namespace {
 
 TEST(MessageOf, LackingMemoryHasOneName) {
-  const std::runtime_error mrpts("dereferencing nullptr poly_ptr"), another("out of range");
+  const std::runtime_error mrpts("dereferencing nullptr poly_ptr"), another("out of range"),
+      opencvs(
+          "OpenCV(4.6.0) ./modules/core/src/alloc.cpp:73: error: (-4:Insufficient memory) Failed to allocate "
+          "12004848 bytes in function 'OutOfMemoryError'");
   EXPECT_EQ(messageOf(std::bad_alloc()), "out of memory");
   EXPECT_EQ(messageOf(mrpts), "out of memory");
   EXPECT_TRUE(isOutOfMemory(std::bad_alloc()));
   EXPECT_TRUE(isOutOfMemory(mrpts));
+  EXPECT_TRUE(isOutOfMemory(opencvs));
   EXPECT_FALSE(isOutOfMemory(another));
 }
 

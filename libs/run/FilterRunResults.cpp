@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -209,13 +208,11 @@ bool FilterRun::writeOrNote(const std::string& result, const Write& write) {
   try {
     write();
     return true;
-  } catch (const std::bad_alloc&) {
-    return note("out of memory");
   } catch (const UnreadableLog& e) {
     return note(e.what());
-  } catch (const cv::Exception& e) {
-    if (e.code != cv::Error::StsNoMem) throw;
-    return note("out of memory");
+  } catch (const std::exception& e) {
+    if (!isOutOfMemory(e)) throw;
+    return note(messageOf(e));
   }
 }
 
@@ -243,6 +240,8 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   evidence.isCut = !isRead || isUpdate.size() < uses_.size();
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
+  if (!scanOdometry_) evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
+  evidence.scans = log.scans;
   verdict_ = verdictOf(evidence);
   const PathCovariances covariances(result.path, particleCovariances_, evidence.returning,
                                     configuration_.filter.useLines);

@@ -24,6 +24,7 @@ constexpr double kJump = 0.5;      // share of a scan's beams that contradict th
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
+constexpr double kFaults = 0.1;    // of the odometry, per scan
 constexpr double kFewBeams = 30;   // wrong maps of fewer agree with themselves
 
 size_t contradictedOf(const std::vector<Revisit>& revisits) {
@@ -139,6 +140,10 @@ Verdict verdictOf(const Evidence& evidence) {
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
   if (verdict.level != Level::consistent && evidence.slips > 0)
     find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
+  if (static_cast<double>(evidence.odometryFaults) > kFaults * static_cast<double>(evidence.scans))
+    find(Level::doubtful, std::to_string(evidence.odometryFaults) +
+                              " odometry readings are impossible or jump, in " +
+                              counted(evidence.scans, "scan(s)"));
   if (evidence.beams < kFewBeams)
     find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
                               fixedText(evidence.beams, 0) + " on average");

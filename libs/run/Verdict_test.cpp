@@ -134,6 +134,17 @@ TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {
                                            "odometry rejected in 2 updates"));
 }
 
+TEST(Verdict, OdometryThatIsMostlyBrokenIsDoubtful) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.scans = 100;
+  evidence.odometryFaults = 10;
+  EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
+  evidence.odometryFaults = 11;
+  EXPECT_EQ(verdictOf(evidence).line(),
+            "verdict: doubtful: 11 odometry readings are impossible or jump, in 100 scans");
+  EXPECT_FALSE(verdictOf(evidence).isContradicted);
+}
+
 TEST(Verdict, AMapThatWasNotComparedToItsEndIsDoubtful) {
   Evidence evidence;
   evidence.isCut = true;
