@@ -1,5 +1,6 @@
 #include "readings/RawlogSource.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -105,7 +106,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   size_t firstScan = 0;
   Uses uses;
   std::map<std::string, double> last;  // timestamp of each laser's previous scan
-  Duration duration;
+  std::map<std::string, Duration> durations;
   const auto noteOdometry = [&](bool isRight, bool& hasSome) {
     if (isRight)
       hasSome = true;
@@ -140,7 +141,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!isNew && t < before->second) note(summary.stepsBack, reader.entry());
     if (!isNew && t - before->second > kDay) note(summary.timeJumps, reader.entry());
     if (!isNew && t == before->second) note(summary.repeatedStamps, reader.entry());
-    duration.add(t);
+    durations[scan.sensorLabel].add(t);  // their clocks may differ
     before->second = t;
   };
   while (const auto object = reader.next()) {
@@ -169,7 +170,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     hasBegun = hasBegun || beginning.next();
   }
   summary.hasMotion = summary.hasOdometryReadings ? readingsMove : actionsMove;  // readings replace actions
-  summary.duration = duration.seconds();
+  for (const auto& [label, duration] : durations)
+    summary.duration = std::max(summary.duration, duration.seconds());
   summary.entries = reader.entry();
   summary.defect = reader.defect();
   summary.brokenLines = {reader.brokenLines(), reader.firstBroken()};
