@@ -187,6 +187,21 @@ TEST_F(SlamCompare, AReportThatIsNotOursStays) {
   EXPECT_EQ(test::contentOf(folder.path("out/report.html")), "mine");
 }
 
+TEST_F(SlamCompare, TablesDoNotReplaceAnInput) {
+  fs::create_directories(folder.path("out/runs"));
+  const std::string truth = test::contentOf(SOURCE_DIR "/datasets/csie/csie-corridor.tum");
+  folder.write("out/summary.json", truth);
+  EXPECT_THAT(errorLine(run(kSmall + " --reference out/summary.json")),
+              HasSubstr("the results would replace an input: out/summary.json"));
+  fs::create_hard_link(config, folder.path("out/summary.csv"));
+  EXPECT_THAT(errorLine(run(kSmall)), HasSubstr("the results would replace an input: " + config));
+  fs::remove(folder.path("out/summary.csv"));
+  fs::copy_file(config, folder.path("out/results.csv"));
+  EXPECT_THAT(errorLine(run(kSmall + " --variant hybrid/other:@out/results.csv")),
+              HasSubstr("the results would replace an input: out/results.csv"));
+  EXPECT_EQ(test::contentOf(folder.path("out/summary.json")), truth);
+}
+
 TEST_F(SlamCompare, EveryWrongInputIsOneLineAndStartsNoRun) {
   folder.write("far.tum", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
   folder.write("broken.relations", "1287388800.0 1287388801.0 1 0 0 0 0 0\n1287388800.0 oops\n");

@@ -212,6 +212,24 @@ class FolderLock {
   int file_;
 };
 
+/// Rejects tables that would replace other files.
+void expectFree(const CommandLine& line, const std::vector<comparison::Variant>& variants,
+                const fs::path& runs) {
+  std::vector<std::string> inputs = {line.files.config, line.files.log, line.reference,
+                                     line.relations,    line.odometry,  line.floorplan};
+  for (const comparison::Variant& variant : variants) inputs.push_back(variant.iniFile);
+  std::error_code none;
+  for (const char* report : {"results.csv", "summary.csv", "summary.json", "report.html"}) {
+    const fs::path file = fs::path(line.output) / report;
+    if (!fs::exists(runs, none) && fs::exists(file, none))
+      throw InputError("the output exists and is of no comparison", file.string(),
+                       "expected a new folder, or one with `runs`");
+    for (const std::string& input : inputs)
+      if (fs::equivalent(input, file, none))
+        throw InputError("the results would replace an input", input, "expected another folder with -o");
+  }
+}
+
 /// A command quoted for the shell.
 std::string quoted(const std::vector<std::string>& arguments) {
   std::string command;
@@ -252,12 +270,8 @@ int execute(const CommandLine& line, const std::string& command) {
   }
   if (truth.revisits || truth.plan)
     truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
+  expectFree(line, variants, runs);
   std::error_code none;
-  for (const char* report : {"results.csv", "summary.csv", "summary.json", "report.html"})
-    if (const fs::path file = fs::path(line.output) / report;
-        !fs::exists(runs, none) && fs::exists(file, none))
-      throw InputError("the output exists and is of no comparison", file.string(),
-                       "expected a new folder, or one with `runs`");
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
   if (fs::exists(runs, none) && !fs::is_directory(runs, none))

@@ -187,6 +187,8 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
                                {{"median", nearestRankQuantile(latencies_, 0.5)},
                                 {"p99", nearestRankQuantile(latencies_, 0.99)},
                                 {"max", nearestRankQuantile(latencies_, 1)}}}};
+  if (lost > 0)
+    log_.report("results", "without " + counted(lost, "cycle(s)") + " of the server that did not arrive");
   if (failure_) more["complete"] = false;
   const std::string summary = run_.finish(recording_.path(), recorded, more);
   tellNotes();

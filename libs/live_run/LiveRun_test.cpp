@@ -136,8 +136,10 @@ TEST_F(LiveRunTest, ALateFilterSkipsScansAndKeepsTheirMotion) {
     run.take(cycle);
   }
   sent.set_value();
-  run.finish(0);
+  run.finish(7);
   const auto metrics = nlohmann::json::parse(result("live/metrics.json"));
+  EXPECT_EQ(metrics["lost_cycles"], 7);
+  EXPECT_EQ(events.count("without 7 cycles of the server that did not arrive"), 1u);
   EXPECT_EQ(metrics["scans"].get<size_t>() + metrics["skipped"].get<size_t>(), kScans);
   EXPECT_GT(metrics["skipped"], 0);
   EXPECT_NEAR(metrics["distance_m"].get<double>(), 0.01 * (kScans - 1), 1e-6);

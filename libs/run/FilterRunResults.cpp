@@ -240,6 +240,7 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   evidence.isCut = !isRead || isUpdate.size() < uses_.size();
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
+  evidence.updates = updateTimes_.size();
   if (!scanOdometry_) evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
   evidence.scans = log.scans;
   verdict_ = verdictOf(evidence);

@@ -162,12 +162,23 @@ void FilterRun::finishCheckpoint() {
 void FilterRun::saveToDatedFolder() {
   if (search_ || planSearch_) throw std::runtime_error(placeNote());
   staged_.follow();
-  const std::string name = files::claimDatedName([this](const std::string& date) {
-    return std::filesystem::create_directory(staged_.finalPath("saved-" + date));
+  namespace fs = std::filesystem;
+  const auto saved = [this](const std::string& date) { return staged_.finalPath("saved-" + date); };
+  const auto hidden = [this](const std::string& date) {
+    return staged_.finalPath(".saved-" + date + ".part");
+  };
+  const std::string name = files::claimDatedName([&](const std::string& date) {
+    return !fs::exists(fs::symlink_status(saved(date))) && fs::create_directory(hidden(date));
   });
-  const std::string folder = staged_.finalPath("saved-" + name);
-  saveMapTo(folder);
-  notes_.push_back("map saved: " + folder);
+  try {
+    saveMapTo(hidden(name));
+    fs::rename(hidden(name), saved(name));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(hidden(name), ignored);
+    throw;
+  }
+  notes_.push_back("map saved: " + saved(name));
 }
 
 void FilterRun::saveMapTo(const std::string& path) {

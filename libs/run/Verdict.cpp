@@ -24,8 +24,10 @@ constexpr double kJump = 0.5;      // share of a scan's beams that contradict th
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
-constexpr double kFaults = 0.1;    // of the odometry, per scan
-constexpr double kFewBeams = 30;   // wrong maps of fewer agree with themselves
+constexpr double kSlips = 0.5;     // share of the updates
+constexpr size_t kFewestSlips = 10;
+constexpr double kFaults = 0.1;   // of the odometry, per scan
+constexpr double kFewBeams = 30;  // wrong maps of fewer agree with themselves
 
 size_t contradictedOf(const std::vector<Revisit>& revisits) {
   return static_cast<size_t>(std::count_if(revisits.begin(), revisits.end(),
@@ -138,7 +140,10 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.spread > kSpread)
     find(Level::doubtful,
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
-  if (verdict.level != Level::consistent && evidence.slips > 0)
+  const bool isOdometryUseless =
+      evidence.slips >= kFewestSlips &&
+      static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
+  if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
     find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
   if (static_cast<double>(evidence.odometryFaults) > kFaults * static_cast<double>(evidence.scans))
     find(Level::doubtful, std::to_string(evidence.odometryFaults) +

@@ -36,7 +36,7 @@ struct Evidence {
   std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
   std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
   double spread = 0;               ///< m, standard deviation of the particles at the end
-  size_t slips = 0;                ///< updates whose odometry was rejected
+  size_t slips = 0, updates = 0;   ///< updates whose odometry was rejected, and all
   size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps
   size_t scans = 0;                ///< of the log
   double beams = NAN;              ///< mean number of beams of up to 8 m in a scan, at most 90; NaN: no scan

@@ -74,10 +74,11 @@ void RunningVerdict::add(const FilterView& view, const Scans& scans) {
 
 std::function<Verdict()> RunningVerdict::judge(const FilterView& view) const {
   const double spread = std::hypot(view.lastStep().stdX, view.lastStep().stdY);
-  return [scans = scans_, path = view.bestPath(), spread, slips = slips_] {
+  return [scans = scans_, path = view.bestPath(), spread, slips = slips_, updates = view.updates()] {
     Evidence evidence = scans.evidence(path);
     evidence.spread = spread;
     evidence.slips = slips;
+    evidence.updates = updates;
     return verdictOf(evidence);
   };
 }

@@ -155,8 +155,16 @@ TEST(Verdict, AMapThatWasNotComparedToItsEndIsDoubtful) {
 
 TEST(Verdict, SlipsAloneAreNoReason) {
   Evidence evidence;
-  evidence.returning = scans(100), evidence.slips = 2;
+  evidence.returning = scans(100), evidence.slips = 2, evidence.updates = 3;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
+  evidence.slips = 100, evidence.updates = 200;
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
+}
+
+TEST(Verdict, OdometryThatIsMostlyRejectedIsDoubtful) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.slips = 101, evidence.updates = 200;
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: doubtful: odometry rejected in 101 updates");
 }
 
 }  // namespace
