@@ -37,7 +37,7 @@ std::string InputError::visible(std::string text) {
 bool isOutOfMemory(const std::exception& exception) {
   if (dynamic_cast<const std::bad_alloc*>(&exception)) return true;
   const std::string message = plainMessageOf(exception);
-  return message == "dereferencing nullptr poly_ptr" ||  // MRPT's allocator returned null
+  return message == "dereferencing nullptr poly_ptr" ||                  // MRPT's allocator returned null
          message.find("(-4:Insufficient memory)") != std::string::npos;  // OpenCV
 }
 
