@@ -14,6 +14,7 @@ failed=0
 python3 scripts/hostile-campaign.py build/release/bin "$out/hostile" || failed=1
 python3 scripts/hostile-campaign.py build/sanitize/bin "$out/hostile-sanitize" --scale 0.3 --seed 2 --seconds 60 || failed=1
 python3 scripts/fault-campaign.py build/release/bin "$out/faults" || failed=1
+build/release/bin/hybrid_slam_run_test --gtest_filter='*AFullDiskLeavesAllFilesOrNone' || failed=1
 build/release/bin/hybrid_slam_view_test --gtest_filter='*AFullDiskLeavesNoPartOfTheResults' || failed=1
 # Sensors that die and return.
 build/release/bin/hybrid_slam_device_test --gtest_filter='*EveryFault*:*Damaged*' --gtest_repeat=5 || failed=1

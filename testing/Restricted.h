@@ -16,7 +16,10 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <memory>
+#include <new>
 #include <string>
+#include <vector>
 
 namespace hybrid_slam::test {
 
@@ -47,6 +50,24 @@ inline bool restrictMemory(size_t more) {
   const rlim_t most = all * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
   const rlimit limit{most, most};
   return setrlimit(RLIMIT_AS, &limit) == 0;
+}
+
+/// Runs `body` in a child process without free memory. @return whether it throws std::bad_alloc
+inline bool throwsWithoutMemory(const std::function<void()>& body) {
+  return holdsInChild([] { return restrictMemory(0); },
+                      [&] {
+                        std::vector<std::unique_ptr<char[]>> rest;
+                        try {
+                          for (;;) rest.push_back(std::make_unique<char[]>(1 << 19));
+                        } catch (const std::bad_alloc&) {  // what earlier tests have freed is used
+                        }
+                        try {
+                          body();
+                        } catch (const std::bad_alloc&) {
+                          return true;
+                        }
+                        return false;
+                      });
 }
 
 /// Lets a system call of this process fail or kill it.

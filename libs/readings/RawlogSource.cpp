@@ -106,19 +106,21 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   size_t firstScan = 0;
   Uses uses;
   std::map<std::string, double> last;  // timestamp of each laser's previous scan
-  std::map<std::string, Duration> durations;
-  const auto noteOdometry = [&](bool isRight, bool& hasSome) {
+  Duration allLasers;
+  std::map<std::string, Duration> durations;  // of each laser; their clocks may differ
+  Oddity wrongActions, actionJumps;
+  const auto noteOdometry = [&](bool isRight, bool& hasSome, Oddity& wrong) {
     if (isRight)
       hasSome = true;
     else
-      note(summary.wrongOdometry, reader.entry());
+      note(wrong, reader.entry());
   };
   std::optional<TPose2D> first;
   bool actionsMove = false, readingsMove = false;
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
-    noteOdometry(isPossible(pose), summary.hasOdometryReadings);
+    noteOdometry(isPossible(pose), summary.hasOdometryReadings, summary.wrongOdometry);
     if (!isPossible(pose)) return;
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
@@ -141,15 +143,16 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!isNew && t < before->second) note(summary.stepsBack, reader.entry());
     if (!isNew && t - before->second > kDay) note(summary.timeJumps, reader.entry());
     if (!isNew && t == before->second) note(summary.repeatedStamps, reader.entry());
-    durations[scan.sensorLabel].add(t);  // their clocks may differ
+    allLasers.add(t);
+    durations[scan.sensorLabel].add(t);
     before->second = t;
   };
   while (const auto object = reader.next()) {
     if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
     if (const auto increment = incrementOf(object)) {
-      noteOdometry(isFinite(*increment), summary.hasActions);
+      noteOdometry(isFinite(*increment), summary.hasActions, wrongActions);
       actionsMove |= isFinite(*increment) && *increment != TPose2D();
-      if (isFinite(*increment) && isJump({}, *increment)) note(summary.jumps, reader.entry());
+      if (isFinite(*increment) && isJump({}, *increment)) note(actionJumps, reader.entry());
     } else if (isAction(object)) {
       note(summary.noOdometry, reader.entry());
     }
@@ -170,6 +173,11 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     hasBegun = hasBegun || beginning.next();
   }
   summary.hasMotion = summary.hasOdometryReadings ? readingsMove : actionsMove;  // readings replace actions
+  if (!summary.hasOdometryReadings) {
+    summary.jumps = actionJumps;
+    if (wrongActions.count > 0) summary.wrongOdometry = wrongActions;
+  }
+  summary.duration = allLasers.seconds();
   for (const auto& [label, duration] : durations)
     summary.duration = std::max(summary.duration, duration.seconds());
   summary.entries = reader.entry();

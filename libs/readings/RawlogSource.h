@@ -56,7 +56,7 @@ struct RawlogSummary {
   bool isDeskewed = false;               ///< beams are corrected by these where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;              ///< the odometry changes
-  double duration = 0;                 ///< s, the longest of a laser's; Duration
+  double duration = 0;                 ///< s, of the scans; Duration
   size_t entries = 0;                  ///< lines of a text log, messages of a bag
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"
   std::shared_ptr<const BagPlan> bag;  ///< topics used of a bag; null for other logs

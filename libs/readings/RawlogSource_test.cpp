@@ -158,7 +158,28 @@ TEST(RawlogSource, LasersWithClocksThatDifferDoNotLengthenTheDuration) {
     log.push_back(scan(1e9 + i + 1.5, {}, 3, "REAR"));
     if (i == 4) log.push_back(scan(4e9, {}, 3));
   }
-  EXPECT_NEAR(replayed(log).summary.duration, 9, 1e-6) << "that of the laser without the wrong time";
+  EXPECT_NEAR(replayed(log).summary.duration, 5.5 + 5.5, 1e-6) << "9 s of each laser, and a clock ahead";
+}
+
+TEST(RawlogSource, FaultsOfActionsThatReadingsReplaceDoNotCount) {
+  for (const bool hasReadings : {false, true}) {
+    test::Log log;
+    for (int i = 0; i < 4; ++i) {
+      if (hasReadings) log.push_back(test::odometry(10 + i, {0.1 * i, 0, 0}));
+      log.push_back(test::action({i == 2 ? 200. : 0.1, 0, 0}));
+      log.push_back(scan(10 + i));
+    }
+    log.push_back(test::action({std::nan(""), 0, 0}));
+    const Replayed r = replayed(log);
+    EXPECT_EQ(r.summary.jumps.count, hasReadings ? 0u : 1u);
+    EXPECT_EQ(r.summary.wrongOdometry.count, hasReadings ? 0u : 1u);
+  }
+}
+
+TEST(RawlogSource, LasersThatTakeTurnsHaveTheDurationOfBoth) {
+  test::Log log{test::odometry(1e9, {0, 0, 0})};
+  for (int i = 0; i < 10; ++i) log.push_back(scan(1e9 + i, {}, 3, i < 5 ? "FRONT" : "REAR"));
+  EXPECT_NEAR(replayed(log).summary.duration, 9, 1e-6);
 }
 
 TEST(RawlogSource, LasersWithClocksAYearApartHaveTheDurationOfOne) {

@@ -157,6 +157,8 @@ TEST(Verdict, SlipsAloneAreNoReason) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.slips = 2, evidence.updates = 3;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
+  evidence.slips = 9, evidence.updates = 9;
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
   evidence.slips = 100, evidence.updates = 200;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
 }
