@@ -2,13 +2,13 @@
 """The table of scripts/nees-relations.sh: nees-relations-table.py OUT METHOD...
 
 The figures are those of `slam-eval nees-relations`, means over the runs of a log, with the least and the greatest in
-brackets: first as if the relations were exact, then with the noise that scripts/relation-noise.py finds in them."""
+brackets: first as if the relations were exact, then with the noise that their cycles show (scripts/relation-noise.py, scripts/scan-relations.py)."""
 import json
 import statistics
 import sys
 from pathlib import Path
 
-PARTS = {"near": "within 1 min", "returning": "later"}
+PARTS = {"near": "within 1 min", "returning": "later", "scans": "later, two scans matched"}
 TITLES = {"hybrid": "with lines", "general": "without"}
 
 
@@ -18,12 +18,12 @@ def main():
           "| in the 95 % region | of x, y, heading alone |")
     print("|---|---|---|---|---|---|---|---|")
     for log in sorted((out / "runs").iterdir()):
-        metres, degrees = (out / "relations" / f"{log.name}-noise").read_text().split()
         for method in sys.argv[2:]:
             for part, title in PARTS.items():
                 runs = sorted(file.parent for file in (log / method).glob("*/done"))
-                if not runs:
+                if not runs or not (out / "relations" / f"{log.name}-{part}").exists():
                     continue
+                metres, degrees = map(float, (out / "relations" / f"{log.name}-{part}-noise").read_text().split())
                 exact, noisy = ([json.loads((run / f"{kind}-{part}.json").read_text()) for run in runs]
                                 for kind in ("exact", "noisy"))
 
@@ -32,7 +32,7 @@ def main():
 
                 means = [value["nees_mean"] for value in noisy]
                 axes = ", ".join(f"{mean(noisy, 'inside_95_' + axis, 100):.0f}" for axis in ("x", "y", "heading"))
-                print(f"| {log.name}, {metres} m and {degrees} deg, {TITLES.get(method, method)}, {title} "
+                print(f"| {log.name}, {metres:.3f} m and {degrees:.2f} deg, {TITLES.get(method, method)}, {title} "
                       f"| {len(runs)} | {noisy[0]['used']} | {mean(exact, 'nees_mean'):.1f} "
                       f"| {statistics.fmean(means):.1f} ({min(means):.1f} to {max(means):.1f}) "
                       f"| {mean(noisy, 'nees_median'):.1f} | {mean(noisy, 'inside_95', 100):.0f} % | {axes} % |")

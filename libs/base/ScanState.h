@@ -13,6 +13,7 @@
 
 #include "base/DeskewedScan.h"
 #include "base/LaserScan.h"
+#include "base/Memory.h"
 #include "base/State.h"
 
 namespace hybrid_slam {
@@ -55,7 +56,7 @@ void visit(State& state, mrpt::obs::CObservation2DRangeScan& scan) {
     scan.sensorPose.setRotationMatrix(mrpt::math::CMatrixDouble33(rotation));
     scan.sensorPose.x(at.x), scan.sensorPose.y(at.y);
     if (deskewed) deskewed->angles = std::move(angles);
-    scan.resizeScan(ranges.size());
+    resizeScan(scan, ranges.size());
     for (size_t i = 0; i < ranges.size(); ++i) {
       float range;
       std::memcpy(&range, &ranges[i], sizeof range);

@@ -104,8 +104,11 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
       for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
     }
   }
+  std::vector<MotionDistribution> odometry;
+  for (const mrpt::math::TPose2D& motion : recorder_.motions())
+    odometry.push_back(motionDistribution({}, motion, configuration_.filter.motion));
   refine(scans, configuration_.run.refine, configuration_.filter.grid, configuration_.filter.matcher,
-         configuration_.filter.improved.minFit, configuration_.filter.filter.threads, base);
+         configuration_.filter.improved.minFit, configuration_.filter.filter.threads, base, odometry);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;

@@ -54,6 +54,12 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
   return out;
 }
 
+std::vector<TPose2D> TrajectoryRecorder::motions() const {
+  std::vector<TPose2D> all;
+  for (size_t i = 1; i < scans_.size(); ++i) all.push_back(scans_[i].odometry - scans_[i - 1].odometry);
+  return all;
+}
+
 std::vector<size_t> TrajectoryRecorder::updates() const {
   std::vector<size_t> all;
   for (const Scan& scan : scans_) all.push_back(scan.updates);

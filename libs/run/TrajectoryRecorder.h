@@ -23,6 +23,9 @@ class TrajectoryRecorder {
   /// @param path  one pose per update (map frame)
   files::Trajectory trajectory(const std::vector<mrpt::math::TPose2D>& path) const;
 
+  /// Returns the odometry from each scan to the next (m, rad).
+  std::vector<mrpt::math::TPose2D> motions() const;
+
   /// Returns the number of updates up to each scan.
   std::vector<size_t> updates() const;
 

@@ -23,6 +23,47 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
   return grid;
 }
 
+/// Returns the pose up to half a metre ahead, behind, left or right of `pose` where the scan fits best; empty
+/// if that is the next cell or `pose` itself, where a match leads anyway.
+std::optional<TPose2D> bestNear(ScanLikelihood& likelihood, const TPose2D& pose) {
+  constexpr double kReach = 0.5;  // m
+  std::optional<TPose2D> best;
+  double highest = likelihood.value(pose);
+  const double step = likelihood.resolution();
+  for (int i = 1; i * step <= kReach; ++i)
+    for (const TPose2D& side : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0)}) {
+      const TPose2D there = pose + TPose2D(i * step * side.x, i * step * side.y, 0);
+      if (const double value = likelihood.value(there); value > highest) {
+        highest = value;
+        best = i > 1 ? std::optional(there) : std::nullopt;
+      }
+    }
+  return best;
+}
+
+/// Moves each run of scans that fit better elsewhere, unless the motions at its two ends then depart from the
+/// odometry by more than before and 3 standard deviations.
+void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2D>>& elsewhere,
+          const std::vector<MotionDistribution>& odometry) {
+  constexpr double kDeviations = 3;
+  for (size_t first = 0, end; first < scans.size(); first = end + 1) {
+    for (end = first; end < scans.size() && elsewhere[end];) ++end;
+    if (end == first) continue;
+    double increase = 0, variance = 0;  // m, m^2
+    const auto addEnd = [&](size_t i, const TPose2D& from, const TPose2D& to) {
+      const auto departure = [&](const TPose2D& motion) {
+        return std::hypot(motion.x - odometry[i].mean.x, motion.y - odometry[i].mean.y);
+      };
+      increase += departure(to - from) - departure(scans[i + 1].pose - scans[i].pose);
+      variance += odometry[i].covariance.topLeftCorner<2, 2>().trace();
+    };
+    if (first > 0) addEnd(first - 1, scans[first - 1].pose, *elsewhere[first]);
+    if (end < scans.size()) addEnd(end - 1, *elsewhere[end - 1], scans[end].pose);
+    if (increase > kDeviations * std::sqrt(variance)) continue;
+    for (size_t i = first; i < end; ++i) scans[i].pose = *elsewhere[i];
+  }
+}
+
 }  // namespace
 
 MapMaker::MapMaker(const FilterConfiguration& configuration)
@@ -66,24 +107,36 @@ std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vecto
 }
 
 void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
-            const ScanMatcherOptions& matcher, double minFit, int threads,
-            const std::optional<ScanMap>& base) {
+            const ScanMatcherOptions& matcher, double minFit, int threads, const std::optional<ScanMap>& base,
+            const std::vector<MotionDistribution>& odometry) {
+  constexpr double kClearGain = 0.25;  // of ln p, per beam
   const Eigen::Vector3d deviations(0.05, 0.05, mrpt::DEG2RAD(1.0));
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher scanMatcher(matcher);
   tbb::task_arena arena(arenaThreads(threads));
   for (int pass = 0; pass < passes; ++pass) {
     const OccupancyGrid map = gridOf(scans, grid, base);
+    std::vector<std::optional<TPose2D>> elsewhere(scans.size());
     parallelFor(arena, base ? 0 : 1, scans.size(), [&](size_t i) {
-      TPose2D& pose = scans[i].pose;
       const LaserScans seen = toLaserScans(scans[i].scans, grid.maxRange);
       const ScanBeams beams(seen, BeamSelection(seen).take(matcher.beams));
-      const Prior prior = [&, before = pose](const TPose2D& at) {
-        return gaussianLogDensity(at, before, information);
+      ScanLikelihood likelihood = scanMatcher.likelihood(beams, map);
+      const auto matchFrom = [&](const TPose2D& start) {
+        return scanMatcher.match(
+            likelihood, start, [&](const TPose2D& at) { return gaussianLogDensity(at, start, information); });
       };
-      const ScanMatch match = scanMatcher.match(beams, pose, map, prior);
+      TPose2D& pose = scans[i].pose;
+      const ScanMatch match = matchFrom(pose);
       if (match.fit >= minFit) pose = match.pose;
+      if (odometry.empty()) return;
+      const auto start = bestNear(likelihood, pose);
+      if (!start) return;
+      const ScanMatch other = matchFrom(*start);
+      const double gain = likelihood.value(other.pose) - likelihood.value(pose);
+      if (other.fit >= minFit && gain > kClearGain * static_cast<double>(beams.rays.size()))
+        elsewhere[i] = other.pose;
     });
+    if (!odometry.empty()) move(scans, elsewhere, odometry);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopClosure.h"
+#include "slam/motion/MotionModel.h"
 
 namespace hybrid_slam {
 
@@ -67,10 +68,19 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 /// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
 /// fits less than `minFit` leaves it unchanged. Without `base` the first pose is fixed, since it defines the
 /// map frame.
-/// @param minFit   in [0, 1]
-/// @param threads  0: all cores; does not affect the result
+///
+/// Where a scan shows little, as between two doors of a corridor, its pose follows the odometry. If that was
+/// wrong, the pose is wrong by more than a match corrects, although later scans show where the robot was. So
+/// each scan is also matched from the best pose up to half a metre ahead, behind, left and right. It moves
+/// there if it fits clearly better there, and the path then departs from the odometry by about as much as
+/// before; otherwise the scan may be right, and the walls of others wrong.
+/// @param minFit    in [0, 1]
+/// @param threads   0: all cores; does not affect the result
+/// @param odometry  motions from each scan to the next, by the motion model (frame of the earlier scan's
+/// pose);
+///                  empty: unknown, so that no scan moves that far
 void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
             const ScanMatcherOptions& matcher, double minFit, int threads,
-            const std::optional<ScanMap>& base = {});
+            const std::optional<ScanMap>& base = {}, const std::vector<MotionDistribution>& odometry = {});
 
 }  // namespace hybrid_slam

@@ -27,9 +27,10 @@ std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
 }
 
 /// Refines the poses with the settings of the room.
-void refineRoom(std::vector<PosedScans>& scans, int passes, int threads = 1) {
+void refineRoom(std::vector<PosedScans>& scans, int passes, int threads = 1,
+                const std::vector<MotionDistribution>& odometry = {}) {
   const FilterConfiguration c = test::roomConfiguration();
-  refine(scans, passes, c.grid, c.matcher, c.improved.minFit, threads);
+  refine(scans, passes, c.grid, c.matcher, c.improved.minFit, threads, std::nullopt, odometry);
 }
 
 double rms(const std::vector<PosedScans>& scans, const std::vector<TPose2D>& truth) {
@@ -48,11 +49,69 @@ TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
   EXPECT_LT(rms(scans, truth), 0.5 * before);
 }
 
+/// The odometry that says that the robot drove along `path`.
+std::vector<MotionDistribution> odometryAlong(const std::vector<TPose2D>& path) {
+  std::vector<MotionDistribution> odometry;
+  for (size_t i = 1; i < path.size(); ++i)
+    odometry.push_back(motionDistribution({}, path[i] - path[i - 1], MotionModelOptions()));
+  return odometry;
+}
+
+/// A drive of which two scans are half a room off, out of reach of a match from there.
+class RefinementFarOff : public testing::TestWithParam<TPose2D> {
+ protected:
+  RefinementFarOff() {
+    for (const size_t i : kFarOff) scans_[i].pose = truth_[i] + GetParam();
+  }
+  double error(size_t i) const { return (scans_[i].pose - truth_[i]).norm(); }
+
+  static constexpr size_t kFarOff[] = {3, 6};  // between two updates, and in the map at a wrong place
+  std::vector<TPose2D> truth_;
+  std::vector<PosedScans> scans_ = driven(truth_);
+};
+
+TEST_P(RefinementFarOff, AScanGoesWhereItFitsAndTheOdometrySaysItWas) {
+  refineRoom(scans_, 1, 1, odometryAlong(truth_));
+  for (const size_t i : kFarOff) EXPECT_LT(error(i), 0.03) << i;
+}
+
+// The scan may be right, and the walls wrong.
+TEST_P(RefinementFarOff, AScanThatTheOdometryPutsThereStays) {
+  std::vector<TPose2D> path;
+  for (const PosedScans& scan : scans_) path.push_back(scan.pose);
+  refineRoom(scans_, 1, 1, odometryAlong(path));
+  for (const size_t i : kFarOff) EXPECT_GT(error(i), 0.2) << i;
+}
+
+TEST_P(RefinementFarOff, AScanStaysWithoutOdometry) {
+  refineRoom(scans_, 1);
+  for (const size_t i : kFarOff) EXPECT_GT(error(i), 0.2) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(AheadBehindLeftRight, RefinementFarOff,
+                         testing::Values(TPose2D(0.4, 0, 0), TPose2D(-0.3, 0, 0), TPose2D(0, 0.35, 0),
+                                         TPose2D(0, -0.3, 0)));
+
+// In a corridor without features, a scan fits other places a little better by chance. At both ends of the drive,
+// fewer scans have seen the walls, so that scans fit better further inside.
+TEST(Refinement, AScanThatFitsItsPlaceStays) {
+  std::vector<TPose2D> truth;
+  std::vector<PosedScans> scans;
+  for (const DrivenPose& step : driveAlong(kCorridor, {{0, 0}, {6, 0}}, 0)) {
+    truth.push_back(step.truth);
+    scans.push_back({observed(step.scans[0]), step.truth, true});
+  }
+  std::vector<MotionDistribution> uncertain = odometryAlong(truth);
+  for (MotionDistribution& motion : uncertain) motion.covariance.setIdentity();
+  refineRoom(scans, 1, 1, uncertain);
+  for (size_t i = 4; i + 4 < scans.size(); ++i) EXPECT_LT((scans[i].pose - truth[i]).norm(), 0.05) << i;
+}
+
 TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> one = driven(truth), three = one;
-  refineRoom(one, 1);
-  refineRoom(three, 1, 3);
+  refineRoom(one, 1, 1, odometryAlong(truth));
+  refineRoom(three, 1, 3, odometryAlong(truth));
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].pose, three[i].pose);
 }
 
