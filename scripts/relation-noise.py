@@ -4,7 +4,8 @@
 The motions of three or four relations that lead back to the same time add up to none, if they are right. A cycle of n
 relations with independent errors of variance s^2 ends n s^2 away, in x as in y and in heading. The table has the root
 mean square of these ends per axis, divided by sqrt(n), for cycles of three, of four (without a shorter way across) and
-of both. Errors of the times that relations name cancel out in a cycle, so s does not include them."""
+of both. Errors of the times that relations name, and others that all relations of a time share, cancel out in a cycle,
+so s does not include them."""
 import math
 import sys
 
