@@ -56,6 +56,18 @@ TEST(TrajectoryRecorder, TheOdometryBetweenIsInTheFrameOfThePreviousUpdate) {
               {{3, 3, M_PI / 2}, {3, 4, M_PI / 2}, {3, 5, M_PI / 2}});
 }
 
+TEST(TrajectoryRecorder, GivesTheOdometryBetweenTheScans) {
+  TrajectoryRecorder recorder;
+  EXPECT_TRUE(recorder.motions().empty());
+  const std::vector<TPose2D> motions{{0.5, 0.1, 0.2}, {1, 0, -0.4}};
+  recorder.add(10, {7, 7, 7}, 1);  // before the first scan: no motion between two
+  for (const TPose2D& motion : motions) recorder.add(11, motion, 1);
+  const auto given = recorder.motions();
+  ASSERT_EQ(given.size(), motions.size());
+  for (size_t i = 0; i < motions.size(); ++i)
+    EXPECT_LT((given[i] - motions[i]).norm() + std::abs(given[i].phi - motions[i].phi), 1e-9) << i;
+}
+
 TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShorterWay) {
   TrajectoryRecorder recorder;
   recorder.add(10, {}, 1);

@@ -92,8 +92,8 @@ INSTANTIATE_TEST_SUITE_P(AheadBehindLeftRight, RefinementFarOff,
                          testing::Values(TPose2D(0.4, 0, 0), TPose2D(-0.3, 0, 0), TPose2D(0, 0.35, 0),
                                          TPose2D(0, -0.3, 0)));
 
-// In a corridor without features, a scan fits other places a little better by chance. At both ends of the drive,
-// fewer scans have seen the walls, so that scans fit better further inside.
+// In a corridor without features, a scan fits other places a little better by chance. At both ends of the
+// drive, fewer scans have seen the walls, so that scans fit better further inside.
 TEST(Refinement, AScanThatFitsItsPlaceStays) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> scans;
