@@ -2,7 +2,8 @@
 """The table of scripts/nees-relations.sh: nees-relations-table.py OUT METHOD...
 
 The figures are those of `slam-eval nees-relations`, means over the runs of a log, with the least and the greatest in
-brackets: first as if the relations were exact, then with the noise that their cycles show (scripts/relation-noise.py, scripts/scan-relations.py)."""
+brackets: first as if the relations were exact, then with the noise that their cycles show (scripts/relation-noise.py,
+scripts/scan-relations.py)."""
 import json
 import statistics
 import sys

@@ -71,24 +71,22 @@ def main():
     def match(i, j):
         return matched(scan(i), scan(j), between(poses[i], poses[j]))
 
-    def disagreement(i, j, motion):
-        """m, m, deg; None without the matches to the next scan."""
-        if not (motion and j + 1 < len(times) and (step := match(j, j + 1)) and (whole := match(i, j + 1))):
-            return None
+    ends, relations = [], []
+    for i, j in chosen(times, poses, int(os.environ.get("COUNT", 1500))):
+        if not (j + 1 < len(times) and (motion := match(i, j)) and (step := match(j, j + 1)) and (whole := match(i, j + 1))):
+            continue
         x, y, heading = between(whole, compose(motion, step))
-        return x, y, math.degrees(angle(heading))
-
-    ends = []
-    with open(out, "w") as file:
-        for i, j in chosen(times, poses, int(os.environ.get("COUNT", 1500))):
-            motion = match(i, j)
-            end = disagreement(i, j, motion)
-            if not end or math.hypot(*end[:2]) > 0.02 or abs(end[2]) > 0.5:
-                continue
-            ends.append(end)
-            file.write(f"{times[i]:.6f} {times[j]:.6f} {motion[0]:.6f} {motion[1]:.6f} 0 0 0 {angle(motion[2]):.6f}\n")
+        heading = math.degrees(angle(heading))
+        if math.hypot(x, y) > 0.02 or abs(heading) > 0.5:
+            continue
+        ends.append((x, y, heading))
+        relations.append(f"{times[i]:.6f} {times[j]:.6f} {motion[0]:.6f} {motion[1]:.6f} 0 0 0 {angle(motion[2]):.6f}\n")
+    if not ends:
+        sys.exit(f"{log}: no two scans at a return match")
     x, y, heading = (np.square(ends).mean(axis=0) / 3) ** 0.5
-    print(f"{math.hypot(x, y) / math.sqrt(2):.4f} {heading:.3f}")
+    print(f"{math.hypot(x, y) / math.sqrt(2):.4f} {heading:.3f}", flush=True)
+    with open(out, "w") as file:  # last: a file that exists is whole
+        file.writelines(relations)
 
 
 if __name__ == "__main__":
