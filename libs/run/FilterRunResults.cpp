@@ -24,6 +24,7 @@
 #include "run/SimpleMapFile.h"
 #include "run/StepsTable.h"
 #include "run/VerdictCheck.h"
+#include "slam/filter/PathRelaxation.h"
 #include "slam/filter/Refinement.h"
 #include "slam/grid/GridConversion.h"
 #include "slam/loops/RevisitCheck.h"
@@ -100,9 +101,14 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
       for (const LoopClosure& loop : loops) notes_.push_back(loopNote(loop, updateTimes_, true));
       refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
-      result.trajectory = recorder_.trajectory(result.path);
-      for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
     }
+    // On a wrong map, returning scans may match the walls of other places.
+    constexpr double kMoreContradiction = 0.02;  // of the compared beams
+    std::vector<mrpt::math::TPose2D> even = relaxed(result.path, ofUpdates, configuration_.filter);
+    if (contradictionOf(even, ofUpdates) <= contradictionOf(result.path, ofUpdates) + kMoreContradiction)
+      result.path = std::move(even);
+    result.trajectory = recorder_.trajectory(result.path);
+    for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
   }
   std::vector<MotionDistribution> odometry;
   for (const mrpt::math::TPose2D& motion : recorder_.motions())

@@ -18,11 +18,9 @@ namespace {
 constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
-constexpr double kDrift = 0.01, kDriftAngle = mrpt::DEG2RAD(0.019);           // per sqrt(m), with lines
-constexpr double kOpenDrift = 0.028, kOpenDriftAngle = mrpt::DEG2RAD(0.058);  // without lines
-constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.1);             // of a scan match
-constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);         // per sqrt(m), odometry alone
-constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;                     // m
+constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.1);      // of a scan match
+constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
+constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;              // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
@@ -37,12 +35,8 @@ Eigen::Matrix3d ofMotion(const TPose2D& since) {
 double lengthBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, bool hasLines) {
-  const double drift = hasLines ? kDrift : kOpenDrift, angle = hasLines ? kDriftAngle : kOpenDriftAngle;
   std::vector<StepVariance> steps(path.size());
-  for (size_t i = 1; i < path.size(); ++i) {
-    const double length = lengthBetween(path[i - 1], path[i]);
-    steps[i] = {square(drift) * length, square(angle) * length};
-  }
+  for (size_t i = 1; i < path.size(); ++i) steps[i] = driftOf(lengthBetween(path[i - 1], path[i]), hasLines);
   return steps;
 }
 

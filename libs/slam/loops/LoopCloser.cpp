@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/loops/PathCorrection.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
@@ -287,27 +289,13 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   candidates_.clear();
   if (!holds) return std::nullopt;
 
+  std::vector<size_t> nodes;
+  for (const Keyframe& keyframe : keyframes_) nodes.push_back(keyframe.update);
   LoopClosure closure;
-  closure.path = path;
-  for (size_t k = 0; k < keyframes_.size(); ++k) {
-    const size_t from = keyframes_[k].update;
-    const size_t to = k + 1 < keyframes_.size() ? keyframes_[k + 1].update : path.size();
-    const auto carried = [&](size_t i) { return result.poses[k] + (path[i] - path[from]); };
-    TPose2D error;
-    if (to < path.size()) {
-      const TPose2D end = carried(to);
-      error = {result.poses[k + 1].x - end.x, result.poses[k + 1].y - end.y,
-               mrpt::math::wrapToPi(result.poses[k + 1].phi - end.phi)};
-    }
-    for (size_t i = from; i < to; ++i) {
-      const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
-      TPose2D pose = carried(i);
-      pose.x += share * error.x, pose.y += share * error.y;
-      pose.phi = mrpt::math::wrapToPi(pose.phi + share * error.phi);
-      closure.path[i] = pose;
-      closure.shift = std::max(closure.shift, distanceOf(pose, path[i]));
-      closure.turn = std::max(closure.turn, angleOf(pose, path[i]));
-    }
+  closure.path = corrected(path, nodes, result.poses);
+  for (size_t i = 0; i < path.size(); ++i) {
+    closure.shift = std::max(closure.shift, distanceOf(closure.path[i], path[i]));
+    closure.turn = std::max(closure.turn, angleOf(closure.path[i], path[i]));
   }
   for (size_t i = loops_.size(); i-- > 0;)
     if (result.loopWeights[i] == 0) {

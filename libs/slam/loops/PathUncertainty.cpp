@@ -30,6 +30,11 @@ StepVariance stepVariance(const TPose2D& motion, bool hasSlipped) {
   return variance;
 }
 
+StepVariance driftOf(double length, bool hasLines) {
+  const double position = hasLines ? 0.01 : 0.028, heading = mrpt::DEG2RAD(hasLines ? 0.019 : 0.058);
+  return {square(position) * length, square(heading) * length};
+}
+
 PathUncertainty::PathUncertainty(const std::vector<TPose2D>& path, const std::vector<StepVariance>& steps) {
   Sums sum;
   for (size_t i = 0; i < path.size(); ++i) {

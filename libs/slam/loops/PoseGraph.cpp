@@ -25,10 +25,14 @@ Eigen::Vector3d residual(const PoseEdge& edge, const std::vector<TPose2D>& poses
   return {is.x - edge.relative.x, is.y - edge.relative.y, mrpt::math::wrapToPi(is.phi - edge.relative.phi)};
 }
 
+}  // namespace
+
 double chi2Of(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
   const Eigen::Vector3d off = residual(edge, poses);
   return off.dot(edge.information * off);
 }
+
+namespace {
 
 using Edges = std::vector<const PoseEdge*>;
 

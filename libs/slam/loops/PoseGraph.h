@@ -26,6 +26,9 @@ struct PoseEdge {
   }
 };
 
+/// Squared Mahalanobis distance of the poses from the edge's measurement.
+double chi2Of(const PoseEdge& edge, const std::vector<mrpt::math::TPose2D>& poses);
+
 /// Poses and what is known about the motions between them.
 struct PoseGraph {
   std::vector<mrpt::math::TPose2D> poses;  ///< map frame; without an edge from it, the first stays

@@ -1,0 +1,209 @@
+#include "slam/filter/PathRelaxation.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "slam/filter/Threads.h"
+#include "slam/grid/BeamSelection.h"
+#include "slam/grid/ScanMatcher.h"
+#include "slam/loops/PathCorrection.h"
+#include "slam/loops/PathUncertainty.h"
+#include "slam/loops/PoseGraph.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
+constexpr double kNodeDistance = 0.5, kNodeAngle = 15 * kDegree;
+constexpr double kReturn = 20;        // m of path between two visits, and of a map of the latest scans
+constexpr double kNear = 3;           // m, between two nodes that see the same walls
+constexpr double kReach = 6;          // m of path to either side of an earlier node: its map
+constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
+constexpr double kMinFit = 0.1;       // of a match; a map of one scan fits 0.04
+constexpr double kOutlier = 9;        // chi^2 at which a match has half its weight
+constexpr int kSolutions = 3;
+// Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, and of a scan that
+// shows all or nothing.
+const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kBest(0.005, 0.005, 0.05 * kDegree), kWorst(1, 1, 0.2);
+
+Eigen::Matrix3d covarianceOf(const Eigen::Vector3d& deviations) {
+  return deviations.cwiseAbs2().asDiagonal();
+}
+
+double squareBetween(const TPose2D& a, const TPose2D& b) {
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+}
+
+class Relaxation {
+ public:
+  Relaxation(const std::vector<TPose2D>& path, const std::vector<Scans>& scans,
+             const FilterConfiguration& configuration)
+      : path_(path),
+        scans_(scans),
+        configuration_(configuration),
+        matcher_(configuration.matcher),
+        distances_(path.size()) {
+    for (size_t i = 1; i < path.size(); ++i)
+      distances_[i] = distances_[i - 1] + std::sqrt(squareBetween(path[i - 1], path[i]));
+    for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
+      const TPose2D since = i > 0 ? path[i] - path[nodes_.back()] : TPose2D();
+      if (i > 0 && since.norm() < kNodeDistance && std::abs(since.phi) < kNodeAngle) continue;
+      nodes_.push_back(i);
+      graph_.poses.push_back(path[i]);
+    }
+  }
+
+  std::vector<TPose2D> solved() {
+    std::vector<std::optional<PoseEdge>> returns(nodes_.size());
+    tbb::task_arena arena(arenaThreads(configuration_.filter.threads));
+    parallelFor(arena, 0, nodes_.size(), [&](size_t node) {
+      if (const auto earlier = nearestEarlier(node)) returns[node] = matchTo(*earlier, node);
+    });
+    if (std::none_of(returns.begin(), returns.end(), [](const auto& edge) { return edge.has_value(); }))
+      return path_;
+    addMotions(tracked());
+    std::vector<TPose2D> poses = graph_.poses;
+    for (int solution = 0; solution < kSolutions; ++solution) {
+      PoseGraph graph = graph_;
+      for (const auto& edge : returns) {
+        if (!edge) continue;
+        graph.motions.push_back(*edge);
+        if (solution > 0) graph.motions.back().information /= 1 + chi2Of(*edge, poses) / kOutlier;
+      }
+      poses = optimized(graph).poses;
+    }
+    return corrected(path_, nodes_, poses);
+  }
+
+ private:
+  LaserScans scansOf(size_t i) const { return toLaserScans(scans_[i], configuration_.grid.maxRange); }
+  void insert(size_t i, const TPose2D& pose, OccupancyGrid& map) const {
+    map.insert(ScanBeams(scansOf(i)), pose, configuration_.grid);
+  }
+
+  /// The nearest node of an earlier visit.
+  std::optional<size_t> nearestEarlier(size_t node) const {
+    std::optional<size_t> nearest;
+    double least = kNear * kNear;
+    for (size_t k = 0; distances_[nodes_[k]] <= distances_[nodes_[node]] - kReturn; ++k)
+      if (const double square = squareBetween(graph_.poses[k], graph_.poses[node]); square < least)
+        least = square, nearest = k;
+    return nearest;
+  }
+
+  /// The map that the path made around an earlier node, before the visit of another one.
+  OccupancyGrid mapAround(size_t earlier, size_t node) const {
+    const double centre = distances_[nodes_[earlier]];
+    const double end = std::min(centre + kReach, distances_[nodes_[node]] - kReturn);
+    OccupancyGrid map(configuration_.grid.resolution);
+    double next = centre - kReach;
+    const auto first = std::lower_bound(distances_.begin(), distances_.end(), next);
+    for (auto i = static_cast<size_t>(first - distances_.begin()); distances_[i] <= end; ++i) {
+      if (distances_[i] < next) continue;
+      next = distances_[i] + kMapInterval;
+      insert(i, path_[i], map);
+    }
+    return map;
+  }
+
+  /// A scan on a map.
+  struct Seen {
+    ScanLikelihood likelihood;
+    ScanMatch match;
+  };
+  /// Matches scan i, expected at `pose` with this covariance.
+  /// @param beams  filled
+  Seen match(size_t i, const TPose2D& pose, const Eigen::Matrix3d& covariance, const OccupancyGrid& map,
+             ScanBeams& beams) const {
+    const LaserScans scans = scansOf(i);
+    beams = ScanBeams(scans, BeamSelection(scans).take(configuration_.matcher.beams));
+    Seen seen{matcher_.likelihood(beams, map), {}};
+    const Eigen::Matrix3d information = covariance.inverse();
+    seen.match = matcher_.match(seen.likelihood, pose,
+                                [&](const TPose2D& at) { return gaussianLogDensity(at, pose, information); });
+    return seen;
+  }
+
+  /// The pose of a node by the map of an earlier visit.
+  std::optional<PoseEdge> matchTo(size_t earlier, size_t node) const {
+    const TPose2D& frame = graph_.poses[earlier];
+    const OccupancyGrid map = mapAround(earlier, node);
+    ScanBeams beams;
+    Seen seen = match(nodes_[node], graph_.poses[node], covarianceOf(kExpected), map, beams);
+    if (seen.match.fit < kMinFit) return std::nullopt;
+    const Eigen::Matrix3d information =
+        scanInformation(seen.likelihood, seen.match.pose) + covarianceOf(kWorst).inverse();
+    Eigen::Matrix3d toFrame = Eigen::Matrix3d::Identity();
+    toFrame.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-frame.phi).toRotationMatrix();
+    const Eigen::Matrix3d covariance =
+        toFrame * (information.inverse() + covarianceOf(kBest)) * toFrame.transpose();
+    return PoseEdge{earlier, node, seen.match.pose - frame, covariance.inverse()};
+  }
+
+  /// The drift of the path from pose `from` to pose `to`. A radian of rotation counts as a metre.
+  Eigen::Matrix3d drift(size_t from, size_t to) const {
+    constexpr double kShortest = 0.01;  // m
+    const double length = distances_[to] - distances_[from] + std::abs((path_[to] - path_[from]).phi);
+    const StepVariance variance = driftOf(length + kShortest, configuration_.useLines);
+    return Eigen::Vector3d(variance.position, variance.position, variance.heading).asDiagonal();
+  }
+
+  /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match
+  /// to the map of the last kReturn to 2 kReturn metres. Where the path was drawn to old walls, it goes on
+  /// from the new ones.
+  std::vector<TPose2D> tracked() const {
+    std::vector<TPose2D> track{path_.front()};
+    OccupancyGrid map(configuration_.grid.resolution);
+    std::vector<size_t> mapped{0};
+    double begun = 0;
+    insert(0, track[0], map);
+    for (size_t i = 1; i <= nodes_.back(); ++i) {
+      TPose2D pose = track.back() + (path_[i] - path_[i - 1]);
+      ScanBeams beams;
+      if (const Seen seen = match(i, pose, drift(i - 1, i), map, beams); seen.match.fit >= kMinFit)
+        pose = seen.match.pose;
+      track.push_back(pose);
+      if (distances_[i] < distances_[mapped.back()] + kMapInterval) continue;
+      mapped.push_back(i);
+      if (distances_[i] < begun + kReturn) {
+        insert(i, pose, map);
+        continue;
+      }
+      begun = distances_[i];
+      map = OccupancyGrid(configuration_.grid.resolution);
+      for (size_t k = mapped.size(); k-- > 0 && distances_[mapped[k]] > begun - kReturn;)
+        insert(mapped[k], track[mapped[k]], map);
+    }
+    return track;
+  }
+
+  void addMotions(const std::vector<TPose2D>& track) {
+    for (size_t k = 1; k < nodes_.size(); ++k) {
+      const size_t from = nodes_[k - 1], to = nodes_[k];
+      graph_.motions.push_back({k - 1, k, track[to] - track[from], drift(from, to).inverse()});
+    }
+  }
+
+  const std::vector<TPose2D>& path_;
+  const std::vector<Scans>& scans_;
+  const FilterConfiguration& configuration_;
+  ScanMatcher matcher_;
+  std::vector<double> distances_;  ///< m, along the path
+  std::vector<size_t> nodes_;      ///< indices of the path
+  PoseGraph graph_;                ///< of the nodes
+};
+
+}  // namespace
+
+std::vector<TPose2D> relaxed(const std::vector<TPose2D>& path, const std::vector<Scans>& scans,
+                             const FilterConfiguration& configuration) {
+  return Relaxation(path, scans, configuration).solved();
+}
+
+}  // namespace hybrid_slam

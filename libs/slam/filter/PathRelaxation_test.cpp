@@ -1,0 +1,101 @@
+#include "slam/filter/PathRelaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "testing/RingDrive.h"
+
+namespace hybrid_slam {
+namespace {
+
+using namespace test;
+
+/// A lap around the ring and a corridor more.
+struct Lap {
+  std::vector<TPose2D> path, truth;
+  std::vector<Scans> scans;
+};
+
+/// The path drifts by `drift` per metre; when the robot is back, the scans draw it over 3 m to the walls at
+/// the beginning. After that, every `displaced`-th scan (0: none) is one of 0.15 m ahead.
+Lap lapThatDrifts(const TPose2D& drift, size_t displaced = 0) {
+  constexpr double kBack = 100, kDrawn = 3;  // m
+  Lap lap;
+  double distance = 0;
+  for (const DrivenPose& step : ringDrive(0)) {
+    distance += step.motion.norm();
+    const double error = std::min(distance, kBack) * std::clamp(1 - (distance - kBack) / kDrawn, 0.0, 1.0);
+    lap.path.push_back(TPose2D(error * drift.x, error * drift.y, error * drift.phi) + step.truth);
+    lap.truth.push_back(step.truth);
+    RandomStream random(1, lap.path.size(), 0);
+    const bool isDisplaced = distance > kBack + kDrawn && displaced > 0 && lap.path.size() % displaced == 0;
+    lap.scans.push_back(observed(
+        isDisplaced ? scanOf(ring(), step.truth + TPose2D(0.15, 0, 0), {0.2, 0, 0}, 181, M_PI, 0.01, random)
+                    : step.scans[0]));
+  }
+  return lap;
+}
+
+/// RMS distance from the truth, m.
+double error(const std::vector<TPose2D>& path, const Lap& lap) {
+  double squares = 0;
+  for (size_t i = 0; i < path.size(); ++i)
+    squares += std::pow(path[i].x - lap.truth[i].x, 2) + std::pow(path[i].y - lap.truth[i].y, 2);
+  return std::sqrt(squares / static_cast<double>(path.size()));
+}
+
+std::vector<TPose2D> relaxed(const Lap& lap) {
+  return hybrid_slam::relaxed(lap.path, lap.scans, FilterConfiguration());
+}
+
+TEST(PathRelaxation, DistributesTheErrorOfALapOverTheLap) {
+  for (const TPose2D& drift :
+       {TPose2D(0.001, 0, 0), TPose2D(0, 0.001, 0), TPose2D(-0.0007, 0.0007, 0), TPose2D(0, -0.002, 0)}) {
+    const Lap lap = lapThatDrifts(drift);
+    EXPECT_LT(error(relaxed(lap), lap), 0.7 * error(lap.path, lap)) << drift.asString();
+  }
+}
+
+TEST(PathRelaxation, ATruePathStaysNearTheTruth) {
+  const Lap lap = lapThatDrifts({});
+  EXPECT_LT(error(relaxed(lap), lap), 0.03);
+}
+
+TEST(PathRelaxation, APathThatDoesNotReturnStays) {
+  Lap lap = lapThatDrifts({0.001, 0, 0});
+  lap.path.resize(300), lap.scans.resize(300);
+  EXPECT_EQ(relaxed(lap), lap.path);
+  EXPECT_TRUE(relaxed(Lap()).empty());
+}
+
+TEST(PathRelaxation, MatchesThatDisagreeLoseWeight) {
+  const Lap lap = lapThatDrifts({0.001, 0, 0}, 4);
+  EXPECT_LT(error(relaxed(lap), lap), 0.4 * error(lap.path, lap));
+}
+
+TEST(PathRelaxation, TheFirstPoseIsFixedAndThreadsDoNotMatter) {
+  const Lap lap = lapThatDrifts({0, 0.001, 0});
+  FilterConfiguration two;
+  two.filter.threads = 2;
+  const auto path = relaxed(lap);
+  EXPECT_EQ(path.front(), lap.path.front());
+  EXPECT_EQ(hybrid_slam::relaxed(lap.path, lap.scans, two), path);
+}
+
+TEST(PathRelaxation, PosesWithoutScansKeepTheirMotions) {
+  Lap lap = lapThatDrifts({0.001, 0, 0});
+  const size_t known = lap.path.size() - 40;
+  lap.scans.resize(known);
+  const auto path = relaxed(lap);
+  ASSERT_EQ(path.size(), lap.path.size());
+  EXPECT_NE(path[known - 1], lap.path[known - 1]);
+  const TPose2D moved = path.back() - path[known - 1], before = lap.path.back() - lap.path[known - 1];
+  EXPECT_NEAR(moved.x, before.x, 1e-9);
+  EXPECT_NEAR(moved.y, before.y, 1e-9);
+  EXPECT_NEAR(moved.phi, before.phi, 1e-9);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
