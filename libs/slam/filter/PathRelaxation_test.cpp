@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "testing/RingDrive.h"
+#include "testing/TestRoom.h"
 
 namespace hybrid_slam {
 namespace {
@@ -61,6 +62,15 @@ TEST(PathRelaxation, DistributesTheErrorOfALapOverTheLap) {
 TEST(PathRelaxation, ATruePathStaysNearTheTruth) {
   const Lap lap = lapThatDrifts({});
   EXPECT_LT(error(relaxed(lap), lap), 0.03);
+}
+
+TEST(PathRelaxation, APathInOneRoomStaysNearTheTruth) {
+  Lap lap;
+  for (const DriveStep& step : drive(8)) {
+    lap.path.push_back(step.truth), lap.truth.push_back(step.truth);
+    lap.scans.push_back({mrpt::obs::CObservation2DRangeScan::Create(step.scan)});
+  }
+  EXPECT_LT(error(relaxed(lap), lap), 0.02);
 }
 
 TEST(PathRelaxation, APathThatDoesNotReturnStays) {
