@@ -286,7 +286,6 @@ TEST_F(LivePrograms, ASignalSavesTheMapAndTheRunGoesOn) {
 TEST_F(LivePrograms, LocalisesInTheMapOfAnEarlierRun) {
   const std::string session = sessionOf(test::logOf(test::drive(8, 1)));
   const auto robot = replaying(test::logOf(test::drive(4, 2)), "100");
-  // Five particles, as in the INI file, are at times 0.2 m off.
   const auto map = live({"--localize", session, "--set", "particle_filter.particles=50"});
   EXPECT_EQ(map->wait(), 0) << map->err();
   EXPECT_THAT(test::namesIn(output), testing::IsSupersetOf({"trajectory.tum", "map.png", "covariance.csv"}));
@@ -297,7 +296,7 @@ TEST_F(LivePrograms, LocalisesInTheMapOfAnEarlierRun) {
   EXPECT_EQ(metrics["verdict"], "consistent");
   const auto truth = test::drive(4, 2).back().truth,
              last = files::loadTum(output + "/trajectory.tum").back().pose;
-  EXPECT_NEAR(last.x, truth.x, 0.1);
+  EXPECT_NEAR(last.x, truth.x, 0.1);  // the five particles of the INI file are at times 0.2 m off
   EXPECT_NEAR(last.y, truth.y, 0.1);
 }
 
