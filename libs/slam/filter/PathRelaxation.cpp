@@ -118,7 +118,7 @@ class Relaxation {
     ScanMatch match;
   };
   /// Matches scan i, expected at `pose` with this covariance.
-  /// @param beams  filled
+  /// @param beams  filled; the likelihood refers to them
   Seen match(size_t i, const TPose2D& pose, const Eigen::Matrix3d& covariance, const OccupancyGrid& map,
              ScanBeams& beams) const {
     const LaserScans scans = scansOf(i);
