@@ -16,9 +16,9 @@ namespace hybrid_slam {
 /// does not distribute it: the walls of each visit hold the scans of that visit.
 ///
 /// So scans taken on a return are matched to a map of the earlier visit alone, two per metre of path, and all
-/// motions are tracked on a map of the latest scans alone. The pose graph of both moves the path. Matches that
-/// disagree with the others lose weight (Cauchy's weight function). The first pose is fixed. A path that does
-/// not return stays as it is.
+/// motions are tracked on a map of the latest scans alone. The pose graph of both moves the path. Matches
+/// that disagree with the others lose weight (Cauchy's weight function). The first pose is fixed. A path that
+/// does not return stays as it is.
 /// @param path   a pose for each update, map frame
 /// @param scans  of each update; those of the last ones may be missing
 std::vector<mrpt::math::TPose2D> relaxed(const std::vector<mrpt::math::TPose2D>& path,
