@@ -18,9 +18,11 @@ namespace {
 constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
-constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.1);      // of a scan match
-constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
-constexpr double kShortCuts = 4, kNear = 3, kReturn = 20;              // m
+constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.1);            // of a scan match
+constexpr double kDrift = 0.0025, kDriftAngle = mrpt::DEG2RAD(0.008);        // per sqrt(m), with lines
+constexpr double kOpenDrift = 0.003, kOpenDriftAngle = mrpt::DEG2RAD(0.04);  // the same, without
+constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);        // per sqrt(m), odometry alone
+constexpr double kLoops = 4, kNear = 3, kReturn = 20;                        // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
@@ -36,12 +38,16 @@ double lengthBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x
 
 std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, bool hasLines) {
   std::vector<StepVariance> steps(path.size());
-  for (size_t i = 1; i < path.size(); ++i) steps[i] = driftOf(lengthBetween(path[i - 1], path[i]), hasLines);
+  for (size_t i = 1; i < path.size(); ++i) {
+    const double length = lengthBetween(path[i - 1], path[i]);
+    steps[i] = {square(hasLines ? kDrift : kOpenDrift) * length,
+                square(hasLines ? kDriftAngle : kOpenDriftAngle) * length};
+  }
   return steps;
 }
 
 /// Pairs of path indices at the same part of the map.
-std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::vector<Revisit>& returning) {
+std::vector<KnownPair> loopsOf(const std::vector<TPose2D>& path, const std::vector<Revisit>& returning) {
   std::vector<double> distances(path.size());
   for (size_t i = 1; i < path.size(); ++i)
     distances[i] = distances[i - 1] + lengthBetween(path[i - 1], path[i]);
@@ -49,9 +55,9 @@ std::vector<KnownPair> shortCuts(const std::vector<TPose2D>& path, const std::ve
   for (const Revisit& revisit : returning) {
     if (revisit.isContradicted() || revisit.update >= path.size()) continue;
     const size_t later = revisit.update;
-    if (!pairs.empty() && distances[later] < distances[pairs.back().later] + kShortCuts) continue;
+    if (!pairs.empty() && distances[later] < distances[pairs.back().later] + kLoops) continue;
     double nearest = kNear;
-    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle), true};
+    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle)};
     for (size_t i = 0; distances[i] < distances[later] - kReturn; ++i)
       if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
           distance < nearest)
@@ -85,25 +91,31 @@ PathCovariances::PathCovariances(std::vector<TPose2D> path, std::vector<PoseCova
     : path_(std::move(path)),
       particles_(std::move(particles)),
       drift_(path_, driftAlong(path_, hasLines)),
-      shortCuts_(shortCuts(path_, returning)) {
+      loops_(loopsOf(path_, returning)) {
   particles_.resize(path_.size(), PoseCovariance::Zero());
 }
 
 std::vector<PoseCovariance> PathCovariances::ofPoses() const {
   std::vector<PoseCovariance> all;
-  for (size_t i = 0; i < path_.size(); ++i)
-    all.push_back(drift_.between(0, i, shortCuts_) + diagonal(kMatch, kMatchAngle) + particles_[i]);
+  for (size_t i = 0; i < path_.size(); ++i) {
+    const PathPoint pose{i, path_[i]};
+    all.push_back(particles_[i] + (i > 0 ? inMap({0, path_[0]}, pose) : ofMatch(pose)));
+  }
   return all;
 }
 
 PoseCovariance PathCovariances::between(const PathPoint& from, const PathPoint& to) const {
-  // An error of `from` moves `to` the other way in its frame; that of its heading turns `to` about it.
-  PoseCovariance lever = PoseCovariance::Identity(), turn = PoseCovariance::Identity();
-  lever(0, 2) = from.pose.y - to.pose.y, lever(1, 2) = to.pose.x - from.pose.x;
+  PoseCovariance turn = PoseCovariance::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.pose.phi).toRotationMatrix();
-  const PoseCovariance inMap = drift_.between(from.update, to.update, shortCuts_) + ofMatch(to) +
-                               lever * ofMatch(from) * lever.transpose();
-  return turn * inMap * turn.transpose();
+  return turn * inMap(from, to) * turn.transpose();
+}
+
+PoseCovariance PathCovariances::inMap(const PathPoint& from, const PathPoint& to) const {
+  // An error of `from` moves `to` the other way in its frame; that of its heading turns `to` about it.
+  PoseCovariance lever = PoseCovariance::Identity();
+  lever(0, 2) = from.pose.y - to.pose.y, lever(1, 2) = to.pose.x - from.pose.x;
+  return drift_.relaxed(from.update, to.update, loops_) + ofMatch(to) +
+         lever * ofMatch(from) * lever.transpose();
 }
 
 PoseCovariance PathCovariances::ofMatch(const PathPoint& point) const {

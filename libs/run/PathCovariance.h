@@ -27,32 +27,34 @@ struct PathPoint {
   mrpt::math::TPose2D pose;  ///< map frame
 };
 
-/// The uncertainty of a finished path. Its drift is a random walk along the path, or along a short cut
-/// through a place where returning scans agree with the map.
+/// The uncertainty of a finished path. Its drift is a random walk along the path, distributed over the loops
+/// that it closes where returning scans agree with the map.
 class PathCovariances {
  public:
   /// @param path       a pose for each update, map frame
   /// @param particles  the covariance of the particles at each update; those of the last ones may be missing
-  /// @param returning  scans compared with what was mapped before; those not contradicted are short cuts
+  /// @param returning  scans compared with what was mapped before; those not contradicted close loops
   /// @param hasLines   line directions keep the heading: the path drifts less
   PathCovariances(std::vector<mrpt::math::TPose2D> path, std::vector<PoseCovariance> particles,
                   const std::vector<Revisit>& returning, bool hasLines);
 
-  /// Covariance of each pose of the path with respect to the first: drift, scan match and spread of the
-  /// particles.
+  /// Covariance of each pose of the path with respect to the first: drift, the scan matches of both, and
+  /// spread of the particles. The first has that of its scan match and of the particles.
   std::vector<PoseCovariance> ofPoses() const;
   /// Covariance of one pose in the frame of another, (x, y, phi): drift between the two, scan match and
   /// motion since the update of each. Without the spread of the particles, most of which is common to both.
   PoseCovariance between(const PathPoint& from, const PathPoint& to) const;
 
  private:
+  /// Of `to` with respect to `from`, but in the directions of the map's axes.
+  PoseCovariance inMap(const PathPoint& from, const PathPoint& to) const;
   /// Of the pose within the map, map frame.
   PoseCovariance ofMatch(const PathPoint& point) const;
 
   std::vector<mrpt::math::TPose2D> path_;
   std::vector<PoseCovariance> particles_;
   PathUncertainty drift_;
-  std::vector<KnownPair> shortCuts_;
+  std::vector<KnownPair> loops_;
 };
 
 /// Writes `timestamp,xx,xy,yy,xphi,yphi,phiphi`, one row per pose of the trajectory. Between two updates, the

@@ -10,7 +10,6 @@
 #include "slam/grid/BeamSelection.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/loops/PathCorrection.h"
-#include "slam/loops/PathUncertainty.h"
 #include "slam/loops/PoseGraph.h"
 
 namespace hybrid_slam {
@@ -31,6 +30,8 @@ constexpr int kSolutions = 3;
 // Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, and of a scan that
 // shows all or nothing.
 const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kBest(0.005, 0.005, 0.05 * kDegree), kWorst(1, 1, 0.2);
+// The same, of the path per sqrt(m), with lines and without.
+const Eigen::Vector3d kDrift(0.01, 0.01, 0.019 * kDegree), kOpenDrift(0.028, 0.028, 0.058 * kDegree);
 
 Eigen::Matrix3d covarianceOf(const Eigen::Vector3d& deviations) {
   return deviations.cwiseAbs2().asDiagonal();
@@ -146,12 +147,11 @@ class Relaxation {
     return PoseEdge{earlier, node, seen.match.pose - frame, covariance.inverse()};
   }
 
-  /// The drift of the path from pose `from` to pose `to`. A radian of rotation counts as a metre.
+  /// The covariance of the motion from pose `from` to pose `to`. A radian of rotation counts as a metre.
   Eigen::Matrix3d drift(size_t from, size_t to) const {
     constexpr double kShortest = 0.01;  // m
     const double length = distances_[to] - distances_[from] + std::abs((path_[to] - path_[from]).phi);
-    const StepVariance variance = driftOf(length + kShortest, configuration_.useLines);
-    return Eigen::Vector3d(variance.position, variance.position, variance.heading).asDiagonal();
+    return (length + kShortest) * covarianceOf(configuration_.useLines ? kDrift : kOpenDrift);
   }
 
   /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match

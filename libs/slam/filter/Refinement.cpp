@@ -64,6 +64,11 @@ void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2
   }
 }
 
+/// Moves all poses together.
+void moveFirstTo(const TPose2D& pose, std::vector<PosedScans>& scans) {
+  for (size_t i = scans.size(); i-- > 0;) scans[i].pose = pose + (scans[i].pose - scans.front().pose);
+}
+
 }  // namespace
 
 MapMaker::MapMaker(const FilterConfiguration& configuration)
@@ -114,10 +119,11 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher scanMatcher(matcher);
   tbb::task_arena arena(arenaThreads(threads));
+  const TPose2D first = scans.empty() ? TPose2D() : scans.front().pose;
   for (int pass = 0; pass < passes; ++pass) {
     const OccupancyGrid map = gridOf(scans, grid, base);
     std::vector<std::optional<TPose2D>> elsewhere(scans.size());
-    parallelFor(arena, base ? 0 : 1, scans.size(), [&](size_t i) {
+    parallelFor(arena, 0, scans.size(), [&](size_t i) {
       const LaserScans seen = toLaserScans(scans[i].scans, grid.maxRange);
       const ScanBeams beams(seen, BeamSelection(seen).take(matcher.beams));
       ScanLikelihood likelihood = scanMatcher.likelihood(beams, map);
@@ -128,7 +134,7 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
       TPose2D& pose = scans[i].pose;
       const ScanMatch match = matchFrom(pose);
       if (match.fit >= minFit) pose = match.pose;
-      if (odometry.empty()) return;
+      if (odometry.empty() || (i == 0 && !base)) return;
       const auto start = bestNear(likelihood, pose);
       if (!start) return;
       const ScanMatch other = matchFrom(*start);
@@ -137,6 +143,7 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
         elsewhere[i] = other.pose;
     });
     if (!odometry.empty()) move(scans, elsewhere, odometry);
+    if (!base) moveFirstTo(first, scans);
   }
 }
 

@@ -66,14 +66,14 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 
 /// Matches every scan, also those between two updates, against the map that all of them and `base` make,
 /// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
-/// fits less than `minFit` leaves it unchanged. Without `base` the first pose is fixed, since it defines the
-/// map frame.
+/// fits less than `minFit` leaves it unchanged. Without `base`, the first pose defines the map frame: all
+/// poses then move together so that it is where it was.
 ///
 /// Where a scan shows little, as between two doors of a corridor, its pose follows the odometry. If that was
 /// wrong, the pose is wrong by more than a match corrects, although later scans show where the robot was. So
-/// each scan is also matched from the best pose up to half a metre ahead, behind, left and right. It moves
-/// there if it fits clearly better there, and the path then departs from the odometry by about as much as
-/// before; otherwise the scan may be right, and the walls of others wrong.
+/// each scan (but the first one without `base`) is also matched from the best pose up to half a metre ahead,
+/// behind, left and right. It moves there if it fits clearly better there, and the path then departs from the
+/// odometry by about as much as before; otherwise the scan may be right, and the walls of others wrong.
 /// @param minFit    in [0, 1]
 /// @param threads   0: all cores; does not affect the result
 /// @param odometry  motions from each scan to the next, by the motion model (frame of the earlier scan's

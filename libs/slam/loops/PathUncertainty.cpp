@@ -30,11 +30,6 @@ StepVariance stepVariance(const TPose2D& motion, bool hasSlipped) {
   return variance;
 }
 
-StepVariance driftOf(double length, bool hasLines) {
-  const double position = hasLines ? 0.01 : 0.028, heading = mrpt::DEG2RAD(hasLines ? 0.019 : 0.058);
-  return {square(position) * length, square(heading) * length};
-}
-
 PathUncertainty::PathUncertainty(const std::vector<TPose2D>& path, const std::vector<StepVariance>& steps) {
   Sums sum;
   for (size_t i = 0; i < path.size(); ++i) {
@@ -72,10 +67,26 @@ Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vect
   for (const KnownPair& pair : known) {
     if (pair.earlier == KnownPair::kMapFrame) continue;
     const size_t near = from <= to ? pair.earlier : pair.later, far = from <= to ? pair.later : pair.earlier;
-    const Eigen::Matrix3d ofPair =
-        pair.hasLever ? movedBy(at - places_[pair.later], pair.covariance) : pair.covariance;
-    const Eigen::Matrix3d detour = along(from, near, at) + ofPair + along(far, to, at);
+    const Eigen::Matrix3d detour = along(from, near, at) + pair.covariance + along(far, to, at);
     if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
+  }
+  return least;
+}
+
+Eigen::Matrix3d PathUncertainty::relaxed(size_t from, size_t to, const std::vector<KnownPair>& known) const {
+  const Eigen::Vector2d& at = places_[to];
+  const auto [first, last] = std::minmax(from, to);
+  Eigen::Matrix3d least = along(first, last, at);
+  for (const KnownPair& pair : known) {
+    const size_t begin = std::max(first, pair.earlier), end = std::min(last, pair.later);
+    if (begin >= end) continue;
+    const Eigen::Matrix3d through = along(begin, end, at);
+    const Eigen::Matrix3d around = along(pair.earlier, begin, at) +
+                                   movedBy(at - places_[pair.later], pair.covariance) +
+                                   along(end, pair.later, at);
+    const Eigen::Matrix3d both = through - through * (through + around).inverse() * through;
+    const Eigen::Matrix3d here = along(first, begin, at) + both + along(end, last, at);
+    if (here(0, 0) + here(1, 1) < least(0, 0) + least(1, 1)) least = (here + here.transpose()) / 2;
   }
   return least;
 }

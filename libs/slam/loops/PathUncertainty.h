@@ -31,18 +31,11 @@ struct StepVariance {
 /// 5 deg if the odometry slipped and a search replaced it.
 StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 
-/// The calibrated drift of a finished path (doc/verdict.md): a random walk, per sqrt(m), of 1 cm and 0.019
-/// deg with lines, and of 2.8 cm and 0.058 deg without.
-StepVariance driftOf(double length, bool hasLines);
-
 /// Two poses of the path whose relative pose has been measured, or a pose measured in the map.
 struct KnownPair {
   static constexpr size_t kMapFrame = std::numeric_limits<size_t>::max();  ///< `earlier` of a pose in the map
   size_t earlier = 0, later = 0;                                           ///< indices of the path
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                    ///< of the later one, map frame
-  /// Whether its heading error displaces the poses beyond. Loop closing is tuned without: it knows a pair to
-  /// 0.5 deg at best, so that distant poses would seem uncertain by metres.
-  bool hasLever = false;
 
   template <class State>
   void visit(State& state) {
@@ -62,8 +55,14 @@ class PathUncertainty {
   PathUncertainty(const std::vector<mrpt::math::TPose2D>& path, const std::vector<StepVariance>& steps);
 
   /// Covariance of pose `to` (x, y, phi; map frame) with respect to pose `from`, along the shorter of the
-  /// path and the path with a short cut through one of the known pairs. Constant time per pair.
+  /// path and the path with a short cut through one of the known pairs. Constant time per pair. The heading
+  /// error of a pair does not displace what follows: loop closing, which knows it to 0.5 deg at best, is
+  /// tuned without, since distant poses would seem uncertain by metres.
   Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
+  /// The same for a path whose errors are distributed over its loops: where a known pair closes a loop, the
+  /// mean, weighted by information, of the way through the loop and the way around it. Of several pairs, the
+  /// one that leaves the least. Pairs in the map are not allowed.
+  Eigen::Matrix3d relaxed(size_t from, size_t to, const std::vector<KnownPair>& known) const;
   /// Covariance of pose `to` in the map, by the nearest pose measured there; empty without one.
   std::optional<Eigen::Matrix3d> inMap(size_t to, const std::vector<KnownPair>& known) const;
 
