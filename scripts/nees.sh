@@ -4,14 +4,14 @@
 # SEEDS=6 runs of each world, with lines and without, from FIRST_SEED=321 on, JOBS at a time (all cores). Each run has a
 # log with its own noise of laser and odometry, so that the errors are independent; SAME_LOG=1 gives all seeds the log of
 # the other experiments. WORLDS="csie wing" and METHODS="hybrid" select some. Resumes after an interruption. A seed takes
-# 20 s of one core.
+# 40 s of one core.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/nees}
 install_packages "${packages[@]}"
 build release hybrid-slam slam-eval simul-floorplan
 bin=$PWD/build/release/bin
 source scripts/worlds.sh
-read -ra worlds <<<"${WORLDS:-${simulated_worlds[*]}}"
+read -ra worlds <<<"${WORLDS:-${simulated_worlds[*]} ${simulated_worlds[*]/%/-open}}"
 public_worlds=()
 read -ra methods <<<"${METHODS:-hybrid general}"
 first=${FIRST_SEED:-321}

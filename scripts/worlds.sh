@@ -1,5 +1,6 @@
 # The worlds of the experiments; sourced by the scripts that use them (after lib.sh, with `bin` set). Simulates logs
-# and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md); WORLD-scans is a public log without its odometry.
+# and converts public ones from HYBRID_SLAM_DATASETS (doc/datasets.md); WORLD-scans is a public log without its odometry,
+# WORLD-open the part of a simulated drive before it returns.
 
 simulated_worlds=(csie sheared-1 sheared-3 sheared-6 wing)  # the script may choose others
 simulation_options=()  # of simul-floorplan, for all simulated worlds
@@ -14,6 +15,7 @@ general_best_improved=motion_model.distance_mean_std=0,motion_model.drift_mean_s
 # Slips of the odometry in the loop csie-30 (80, 170, mixed, jumps): time (s), turn (deg), shift (m).
 slips() {
   case $1 in
+    *-open) ;;
     csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
     csie-jumps) echo "60 90 3, 110 0 1, 150 180 5, 200 45 1.5, 230 -90 8" ;;
     csie-*) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
@@ -25,21 +27,32 @@ without_odometry() {
   zcat "$1" | awk '$1 == "FLASER" { for (i = $2 + 3; i <= $2 + 8; ++i) $i = 0; print }' | gzip -n
 }
 
+# before_return ROUTE: the first 60 % of the way points.
+before_return() {
+  awk -v last="$(grep -c '^via' "$1")" \
+    '$1 != "via" && $1 != "go" { print; next } ++n < 0.6 * last { print; next } !done++ { print "go", $2, $3 }' "$1"
+}
+
 # make_worlds FOLDER: plans, routes and logs of all worlds; keeps existing ones.
 make_worlds() {
-  local folder=$1 csie=$PWD/datasets/csie world file
+  local folder=$1 csie=$PWD/datasets/csie world building file
   mkdir -p "$folder"
   for world in "${simulated_worlds[@]}"; do
     [[ ! -f $folder/$world.rawlog ]] || continue
-    case $world in
+    building=${world%-open}
+    case $building in
       csie | csie-*) cp "$csie/csie.plan" "$folder/$world.plan"; cp "$csie/csie-loop.route" "$folder/$world.route" ;;
-      wing) cp $csie/wing.plan $csie/wing.route "$folder" ;;
+      wing) cp $csie/wing.plan "$folder/$world.plan"; cp $csie/wing.route "$folder/$world.route" ;;
       rectangle* | octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
       *)
-        scripts/shear-world.py "${world#*-}" <$csie/csie.plan >"$folder/$world.plan"
-        scripts/shear-world.py "${world#*-}" <$csie/csie-loop.route >"$folder/$world.route"
+        scripts/shear-world.py "${building#*-}" <$csie/csie.plan >"$folder/$world.plan"
+        scripts/shear-world.py "${building#*-}" <$csie/csie-loop.route >"$folder/$world.route"
         ;;
     esac
+    if [[ $world == *-open ]]; then
+      before_return "$folder/$world.route" >"$folder/$world.part"
+      mv "$folder/$world.part" "$folder/$world.route"
+    fi
     sed -e "s|^plan *=.*|plan = $world.plan|" -e "s|^route *=.*|route = $world.route|" \
       config-ini/simul-csie-loop.ini >"$folder/$world-simul.ini"
     "$bin/simul-floorplan" -q "$folder/$world-simul.ini" --set "odometry.slips=$(slips "$world")" \

@@ -136,6 +136,7 @@ class FilterRun {
     std::optional<mrpt::maps::COccupancyGridMap2D> grid;  ///< none if there is no memory for it
     std::vector<DatabaseLine> lines;
     ScanMap map;  ///< with our filters: the same grid and lines
+    bool isRefined = false;
   };
   static const mrpt::maps::COccupancyGridMap2D& gridOf(const Result& result);
   template <class State>

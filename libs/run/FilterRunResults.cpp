@@ -122,6 +122,7 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
   result.map = MapMaker(configuration_.filter)(scans, base);
   result.grid = toMrpt(result.map.grid);
   result.lines = result.map.lines.lines();
+  result.isRefined = true;
 }
 
 /// @throws std::bad_alloc if there was no memory for it
@@ -253,8 +254,10 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   if (!scanOdometry_) evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
   evidence.scans = log.scans;
   verdict_ = verdictOf(evidence);
-  const PathCovariances covariances(result.path, particleCovariances_, evidence.returning,
-                                    configuration_.filter.useLines);
+  // A refined pose is a match to the map of all scans: the particles knew only that of the earlier ones.
+  const PathCovariances covariances(result.path,
+                                    result.isRefined ? std::vector<PoseCovariance>() : particleCovariances_,
+                                    evidence.returning, configuration_.filter.useLines);
   writeCovarianceFile(result, covariances.ofPoses());
 }
 

@@ -43,24 +43,33 @@ TEST(PathCovariance, OfParticles) {
   EXPECT_NEAR(covarianceOf({{{0, 0, 0}, 0}, {{1, 0, 0}, -1000}})(0, 0), 0, 1e-12) << "by weight";
 }
 
+constexpr double kDegree = M_PI / 180;
+
 TEST(PathCovariance, GrowsAlongThePath) {
   const auto path = thereAndBack();
   const auto all = ofPoses(path, {}, {}, true);
   ASSERT_EQ(all.size(), path.size());
   EXPECT_LT(deviation(all[0]), 0.02);
   EXPECT_GT(deviation(all[40]), deviation(all[20]));
-  EXPECT_GT(deviation(all[80]), deviation(all[40]));
+  EXPECT_GT(all[80](2, 2), all[40](2, 2));
   EXPECT_GT(deviation(ofPoses(path, {}, {}, false)[40]), deviation(all[40])) << "without lines";
+}
+
+TEST(PathCovariance, TheHeadingErrorOfTheFirstPoseTurnsTheMap) {
+  const auto all = ofPoses(thereAndBack(), {}, {}, true);
+  const double turn = 0.09 * kDegree;
+  EXPECT_NEAR(all[0](1, 1), 1e-4, 1e-12);
+  EXPECT_GT(all[40](1, 1), 2e-4 + std::pow(20 * turn, 2));
+  EXPECT_LT(all[40](0, 0), 4e-4) << "not along the way";
 }
 
 TEST(PathCovariance, ShrinksWhereTheMapIsSeenAgain) {
   const auto path = thereAndBack();
-  const auto open = ofPoses(path, {}, {}, true);
-  const auto closed = ofPoses(path, {}, returnOf(path, 2), true);
-  EXPECT_LT(deviation(closed[80]), 0.3 * deviation(open[80]));
-  EXPECT_LT(deviation(closed[70]), deviation(open[70]));
-  EXPECT_EQ(closed[20], open[20]) << "the way from the start is shorter";
-  EXPECT_EQ(ofPoses(path, {}, returnOf(path, 40), true)[80], open[80]) << "contradicted";
+  const auto open = ofPoses(path, {}, {}, false);
+  const auto closed = ofPoses(path, {}, returnOf(path, 2), false);
+  EXPECT_LT(deviation(closed[80]), 0.5 * deviation(open[80]));
+  for (const size_t i : {20, 40, 70}) EXPECT_LT(deviation(closed[i]), deviation(open[i])) << i;
+  EXPECT_EQ(ofPoses(path, {}, returnOf(path, 40), false)[80], open[80]) << "contradicted";
 }
 
 TEST(PathCovariance, HoldsTheSpreadOfTheParticles) {
@@ -72,14 +81,12 @@ TEST(PathCovariance, HoldsTheSpreadOfTheParticles) {
   EXPECT_EQ(all[11], none[11]);
 }
 
-constexpr double kDegree = M_PI / 180;
-
 TEST(PathCovariance, BetweenTwoPosesOfAStraightPath) {
   const auto path = thereAndBack();
   const PoseCovariance covariance =
       PathCovariances(path, {}, {}, true).between({10, path[10]}, {30, path[30]});
-  const double drift = 1e-4 * 10, match = 1e-4;  // m^2, over 10 m
-  const double turnOfStep = 0.5 * std::pow(0.019 * kDegree, 2), turnOfMatch = std::pow(0.1 * kDegree, 2);
+  const double drift = 4e-6 * 10, match = 1e-4;  // m^2, over 10 m
+  const double turnOfStep = 0.5 * std::pow(0.008 * kDegree, 2), turnOfMatch = std::pow(0.09 * kDegree, 2);
   double moment = 0, squares = 0;
   for (double lever = 0; lever < 10; lever += 0.5) moment += lever, squares += lever * lever;
   PoseCovariance expected = Eigen::Vector3d(drift, drift, 20 * turnOfStep).asDiagonal();
@@ -89,16 +96,18 @@ TEST(PathCovariance, BetweenTwoPosesOfAStraightPath) {
   EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 1e-12) << covariance << "\n\n" << expected;
 }
 
-TEST(PathCovariance, BetweenTwoPosesThroughAShortCut) {
+TEST(PathCovariance, BetweenTwoPosesOfALoop) {
   const auto path = thereAndBack();
   const PathCovariances covariances(path, {}, returnOf(path, 2), true);
-  // From x = 5 m back to the start, where the path ends, and on to x = 5 m: 10 m instead of 30 m, and a
-  // match.
-  const double heading = 10 * std::pow(0.019 * kDegree, 2) + 3 * std::pow(0.1 * kDegree, 2);
+  // From x = 5 m out and back to x = 5 m: 30 m, or by the start, where the path ends: 10 m and a match.
+  const double drift = std::pow(0.008 * kDegree, 2), match = std::pow(0.09 * kDegree, 2);
+  const double heading = 1 / (1 / (30 * drift) + 1 / (10 * drift + match)) + 2 * match;
   const PathPoint out{10, path[10]}, back{70, path[70]};
-  EXPECT_NEAR(covariances.between(out, back)(2, 2), heading, 1e-12);
-  EXPECT_NEAR(covariances.between(back, out)(2, 2), heading, 1e-12);
-  EXPECT_NEAR(covariances.between(out, back)(0, 0), 10e-4 + 3e-4, 1e-4);
+  const PoseCovariance there = covariances.between(out, back), here = covariances.between(back, out);
+  EXPECT_NEAR(here(0, 0), there(0, 0), 1e-12);
+  EXPECT_NEAR(there(0, 0), 1 / (1 / (30 * 4e-6) + 1 / (10 * 4e-6 + 1e-4)) + 2e-4, 1e-6);
+  // Heading errors of the two ways also differ in where they move the end: the mean weighs all together.
+  EXPECT_NEAR(there(2, 2), heading, 0.2 * heading);
 }
 
 TEST(PathCovariance, BetweenTwoPosesIsInTheFrameOfTheFirst) {
