@@ -18,11 +18,11 @@ namespace {
 constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
-constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);           // of a scan match
-constexpr double kDrift = 0.002, kDriftAngle = mrpt::DEG2RAD(0.008);         // per sqrt(m), with lines
-constexpr double kOpenDrift = 0.003, kOpenDriftAngle = mrpt::DEG2RAD(0.04);  // the same, without
-constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);        // per sqrt(m), odometry alone
-constexpr double kLoops = 4, kNear = 3, kReturn = 20;                        // m
+constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);            // of a scan match
+constexpr double kDrift = 0.002, kDriftAngle = mrpt::DEG2RAD(0.008);          // per sqrt(m), with lines
+constexpr double kOpenDrift = 0.003, kOpenDriftAngle = mrpt::DEG2RAD(0.048);  // the same, without
+constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);         // per sqrt(m), odometry alone
+constexpr double kLoops = 4, kNear = 3, kReturn = 20;                         // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
