@@ -78,6 +78,17 @@ TEST(Deskewing, BeamsEndOnTheWallsForATurningAndADrivingRobot) {
     }
 }
 
+TEST(Deskewing, OfAScanThatBeginsBeforeTheOdometry) {
+  for (const auto& motion : {turning, driving}) {
+    Log log = observations(motion);
+    log.erase(log.begin());  // now the first scan is the first object
+    ASSERT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(log[0]));
+    const auto corrected = readingsOf(stating(0.1, log), true);
+    ASSERT_EQ(corrected.size(), 9);
+    EXPECT_LT(test::farthestFromWalls(*corrected[0].scans[0], motion(100)), 2e-6);
+  }
+}
+
 TEST(Deskewing, ByTheSettingWithoutAWordInTheLog) {
   EXPECT_LT(worst(readingsOf(observations(turning), true, SweepTimes(0.1)), turning), 2e-6);
   EXPECT_GT(worst(readingsOf(stating(0.1, observations(turning)), true, SweepTimes(0)), turning), 0.05);

@@ -26,7 +26,7 @@ void OdometryTrack::add(double time, const TPose2D& pose) {
 }
 
 TPose2D OdometryTrack::at(double time) const {
-  if (readings_.size() == 1 || time <= readings_.front().first) return readings_.front().second;
+  if (readings_.size() == 1) return readings_.front().second;
   const auto after = std::lower_bound(readings_.begin() + 1, readings_.end() - 1, time,
                                       [](const Reading& one, double t) { return one.first < t; });
   const auto& [t1, b] = *after;

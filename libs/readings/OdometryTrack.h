@@ -12,8 +12,8 @@ namespace hybrid_slam::readings {
 /// Interpolates position and heading linearly.
 mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b, double share);
 
-/// Assumes constant velocity between the readings and after the last one. Restarts where time steps back or
-/// readings are too far apart.
+/// Assumes constant velocity between the readings, before the first and after the last one. Restarts where
+/// time steps back or readings are too far apart.
 class OdometryTrack {
  public:
   /// @param maxGap  largest time (s) between readings
@@ -31,7 +31,7 @@ class OdometryTrack {
   }
   /// Returns the time (s) of the last reading. Requires at least one reading, as does `at`.
   double end() const { return readings_.back().first; }
-  /// Returns the pose at a time (s); before the first reading, that of the first reading.
+  /// Returns the pose at a time (s).
   mrpt::math::TPose2D at(double time) const;
 
  private:

@@ -7,7 +7,7 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-TEST(OdometryTrack, IsLinearBetweenTheReadingsAndBeyondTheLast) {
+TEST(OdometryTrack, IsLinearBetweenTheReadingsAndBeyondThem) {
   OdometryTrack track(1);
   track.add(10, {0, 0, 3});
   track.add(10.5, {1, 2, -3});  // by way of pi
@@ -15,7 +15,8 @@ TEST(OdometryTrack, IsLinearBetweenTheReadingsAndBeyondTheLast) {
   EXPECT_NEAR(track.at(10.25).x, 0.5, 1e-12);
   EXPECT_NEAR(track.at(10.25).y, 1, 1e-12);
   EXPECT_NEAR(std::abs(track.at(10.25).phi), M_PI, 1e-12);
-  EXPECT_EQ(track.at(9), TPose2D(0, 0, 3));
+  EXPECT_NEAR(track.at(9.75).x, -0.5, 1e-12);
+  EXPECT_NEAR(track.at(9.75).phi, 6 - M_PI, 1e-12);
   EXPECT_EQ(track.at(11.3), TPose2D(1, 2, -3)) << "it stood at last";
   track.add(11.5, {2, 2, -3});
   EXPECT_NEAR(track.at(11.75).x, 2.5, 1e-12);

@@ -172,7 +172,8 @@ TPose2D ReadingAssembler::withoutJumps(const CObservationOdometry& odometry) {
 bool ReadingAssembler::isReady(const Waiting& scan) const {
   if (!scan.odometry || scan.sweep == 0) return scan.odometry.has_value();
   const double time = seconds(scan.scan->timestamp);
-  return !track_.mayReach(time) || track_.end() >= time + scan.sweep;
+  const bool mayBeCorrected = track_.mayReach(time) || track_.mayReach(time + scan.sweep);
+  return !mayBeCorrected || track_.end() >= time + scan.sweep;
 }
 
 void ReadingAssembler::completeReady() {
@@ -189,7 +190,8 @@ void ReadingAssembler::finishWaiting() {
 
 CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) const {
   const double time = scan.sweep > 0 ? seconds(scan.scan->timestamp) : 0;
-  if (scan.sweep == 0 || !track_.contains(time)) return scan.scan;
+  // The first odometry may be newer than the first beam.
+  if (scan.sweep == 0 || !(track_.contains(time) || track_.contains(time + scan.sweep))) return scan.scan;
   const TPose2D start = track_.at(time);
   const size_t beams = scan.scan->getScanSize();
   std::vector<TPose2D> motion;

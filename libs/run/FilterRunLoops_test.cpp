@@ -8,6 +8,7 @@
 
 #include "base/Numbers.h"
 #include "files/TemporaryFolder.h"
+#include "files/Trajectory.h"
 #include "run/FilterRun.h"
 #include "testing/RingDrive.h"
 #include "testing/TestLogs.h"
@@ -154,6 +155,16 @@ TEST_F(FilterRunLoops, ALoopOfTheRefinementHasARowAndALine) {
     EXPECT_NEAR(row->shift, parseNumber(note.shift).value(), 0.0051);
   }
   for (const Row& row : table) EXPECT_EQ(row.loops > 0, row.shift > 0) << row.time;
+}
+
+TEST_F(FilterRunLoops, TheMapBeginsAtTheFirstPoseAlsoIfRefined) {
+  Configuration c = configuration("out");
+  FilterRun run(c);
+  process(run, c);
+  finish(run, c);
+  const files::Trajectory trajectory = files::loadTum(folder.path("out/trajectory.tum"));
+  EXPECT_NEAR(trajectory.at(0).pose.norm(), 0, 1e-9);
+  EXPECT_NEAR(trajectory.at(0).pose.phi, 0, 1e-9);
 }
 
 // A resumed run refines again, which must not count the same loops twice.

@@ -88,6 +88,7 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
                      fixedText(refinementBytes_ / 1e9, 1) + " GB");
     return;
   }
+  if (scans.empty()) return;
   const std::optional<ScanMap>& base = hybrid_->base();
   if (configuration_.filter.closesLoops() && !base) {
     std::vector<Scans> ofUpdates;
@@ -113,8 +114,12 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
   std::vector<MotionDistribution> odometry;
   for (const mrpt::math::TPose2D& motion : recorder_.motions())
     odometry.push_back(motionDistribution({}, motion, configuration_.filter.motion));
+  const mrpt::math::TPose2D start = scans.front().pose;
   refine(scans, configuration_.run.refine, configuration_.filter.grid, configuration_.filter.matcher,
          configuration_.filter.improved.minFit, configuration_.filter.filter.threads, base, odometry);
+  // The first pose defines the frame of a new map.
+  if (!base)
+    for (size_t i = scans.size(); i-- > 0;) scans[i].pose = start + (scans[i].pose - scans.front().pose);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;

@@ -64,11 +64,6 @@ void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2
   }
 }
 
-/// Moves all poses together.
-void moveFirstTo(const TPose2D& pose, std::vector<PosedScans>& scans) {
-  for (size_t i = scans.size(); i-- > 0;) scans[i].pose = pose + (scans[i].pose - scans.front().pose);
-}
-
 }  // namespace
 
 MapMaker::MapMaker(const FilterConfiguration& configuration)
@@ -119,7 +114,6 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
   const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   const ScanMatcher scanMatcher(matcher);
   tbb::task_arena arena(arenaThreads(threads));
-  const TPose2D first = scans.empty() ? TPose2D() : scans.front().pose;
   for (int pass = 0; pass < passes; ++pass) {
     const OccupancyGrid map = gridOf(scans, grid, base);
     std::vector<std::optional<TPose2D>> elsewhere(scans.size());
@@ -143,7 +137,6 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
         elsewhere[i] = other.pose;
     });
     if (!odometry.empty()) move(scans, elsewhere, odometry);
-    if (!base) moveFirstTo(first, scans);
   }
 }
 

@@ -66,8 +66,7 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 
 /// Matches every scan, also those between two updates, against the map that all of them and `base` make,
 /// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
-/// fits less than `minFit` leaves it unchanged. Without `base`, the first pose defines the map frame: all
-/// poses then move together so that it is where it was.
+/// fits less than `minFit` leaves it unchanged. The first pose is not fixed.
 ///
 /// Where a scan shows little, as between two doors of a corridor, its pose follows the odometry. If that was
 /// wrong, the pose is wrong by more than a match corrects, although later scans show where the robot was. So

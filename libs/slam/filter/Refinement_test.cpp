@@ -43,31 +43,23 @@ double rmsOfMotions(const std::vector<PosedScans>& scans, const std::vector<TPos
   return test::rms(motions, trueMotions);
 }
 
-TEST(Refinement, BringsThePosesNearerToTheTruthAndKeepsTheFirst) {
+TEST(Refinement, BringsThePosesNearerToTheTruth) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> scans = driven(truth);
   const double before = rmsOfMotions(scans, truth);
-  const TPose2D first = scans[0].pose;
   refineRoom(scans, 2);
-  EXPECT_EQ(scans[0].pose, first);
   EXPECT_LT(rmsOfMotions(scans, truth), 0.5 * before);
 }
 
 // A filter matches the second scan to a map of the first one alone.
-TEST(Refinement, CorrectsAllPosesWithRespectToTheFirst) {
+TEST(Refinement, MatchesTheFirstScanToo) {
   std::vector<TPose2D> truth;
   std::vector<PosedScans> scans = driven(truth);
   for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = truth[i];
-  scans[0].pose.y += 0.02, scans[0].pose.phi += kDegree;
-  const TPose2D first = scans[0].pose;
+  scans[0].pose.y += 0.03, scans[0].pose.phi += kDegree;
   refineRoom(scans, 2);
-  EXPECT_NEAR((scans[0].pose - first).norm(), 0, 1e-12);
-  EXPECT_NEAR(scans[0].pose.phi, first.phi, 1e-12);
-  for (size_t i = 1; i < scans.size(); ++i) {
-    const TPose2D off = (scans[i].pose - scans[0].pose) - (truth[i] - truth[0]);
-    EXPECT_LT(off.norm(), 0.03) << i;
-    EXPECT_LT(std::abs(off.phi), 0.4 * kDegree) << i;
-  }
+  EXPECT_LT((scans[0].pose - truth[0]).norm(), 0.01);
+  EXPECT_LT(std::abs(scans[0].pose.phi - truth[0].phi), 0.4 * kDegree);
 }
 
 /// The odometry that says that the robot drove along `path`.
