@@ -15,7 +15,6 @@ general_best_improved=motion_model.distance_mean_std=0,motion_model.drift_mean_s
 # Slips of the odometry in the loop csie-30 (80, 170, mixed, jumps): time (s), turn (deg), shift (m).
 slips() {
   case $1 in
-    *-open) ;;
     csie-mixed) echo "50 30 0.1, 110 -80 0, 160 170 0, 210 80 0.2, 250 -30 0" ;;
     csie-jumps) echo "60 90 3, 110 0 1, 150 180 5, 200 45 1.5, 230 -90 8" ;;
     csie-*) echo "60 ${1#*-} 0, 150 -${1#*-} 0, 230 ${1#*-} 0" ;;
@@ -43,7 +42,11 @@ make_worlds() {
     case $building in
       csie | csie-*) cp "$csie/csie.plan" "$folder/$world.plan"; cp "$csie/csie-loop.route" "$folder/$world.route" ;;
       wing) cp $csie/wing.plan "$folder/$world.plan"; cp $csie/wing.route "$folder/$world.route" ;;
-      rectangle* | octagon | round | clutter | corridor) scripts/make-worlds.py "$world" "$folder" ;;
+      rectangle* | octagon | round | clutter | corridor)
+        scripts/make-worlds.py "$building" "$folder"
+        [[ $world == "$building" ]] ||
+          for file in plan route; do cp "$folder/$building.$file" "$folder/$world.$file"; done
+        ;;
       *)
         scripts/shear-world.py "${building#*-}" <$csie/csie.plan >"$folder/$world.plan"
         scripts/shear-world.py "${building#*-}" <$csie/csie-loop.route >"$folder/$world.route"
@@ -55,7 +58,7 @@ make_worlds() {
     fi
     sed -e "s|^plan *=.*|plan = $world.plan|" -e "s|^route *=.*|route = $world.route|" \
       config-ini/simul-csie-loop.ini >"$folder/$world-simul.ini"
-    "$bin/simul-floorplan" -q "$folder/$world-simul.ini" --set "odometry.slips=$(slips "$world")" \
+    "$bin/simul-floorplan" -q "$folder/$world-simul.ini" --set "odometry.slips=$(slips "$building")" \
       "${simulation_options[@]}" -o "$folder/$world.rawlog"
   done
   for world in "${public_worlds[@]}"; do

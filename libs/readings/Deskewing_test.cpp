@@ -86,6 +86,9 @@ TEST(Deskewing, OfAScanThatBeginsBeforeTheOdometry) {
     const auto corrected = readingsOf(stating(0.1, log), true);
     ASSERT_EQ(corrected.size(), 9);
     EXPECT_LT(test::farthestFromWalls(*corrected[0].scans[0], motion(100)), 2e-6);
+    const TPose2D off = corrected[1].motion - (motion(100.13) - motion(100));
+    EXPECT_NEAR(off.norm(), 0, 1e-6) << "from the first beam on";
+    EXPECT_NEAR(off.phi, 0, 1e-6);
   }
 }
 

@@ -31,7 +31,8 @@ TPose2D OdometryTrack::at(double time) const {
                                       [](const Reading& one, double t) { return one.first < t; });
   const auto& [t1, b] = *after;
   const auto& [t0, a] = *(after - 1);
-  return interpolate(a, b, (time - t0) / (t1 - t0));
+  // Two readings at nearly the same time tell no speed.
+  return interpolate(a, b, std::max((time - t0) / (t1 - t0), -1.0));
 }
 
 }  // namespace hybrid_slam::readings

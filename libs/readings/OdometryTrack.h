@@ -12,8 +12,8 @@ namespace hybrid_slam::readings {
 /// Interpolates position and heading linearly.
 mrpt::math::TPose2D interpolate(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b, double share);
 
-/// Assumes constant velocity between the readings, before the first and after the last one. Restarts where
-/// time steps back or readings are too far apart.
+/// Assumes constant velocity between the readings, after the last one, and before the first one for as long
+/// as from there to the second. Restarts where time steps back or readings are too far apart.
 class OdometryTrack {
  public:
   /// @param maxGap  largest time (s) between readings

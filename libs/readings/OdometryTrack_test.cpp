@@ -17,6 +17,7 @@ TEST(OdometryTrack, IsLinearBetweenTheReadingsAndBeyondThem) {
   EXPECT_NEAR(std::abs(track.at(10.25).phi), M_PI, 1e-12);
   EXPECT_NEAR(track.at(9.75).x, -0.5, 1e-12);
   EXPECT_NEAR(track.at(9.75).phi, 6 - M_PI, 1e-12);
+  EXPECT_NEAR(track.at(8).x, -1, 1e-12) << "at most the first step";
   EXPECT_EQ(track.at(11.3), TPose2D(1, 2, -3)) << "it stood at last";
   track.add(11.5, {2, 2, -3});
   EXPECT_NEAR(track.at(11.75).x, 2.5, 1e-12);

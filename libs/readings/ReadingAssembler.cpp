@@ -188,10 +188,15 @@ void ReadingAssembler::finishWaiting() {
   waiting_.clear();
 }
 
+bool ReadingAssembler::isEarly(const Waiting& scan) const {
+  if (scan.sweep == 0) return false;
+  const double time = seconds(scan.scan->timestamp);
+  return !track_.contains(time) && track_.contains(time + scan.sweep);
+}
+
 CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) const {
   const double time = scan.sweep > 0 ? seconds(scan.scan->timestamp) : 0;
-  // The first odometry may be newer than the first beam.
-  if (scan.sweep == 0 || !(track_.contains(time) || track_.contains(time + scan.sweep))) return scan.scan;
+  if (scan.sweep == 0 || !(track_.contains(time) || isEarly(scan))) return scan.scan;
   const TPose2D start = track_.at(time);
   const size_t beams = scan.scan->getScanSize();
   std::vector<TPose2D> motion;
@@ -205,13 +210,14 @@ CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) co
 }
 
 void ReadingAssembler::complete(const Waiting& scan) {
+  const TPose2D odometry = isEarly(scan) ? track_.at(seconds(scan.scan->timestamp)) : *scan.odometry;
   // Wrong odometry may move a robot far between two lasers.
   const bool isApart =
-      !collected_.empty() && !((*scan.odometry - collected_.back().second).norm() <= kFarthestApart);
+      !collected_.empty() && !((odometry - collected_.back().second).norm() <= kFarthestApart);
   if (scan.reading != current_ || isApart) endReading();
   current_ = scan.reading;
   markInvalidBeams(*scan.scan);
-  collected_.emplace_back(corrected(scan), *scan.odometry);
+  collected_.emplace_back(corrected(scan), odometry);
   if (scan.endsReading) endReading();
 }
 

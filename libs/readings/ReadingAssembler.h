@@ -95,6 +95,8 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   bool isReady(const Waiting& scan) const;
   void completeReady();
   /// Corrects the scan for the motion during its sweep, if that is known.
+  /// Returns whether only its first beams are older than the first odometry.
+  bool isEarly(const Waiting& scan) const;
   mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
   void complete(const Waiting& scan);
   void endReading();

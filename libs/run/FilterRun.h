@@ -135,8 +135,8 @@ class FilterRun {
     std::vector<mrpt::math::TPose2D> path;
     std::optional<mrpt::maps::COccupancyGridMap2D> grid;  ///< none if there is no memory for it
     std::vector<DatabaseLine> lines;
-    ScanMap map;  ///< with our filters: the same grid and lines
-    bool isRefined = false;
+    ScanMap map;             ///< with our filters: the same grid and lines
+    bool isRelaxed = false;  ///< refined, its errors distributed over its loops
   };
   static const mrpt::maps::COccupancyGridMap2D& gridOf(const Result& result);
   template <class State>

@@ -94,20 +94,21 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
+    double contradiction = contradictionOf(result.path, ofUpdates);
     std::vector<mrpt::math::TPose2D> closed = result.path;
     std::vector<LoopClosure> loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
-    if (!loops.empty() && contradictionOf(closed, ofUpdates) < contradictionOf(result.path, ofUpdates)) {
-      for (const LoopClosure& loop : loops) notes_.push_back(loopNote(loop, updateTimes_, true));
+    if (const double of = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates); of < contradiction) {
       refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
+      contradiction = of;
     }
     // On a wrong map, returning scans may match the walls of other places.
     constexpr double kMoreContradiction = 0.02;  // of the compared beams
     std::vector<mrpt::math::TPose2D> even = relaxed(result.path, ofUpdates, configuration_.filter);
-    if (contradictionOf(even, ofUpdates) <= contradictionOf(result.path, ofUpdates) + kMoreContradiction)
-      result.path = std::move(even);
+    result.isRelaxed = contradictionOf(even, ofUpdates) <= contradiction + kMoreContradiction;
+    if (result.isRelaxed) result.path = std::move(even);
     result.trajectory = recorder_.trajectory(result.path);
     for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
   }
@@ -118,16 +119,18 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
   refine(scans, configuration_.run.refine, configuration_.filter.grid, configuration_.filter.matcher,
          configuration_.filter.improved.minFit, configuration_.filter.filter.threads, base, odometry);
   // The first pose defines the frame of a new map.
-  if (!base)
-    for (size_t i = scans.size(); i-- > 0;) scans[i].pose = start + (scans[i].pose - scans.front().pose);
+  if (!base) moveFirstTo(start, scans);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
+  for (LoopClosure& loop : refinementLoops_) {
+    loop.place = result.path[loop.later];
+    notes_.push_back(loopNote(loop, updateTimes_, true));
+  }
   result.map = MapMaker(configuration_.filter)(scans, base);
   result.grid = toMrpt(result.map.grid);
   result.lines = result.map.lines.lines();
-  result.isRefined = true;
 }
 
 /// @throws std::bad_alloc if there was no memory for it
@@ -259,10 +262,10 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
   if (!scanOdometry_) evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
   evidence.scans = log.scans;
   verdict_ = verdictOf(evidence);
-  // A refined pose is a match to the map of all scans: the particles knew only that of the earlier ones.
+  // The poses of a relaxed path are matches to the map of all scans; the particles knew the earlier ones.
   const PathCovariances covariances(result.path,
-                                    result.isRefined ? std::vector<PoseCovariance>() : particleCovariances_,
-                                    evidence.returning, configuration_.filter.useLines);
+                                    result.isRelaxed ? std::vector<PoseCovariance>() : particleCovariances_,
+                                    evidence.returning, configuration_.filter.useLines, result.isRelaxed);
   writeCovarianceFile(result, covariances.ofPoses());
 }
 

@@ -71,8 +71,13 @@ FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
   if (row < trajectory.size())
     throw InputError("the log is not that of the run", log,
                      "expected a scan at each time of " + folder + "/trajectory.tum");
+  using Method = RunOptions::Method;
+  const RunOptions& run = configuration.run;
+  const bool isRelaxed = (run.method == Method::hybrid || run.method == Method::general) && run.refine > 0 &&
+                         configuration.filter.closesLoops() && run.continueFrom.empty() &&
+                         run.priorPlan.empty();
   return {trajectory, updates,
-          PathCovariances(path, {}, check.evidence().returning, configuration.filter.useLines)};
+          PathCovariances(path, {}, check.evidence().returning, configuration.filter.useLines, isRelaxed)};
 }
 
 }  // namespace hybrid_slam::run

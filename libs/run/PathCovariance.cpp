@@ -18,11 +18,15 @@ namespace {
 constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
-constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);            // of a scan match
-constexpr double kDrift = 0.002, kDriftAngle = mrpt::DEG2RAD(0.008);          // per sqrt(m), with lines
-constexpr double kOpenDrift = 0.003, kOpenDriftAngle = mrpt::DEG2RAD(0.048);  // the same, without
-constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);         // per sqrt(m), odometry alone
-constexpr double kLoops = 4, kNear = 3, kReturn = 20;                         // m
+constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);  // of a scan match
+/// Standard deviations of the drift per sqrt(m), in x and in y (m) and in heading (rad).
+struct Drift {
+  double position, heading;
+};
+constexpr Drift kRelaxed{0.002, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.003, mrpt::DEG2RAD(0.048)};
+constexpr Drift kOpen{0.01, mrpt::DEG2RAD(0.019)}, kOpenWithoutLines{0.028, mrpt::DEG2RAD(0.058)};
+constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
+constexpr double kLoops = 4, kNear = 3, kReturn = 20;                  // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
@@ -36,12 +40,11 @@ Eigen::Matrix3d ofMotion(const TPose2D& since) {
 
 double lengthBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, bool hasLines) {
+std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, const Drift& drift) {
   std::vector<StepVariance> steps(path.size());
   for (size_t i = 1; i < path.size(); ++i) {
     const double length = lengthBetween(path[i - 1], path[i]);
-    steps[i] = {square(hasLines ? kDrift : kOpenDrift) * length,
-                square(hasLines ? kDriftAngle : kOpenDriftAngle) * length};
+    steps[i] = {square(drift.position) * length, square(drift.heading) * length};
   }
   return steps;
 }
@@ -51,13 +54,15 @@ std::vector<KnownPair> loopsOf(const std::vector<TPose2D>& path, const std::vect
   std::vector<double> distances(path.size());
   for (size_t i = 1; i < path.size(); ++i)
     distances[i] = distances[i - 1] + lengthBetween(path[i - 1], path[i]);
+  // At most a thousand, so that a long path does not take a time in proportion to its square.
+  const double apart = std::max(kLoops, path.empty() ? 0 : distances.back() / 1000);
   std::vector<KnownPair> pairs;
   for (const Revisit& revisit : returning) {
     if (revisit.isContradicted() || revisit.update >= path.size()) continue;
     const size_t later = revisit.update;
-    if (!pairs.empty() && distances[later] < distances[pairs.back().later] + kLoops) continue;
+    if (!pairs.empty() && distances[later] < distances[pairs.back().later] + apart) continue;
     double nearest = kNear;
-    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle)};
+    KnownPair pair{0, later, diagonal(kMatch, kMatchAngle), true};
     for (size_t i = 0; distances[i] < distances[later] - kReturn; ++i)
       if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
           distance < nearest)
@@ -87,10 +92,13 @@ PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles) {
 }
 
 PathCovariances::PathCovariances(std::vector<TPose2D> path, std::vector<PoseCovariance> particles,
-                                 const std::vector<Revisit>& returning, bool hasLines)
+                                 const std::vector<Revisit>& returning, bool hasLines, bool isRelaxed)
     : path_(std::move(path)),
       particles_(std::move(particles)),
-      drift_(path_, driftAlong(path_, hasLines)),
+      isRelaxed_(isRelaxed),
+      drift_(path_, driftAlong(path_, isRelaxed  ? hasLines ? kRelaxed : kRelaxedWithoutLines
+                                      : hasLines ? kOpen
+                                                 : kOpenWithoutLines)),
       loops_(loopsOf(path_, returning)) {
   particles_.resize(path_.size(), PoseCovariance::Zero());
 }
@@ -99,7 +107,8 @@ std::vector<PoseCovariance> PathCovariances::ofPoses() const {
   std::vector<PoseCovariance> all;
   for (size_t i = 0; i < path_.size(); ++i) {
     const PathPoint pose{i, path_[i]};
-    all.push_back(particles_[i] + (i > 0 ? inMap({0, path_[0]}, pose) : ofMatch(pose)));
+    all.push_back(particles_[i] +
+                  (isRelaxed_ && i > 0 ? inMap({0, path_[0]}, pose) : driftBetween(0, i) + ofMatch(pose)));
   }
   return all;
 }
@@ -114,8 +123,11 @@ PoseCovariance PathCovariances::inMap(const PathPoint& from, const PathPoint& to
   // An error of `from` moves `to` the other way in its frame; that of its heading turns `to` about it.
   PoseCovariance lever = PoseCovariance::Identity();
   lever(0, 2) = from.pose.y - to.pose.y, lever(1, 2) = to.pose.x - from.pose.x;
-  return drift_.relaxed(from.update, to.update, loops_) + ofMatch(to) +
-         lever * ofMatch(from) * lever.transpose();
+  return driftBetween(from.update, to.update) + ofMatch(to) + lever * ofMatch(from) * lever.transpose();
+}
+
+PoseCovariance PathCovariances::driftBetween(size_t from, size_t to) const {
+  return isRelaxed_ ? drift_.relaxed(from, to, loops_) : drift_.between(from, to, loops_);
 }
 
 PoseCovariance PathCovariances::ofMatch(const PathPoint& point) const {

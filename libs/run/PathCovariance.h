@@ -27,19 +27,22 @@ struct PathPoint {
   mrpt::math::TPose2D pose;  ///< map frame
 };
 
-/// The uncertainty of a finished path. Its drift is a random walk along the path, distributed over the loops
-/// that it closes where returning scans agree with the map.
+/// The uncertainty of a finished path. Its drift is a random walk along the path. Where returning scans agree
+/// with the map, the path closes a loop: its drift is distributed over the loop if the path is relaxed, else
+/// it is that of the shorter way.
 class PathCovariances {
  public:
   /// @param path       a pose for each update, map frame
   /// @param particles  the covariance of the particles at each update; those of the last ones may be missing
   /// @param returning  scans compared with what was mapped before; those not contradicted close loops
   /// @param hasLines   line directions keep the heading: the path drifts less
+  /// @param isRelaxed  refined, its errors distributed over its loops (PathRelaxation)
   PathCovariances(std::vector<mrpt::math::TPose2D> path, std::vector<PoseCovariance> particles,
-                  const std::vector<Revisit>& returning, bool hasLines);
+                  const std::vector<Revisit>& returning, bool hasLines, bool isRelaxed);
 
-  /// Covariance of each pose of the path with respect to the first: drift, the scan matches of both, and
-  /// spread of the particles. The first has that of its scan match and of the particles.
+  /// Covariance of each pose of the path: drift since the first one, scan match and spread of the particles;
+  /// of a relaxed path with respect to the first pose, so that the scan match of that pose adds to all
+  /// others.
   std::vector<PoseCovariance> ofPoses() const;
   /// Covariance of one pose in the frame of another, (x, y, phi): drift between the two, scan match and
   /// motion since the update of each. Without the spread of the particles, most of which is common to both.
@@ -48,11 +51,13 @@ class PathCovariances {
  private:
   /// Of `to` with respect to `from`, but in the directions of the map's axes.
   PoseCovariance inMap(const PathPoint& from, const PathPoint& to) const;
+  PoseCovariance driftBetween(size_t from, size_t to) const;
   /// Of the pose within the map, map frame.
   PoseCovariance ofMatch(const PathPoint& point) const;
 
   std::vector<mrpt::math::TPose2D> path_;
   std::vector<PoseCovariance> particles_;
+  bool isRelaxed_;
   PathUncertainty drift_;
   std::vector<KnownPair> loops_;
 };

@@ -29,8 +29,9 @@ std::vector<Revisit> returnOf(const std::vector<TPose2D>& path, size_t contradic
 
 std::vector<PoseCovariance> ofPoses(const std::vector<TPose2D>& path,
                                     const std::vector<PoseCovariance>& particles,
-                                    const std::vector<Revisit>& returning, bool hasLines) {
-  return PathCovariances(path, particles, returning, hasLines).ofPoses();
+                                    const std::vector<Revisit>& returning, bool hasLines,
+                                    bool isRelaxed = true) {
+  return PathCovariances(path, particles, returning, hasLines, isRelaxed).ofPoses();
 }
 
 TEST(PathCovariance, OfParticles) {
@@ -84,7 +85,7 @@ TEST(PathCovariance, HoldsTheSpreadOfTheParticles) {
 TEST(PathCovariance, BetweenTwoPosesOfAStraightPath) {
   const auto path = thereAndBack();
   const PoseCovariance covariance =
-      PathCovariances(path, {}, {}, true).between({10, path[10]}, {30, path[30]});
+      PathCovariances(path, {}, {}, true, true).between({10, path[10]}, {30, path[30]});
   const double drift = 4e-6 * 10, match = 1e-4;  // m^2, over 10 m
   const double turnOfStep = 0.5 * std::pow(0.008 * kDegree, 2), turnOfMatch = std::pow(0.09 * kDegree, 2);
   double moment = 0, squares = 0;
@@ -98,23 +99,35 @@ TEST(PathCovariance, BetweenTwoPosesOfAStraightPath) {
 
 TEST(PathCovariance, BetweenTwoPosesOfALoop) {
   const auto path = thereAndBack();
-  const PathCovariances covariances(path, {}, returnOf(path, 2), true);
+  const PathCovariances covariances(path, {}, returnOf(path, 2), false, true);
   // From x = 5 m out and back to x = 5 m: 30 m, or by the start, where the path ends: 10 m and a match.
-  const double drift = std::pow(0.008 * kDegree, 2), match = std::pow(0.09 * kDegree, 2);
-  const double heading = 1 / (1 / (30 * drift) + 1 / (10 * drift + match)) + 2 * match;
+  const double drift = std::pow(0.048 * kDegree, 2), match = std::pow(0.09 * kDegree, 2);
   const PathPoint out{10, path[10]}, back{70, path[70]};
   const PoseCovariance there = covariances.between(out, back), here = covariances.between(back, out);
   EXPECT_NEAR(here(0, 0), there(0, 0), 1e-12);
-  EXPECT_NEAR(there(0, 0), 1 / (1 / (30 * 4e-6) + 1 / (10 * 4e-6 + 1e-4)) + 2e-4, 1e-6);
-  // Heading errors of the two ways also differ in where they move the end: the mean weighs all together.
-  EXPECT_NEAR(there(2, 2), heading, 0.2 * heading);
+  EXPECT_NEAR(there(0, 0), 1 / (1 / (30 * 9e-6) + 1 / (10 * 9e-6 + 1e-4)) + 2e-4, 1e-6);
+  // As the places of the two ways agree, too, the heading is known better than by the two headings alone.
+  EXPECT_LT(there(2, 2), 1 / (1 / (30 * drift) + 1 / (10 * drift + match)) + 2 * match);
+}
+
+TEST(PathCovariance, APathThatIsNotRelaxedHasTheDriftOfTheShorterWay) {
+  const auto path = thereAndBack();
+  const PathCovariances covariances(path, {}, returnOf(path, 2), true, false);
+  // The same: 10 m and a match.
+  const double heading = 10 * std::pow(0.019 * kDegree, 2) + 3 * std::pow(0.09 * kDegree, 2);
+  const PathPoint out{10, path[10]}, back{70, path[70]};
+  EXPECT_NEAR(covariances.between(out, back)(2, 2), heading, 1e-12);
+  EXPECT_NEAR(covariances.between(out, back)(0, 0), 10e-4 + 3e-4, 1e-4);
+  EXPECT_NEAR(covariances.ofPoses()[40](2, 2),
+              20 * std::pow(0.019 * kDegree, 2) + std::pow(0.09 * kDegree, 2), 1e-12)
+      << "the first pose adds nothing";
 }
 
 TEST(PathCovariance, BetweenTwoPosesIsInTheFrameOfTheFirst) {
   auto path = thereAndBack();
   const auto returning = returnOf(path, 2);
   const auto between = [&](size_t from, size_t to) {
-    return PathCovariances(path, {}, returning, false).between({from, path[from]}, {to, path[to]});
+    return PathCovariances(path, {}, returning, false, true).between({from, path[from]}, {to, path[to]});
   };
   const PoseCovariance ahead = between(0, 30), behind = between(45, 60), closed = between(12, 72);
   for (TPose2D& pose : path) pose = TPose2D(7, -3, 2) + pose;
@@ -125,7 +138,7 @@ TEST(PathCovariance, BetweenTwoPosesIsInTheFrameOfTheFirst) {
 
 TEST(PathCovariance, BetweenTwoPosesHoldsTheMotionSinceTheirUpdates) {
   const auto path = thereAndBack();
-  const PathCovariances covariances(path, {}, {}, true);
+  const PathCovariances covariances(path, {}, {}, true, true);
   const PoseCovariance more = covariances.between({10, path[10]}, {30, {15.25, 0, 0}}) -
                               covariances.between({10, path[10]}, {30, {15, 0, 0}});
   EXPECT_NEAR(more(0, 0), 0.25 * 4e-4, 1e-12);

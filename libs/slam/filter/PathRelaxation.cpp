@@ -68,7 +68,11 @@ class Relaxation {
     });
     if (std::none_of(returns.begin(), returns.end(), [](const auto& edge) { return edge.has_value(); }))
       return path_;
-    addMotions(tracked());
+    const std::vector<TPose2D> track = tracked();
+    for (size_t k = 1; k < nodes_.size(); ++k) {
+      const size_t from = nodes_[k - 1], to = nodes_[k];
+      graph_.motions.push_back({k - 1, k, track[to] - track[from], drift(from, to).inverse()});
+    }
     std::vector<TPose2D> poses = graph_.poses;
     for (int solution = 0; solution < kSolutions; ++solution) {
       PoseGraph graph = graph_;
@@ -181,13 +185,6 @@ class Relaxation {
         insert(mapped[k], track[mapped[k]], map);
     }
     return track;
-  }
-
-  void addMotions(const std::vector<TPose2D>& track) {
-    for (size_t k = 1; k < nodes_.size(); ++k) {
-      const size_t from = nodes_[k - 1], to = nodes_[k];
-      graph_.motions.push_back({k - 1, k, track[to] - track[from], drift(from, to).inverse()});
-    }
   }
 
   const std::vector<TPose2D>& path_;

@@ -140,4 +140,8 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
   }
 }
 
+void moveFirstTo(const TPose2D& pose, std::vector<PosedScans>& scans) {
+  for (size_t i = scans.size(); i-- > 0;) scans[i].pose = pose + (scans[i].pose - scans.front().pose);
+}
+
 }  // namespace hybrid_slam

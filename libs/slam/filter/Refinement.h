@@ -82,4 +82,7 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
             const ScanMatcherOptions& matcher, double minFit, int threads,
             const std::optional<ScanMap>& base = {}, const std::vector<MotionDistribution>& odometry = {});
 
+/// Moves all scans together so that the first one is at `pose`, as in a map that begins there.
+void moveFirstTo(const mrpt::math::TPose2D& pose, std::vector<PosedScans>& scans);
+
 }  // namespace hybrid_slam

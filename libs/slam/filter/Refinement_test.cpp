@@ -62,6 +62,17 @@ TEST(Refinement, MatchesTheFirstScanToo) {
   EXPECT_LT(std::abs(scans[0].pose.phi - truth[0].phi), 0.4 * kDegree);
 }
 
+TEST(Refinement, AllScansMoveWithTheFirst) {
+  std::vector<PosedScans> scans{{{}, {1, 2, 0.5}}, {{}, {3, 2, 1.5}}, {{}, {0, 0, 0}}};
+  const std::vector<PosedScans> before = scans;
+  moveFirstTo({}, scans);
+  EXPECT_EQ(scans[0].pose, TPose2D());
+  for (size_t i = 1; i < 3; ++i) {
+    EXPECT_EQ(scans[i].pose, before[i].pose - before[0].pose);
+    EXPECT_NE(scans[i].pose, before[i].pose);
+  }
+}
+
 /// The odometry that says that the robot drove along `path`.
 std::vector<MotionDistribution> odometryAlong(const std::vector<TPose2D>& path) {
   std::vector<MotionDistribution> odometry;

@@ -67,7 +67,9 @@ Eigen::Matrix3d PathUncertainty::between(size_t from, size_t to, const std::vect
   for (const KnownPair& pair : known) {
     if (pair.earlier == KnownPair::kMapFrame) continue;
     const size_t near = from <= to ? pair.earlier : pair.later, far = from <= to ? pair.later : pair.earlier;
-    const Eigen::Matrix3d detour = along(from, near, at) + pair.covariance + along(far, to, at);
+    const Eigen::Matrix3d ofPair =
+        pair.hasLever ? movedBy(at - places_[pair.later], pair.covariance) : pair.covariance;
+    const Eigen::Matrix3d detour = along(from, near, at) + ofPair + along(far, to, at);
     if (detour(0, 0) + detour(1, 1) < least(0, 0) + least(1, 1)) least = detour;
   }
   return least;

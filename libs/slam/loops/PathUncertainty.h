@@ -36,6 +36,9 @@ struct KnownPair {
   static constexpr size_t kMapFrame = std::numeric_limits<size_t>::max();  ///< `earlier` of a pose in the map
   size_t earlier = 0, later = 0;                                           ///< indices of the path
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();                    ///< of the later one, map frame
+  /// Whether its heading error displaces the poses beyond. Loop closing is tuned without: it knows a pair to
+  /// 0.5 deg at best, so that distant poses would seem uncertain by metres.
+  bool hasLever = false;
 
   template <class State>
   void visit(State& state) {
@@ -61,7 +64,7 @@ class PathUncertainty {
   Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
   /// The same for a path whose errors are distributed over its loops: where a known pair closes a loop, the
   /// mean, weighted by information, of the way through the loop and the way around it. Of several pairs, the
-  /// one that leaves the least. Pairs in the map are not allowed.
+  /// one that leaves the least. All pairs have a lever, and none is in the map.
   Eigen::Matrix3d relaxed(size_t from, size_t to, const std::vector<KnownPair>& known) const;
   /// Covariance of pose `to` in the map, by the nearest pose measured there; empty without one.
   std::optional<Eigen::Matrix3d> inMap(size_t to, const std::vector<KnownPair>& known) const;

@@ -60,6 +60,22 @@ TEST(PathUncertainty, AShortCutIsOneInBothDirections) {
     EXPECT_NEAR(outAndBack().between(from, to, {KnownPair{10, 90}})(2, 2), 10 * 1e-6, 1e-12) << from;
 }
 
+/// 20 m beyond the pair.
+TEST(PathUncertainty, TheHeadingOfAKnownPairMovesWhatFollows) {
+  const double variance = 1e-6;
+  const Eigen::Matrix3d heading = Eigen::Vector3d(0, 0, variance).asDiagonal();
+  const PathUncertainty path = outAndBack();
+  const Eigen::Matrix3d more =
+      path.between(5, 70, {KnownPair{10, 90, heading, true}}) - path.between(5, 70, {KnownPair{10, 90}});
+  EXPECT_NEAR(more(0, 0), 0, 1e-12);
+  EXPECT_NEAR(more(1, 1), 400 * variance, 1e-12);
+  EXPECT_NEAR(more(1, 2), 20 * variance, 1e-12);
+  EXPECT_NEAR(more(2, 2), variance, 1e-12);
+  const Eigen::Matrix3d without =
+      path.between(5, 70, {KnownPair{10, 90, heading}}) - path.between(5, 70, {KnownPair{10, 90}});
+  EXPECT_NEAR(without(1, 1), 0, 1e-12) << "as loop closing takes it";
+}
+
 TEST(PathUncertainty, HalfOfAKnownLoopHasHalfOfTheVariance) {
   std::vector<TPose2D> path;
   for (int i = 0; i <= 100; ++i) path.emplace_back(std::min(i, 100 - i), 0, 0);
