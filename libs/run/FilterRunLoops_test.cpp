@@ -167,6 +167,27 @@ TEST_F(FilterRunLoops, TheMapBeginsAtTheFirstPoseAlsoIfRefined) {
   EXPECT_NEAR(trajectory.at(0).pose.phi, 0, 1e-9);
 }
 
+// A path whose errors were not distributed over its loops drifts more.
+TEST_F(FilterRunLoops, TheCovarianceIsThatOfARelaxedPathOnlyIfItWasRelaxed) {
+  const auto varianceOfEarlyPose = [this](int refine, bool closes) {
+    Configuration c = configuration("out");
+    c.run.overwrite = true;
+    c.run.refine = refine;
+    c.filter.loopClosing.enabled = closes;
+    FilterRun run(c);
+    process(run, c);
+    run.finish(log, readings::summarise(log, c.input), nlohmann::ordered_json::object());
+    std::istringstream table(result("out/covariance.csv"));
+    std::string line;
+    for (int row = 0; row < 20; ++row) std::getline(table, line);
+    line.erase(0, line.find(',') + 1);
+    return parseNumber(line.substr(0, line.find(','))).value();
+  };
+  EXPECT_NEAR(varianceOfEarlyPose(1, true), 3e-4, 1e-4) << "two scan matches, and little drift";
+  EXPECT_GT(varianceOfEarlyPose(0, true), 1e-3);
+  EXPECT_GT(varianceOfEarlyPose(1, false), 1e-3);
+}
+
 // A resumed run refines again, which must not count the same loops twice.
 TEST_F(FilterRunLoops, ASessionHoldsTheLoopsOfTheFilterAlone) {
   Configuration c = configuration("out");
