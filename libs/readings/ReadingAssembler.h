@@ -94,9 +94,9 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   /// Returns whether the odometry is known up to the scan's last beam, or never will be.
   bool isReady(const Waiting& scan) const;
   void completeReady();
-  /// Corrects the scan for the motion during its sweep, if that is known.
-  /// Returns whether only its first beams are older than the first odometry.
+  /// Returns whether only the first beams are older than the first odometry.
   bool isEarly(const Waiting& scan) const;
+  /// Corrects the scan for the motion during its sweep, if that is known.
   mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
   void complete(const Waiting& scan);
   void endReading();

@@ -58,9 +58,7 @@ class PathUncertainty {
   PathUncertainty(const std::vector<mrpt::math::TPose2D>& path, const std::vector<StepVariance>& steps);
 
   /// Covariance of pose `to` (x, y, phi; map frame) with respect to pose `from`, along the shorter of the
-  /// path and the path with a short cut through one of the known pairs. Constant time per pair. The heading
-  /// error of a pair does not displace what follows: loop closing, which knows it to 0.5 deg at best, is
-  /// tuned without, since distant poses would seem uncertain by metres.
+  /// path and the path with a short cut through one of the known pairs. Constant time per pair.
   Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
   /// The same for a path whose errors are distributed over its loops: where a known pair closes a loop, the
   /// mean, weighted by information, of the way through the loop and the way around it. Of several pairs, the
