@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/State.h"
+#include "slam/filter/RecentMap.h"
 #include "slam/filter/ScanOdometry.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopCloser.h"
@@ -147,6 +148,11 @@ TEST(ImpossibleState, BeamBeyondTheRange) {
                    std::vector<PoseEdge>(), std::vector<KnownPair>(), size_t{0}, size_t{1}, TPose2D(),
                    StepVariance(), 0.0);
   };
+  const auto canReadRecent = [&](double range) {
+    return canRead(RecentMap(grid), std::deque<ScanBeams>{beamOf(range)});
+  };
+  EXPECT_TRUE(canReadRecent(19));
+  EXPECT_FALSE(canReadRecent(5000));
   EXPECT_TRUE(canReadOdometry(19));
   EXPECT_FALSE(canReadOdometry(5000));
   EXPECT_TRUE(canReadLoops(19, {1e-5, 1e-6}));

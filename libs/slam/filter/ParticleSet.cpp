@@ -47,7 +47,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       terms_(c),
       improvedProposal_(c.improved, c.motion, c.matcher, terms_),
       matcher_(c.matcher),
-      newSlipRecovery_(c.improved, c.motion, c.matcher, c.gridWeight, c.grid.resolution),
+      newSlipRecovery_(c.improved, c.motion, c.matcher, c.gridWeight, c.grid),
       slipRecovery_(newSlipRecovery_),
       arena_(arenaThreads(c.filter.threads)) {}
 

@@ -31,12 +31,13 @@ class Path {
   bool sharesWith(const Path& other) const { return last_ == other.last_; }
 
   /// All poses, oldest first.
-  std::vector<mrpt::math::TPose2D> poses() const {
-    std::vector<mrpt::math::TPose2D> all;
-    all.reserve(size());
-    for (const Node* node = last_.get(); node; node = node->parent.get()) all.push_back(node->pose);
-    std::reverse(all.begin(), all.end());
-    return all;
+  std::vector<mrpt::math::TPose2D> poses() const { return newest(size()); }
+  /// The newest poses, oldest first: `count`, or all if there are fewer.
+  std::vector<mrpt::math::TPose2D> newest(size_t count) const {
+    std::vector<mrpt::math::TPose2D> poses(std::min(count, size()));
+    const Node* node = last_.get();
+    for (size_t i = poses.size(); i-- > 0; node = node->parent.get()) poses[i] = node->pose;
+    return poses;
   }
 
   /// Visits the nodes of the path. Nodes that several paths share are written once.

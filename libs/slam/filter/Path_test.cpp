@@ -25,6 +25,8 @@ TEST(Path, ListsItsPosesOldestFirst) {
   EXPECT_EQ(path.size(), 5u);
   EXPECT_EQ(path.back(), pose(4));
   EXPECT_EQ(path.poses(), (std::vector<TPose2D>{pose(0), pose(1), pose(2), pose(3), pose(4)}));
+  EXPECT_EQ(path.newest(2), (std::vector<TPose2D>{pose(3), pose(4)}));
+  EXPECT_EQ(path.newest(9), path.poses());
 }
 
 TEST(Path, TheLastMotionIsInTheFrameOfThePreviousPose) {

@@ -19,7 +19,8 @@ constexpr double kForgetting = 0.1;      // weight of the newest scan in the usu
 constexpr size_t kPlaces = 8;            // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
-constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
+constexpr double kKnown = 0.3;       // share of the beams that recent scans explain: it has not been carried
+constexpr size_t kCarriedScans = 4;  // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
@@ -31,12 +32,13 @@ const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 
 SlipRecovery::SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
                            const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight,
-                           double resolution)
+                           const GridOptions& grid)
     : options_(options),
       motion_(motion),
       exponent_(gridWeight.exponent),
       matcher_(matcher),
-      gridWeight_(gridWeight, resolution) {}
+      gridWeight_(gridWeight, grid.resolution),
+      recent_(grid) {}
 
 // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any wall,
 // and would pull the robot back along a partly seen corridor. A scan has no more independent beams than
@@ -60,12 +62,12 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
     hypotheses = searchNearby(odometry, best, expected, usual, scan);
-    const auto isContradicted = [&] {
-      return beamShares(scan.matchedBeams, hypotheses[0].match.pose, best.grid).contradicted > kContradicted;
-    };
-    if (isContradicted())
+    bool isLost = isContradicted(hypotheses[0].match.pose, best, scan);
+    if (isLost) {
       hypotheses = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
-    if (isContradicted()) {
+      isLost = isContradicted(hypotheses[0].match.pose, best, scan);
+    }
+    if (isLost) {
       contradicting_.push_back({odometry, scan.matchedBeams});
       if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
       const auto elsewhere = searchMap(best, scan);
@@ -83,11 +85,21 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
       motion.start = hypothesis.match.pose - before;
     motions.push_back(motion);
   }
-  if (hypotheses[0].isElsewhere) contradicting_.clear();
+  if (hypotheses[0].isElsewhere) {
+    contradicting_.clear();
+    recent_.clear();
+  }
+  recent_.add(scan.matchedBeams);
   const double fit = hypotheses[0].match.fit;
   if (contradicting_.empty() && !scan.matchedBeams.rays.empty())
     usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
   return motions;
+}
+
+bool SlipRecovery::isContradicted(const TPose2D& pose, const Particle& best, const PreparedScan& scan) const {
+  if (beamShares(scan.matchedBeams, pose, best.grid).contradicted <= kContradicted) return false;
+  const BeamShares recent = recent_.compare(scan.matchedBeams, pose, best.path, contradicting_.size());
+  return recent.contradicted > kUncontradicted || recent.explained < kKnown;
 }
 
 /// Returns the hypotheses that rival the best one, best first; nearly equal poses count once.

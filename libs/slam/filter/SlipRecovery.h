@@ -8,6 +8,7 @@
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/Particle.h"
 #include "slam/filter/PreparedScan.h"
+#include "slam/filter/RecentMap.h"
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/ScanMatcher.h"
 
@@ -27,15 +28,19 @@ struct StepMotion {
 /// was carried: the whole map is searched for a place that all of them fit, with lines first at the four
 /// headings that align their walls with the map's, and then at all headings.
 ///
+/// A scan that agrees with the scans just before it contradicts no map: where the robot returns to a place
+/// from which its path has drifted, the older map is off, which loop closing corrects.
+///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
 /// motion model is accepted if its posterior under this mixture is higher; poses of similar posterior are
 /// hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
  public:
-  /// @param resolution  of the particles' grids, m
+  /// @param grid  of the particles
   SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
-               const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight, double resolution);
+               const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight,
+               const GridOptions& grid);
   /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
   /// Returns at least one hypothesis, the most likely first.
@@ -44,7 +49,7 @@ class SlipRecovery {
 
   template <class State>
   void visit(State& state) {
-    state(contradicting_, usualFit_);
+    state(contradicting_, recent_, usualFit_);
   }
 
  private:
@@ -60,6 +65,9 @@ class SlipRecovery {
   std::vector<Hypothesis> searchWindow(const mrpt::math::TPose2D& centre, const SearchWindow& window,
                                        const Particle& best, const MotionDistribution& expected,
                                        const Hypothesis& usual, const PreparedScan& scan) const;
+  /// Returns whether the scan contradicts the best particle's map at `pose`, other than by the drift of its
+  /// path.
+  bool isContradicted(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
   /// Returns whether the contradicting scans fit the map if the newest was taken at `pose`.
   bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;
@@ -81,7 +89,8 @@ class SlipRecovery {
     }
   };
   std::deque<TakenScan> contradicting_;  ///< the newest successive scans that contradict the map
-  double usualFit_ = 0;                  ///< running mean of the fit, recent scans weighted most
+  RecentMap recent_;
+  double usualFit_ = 0;  ///< running mean of the fit, recent scans weighted most
 };
 
 /// The motion model's distribution of the pose after a step; after a slip, as wide as the search window
