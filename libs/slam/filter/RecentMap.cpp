@@ -13,13 +13,12 @@ void RecentMap::add(const ScanBeams& scan) {
   if (scans_.size() > kScans) scans_.pop_front();
 }
 
-BeamShares RecentMap::compare(const ScanBeams& scan, const mrpt::math::TPose2D& pose, const Path& path,
-                              size_t skip) const {
+OccupancyGrid RecentMap::map(const Path& path, size_t skip) const {
   OccupancyGrid map(grid_.resolution);
   const std::vector<mrpt::math::TPose2D> poses = path.newest(scans_.size());
   const size_t first = scans_.size() - poses.size();
   for (size_t i = 0; i + skip < poses.size(); ++i) map.insert(scans_[first + i], poses[i], grid_);
-  return beamShares(scan, pose, map);
+  return map;
 }
 
 }  // namespace hybrid_slam

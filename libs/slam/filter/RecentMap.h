@@ -5,7 +5,7 @@
 #include <deque>
 
 #include "slam/filter/Path.h"
-#include "slam/grid/GlobalSearch.h"
+#include "slam/grid/OccupancyGrid.h"
 
 namespace hybrid_slam {
 
@@ -19,11 +19,10 @@ class RecentMap {
   /// Adds the scan of an update.
   void add(const ScanBeams& scan);
   void clear() { scans_.clear(); }
-  /// Compares a scan at `pose` with a map of these scans.
+  /// A map of these scans.
   /// @param path  ends at the newest of them (map frame)
-  /// @param skip  newest scans that are left out of the map
-  BeamShares compare(const ScanBeams& scan, const mrpt::math::TPose2D& pose, const Path& path,
-                     size_t skip) const;
+  /// @param skip  newest scans that are left out
+  OccupancyGrid map(const Path& path, size_t skip) const;
 
   template <class State>
   void visit(State& state) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/grid/GlobalSearch.h"
 #include "testing/MappedRoom.h"
 
 namespace hybrid_slam {
@@ -30,10 +31,10 @@ TEST(RecentMap, ExplainsTheNextScanButNoneFromElsewhere) {
   Driven robot(20);
   const TPose2D next(2, 0, 0.4);
   const ScanBeams scan = robot.scanAt(next);
-  const BeamShares shares = robot.recent.compare(scan, next, robot.path, 0);
+  const BeamShares shares = beamShares(scan, next, robot.recent.map(robot.path, 0));
   EXPECT_GT(shares.explained, 0.9);
   EXPECT_LT(shares.contradicted, 0.05);
-  const BeamShares elsewhere = robot.recent.compare(robot.scanAt({5, 2, 2}), next, robot.path, 0);
+  const BeamShares elsewhere = beamShares(robot.scanAt({5, 2, 2}), next, robot.recent.map(robot.path, 0));
   EXPECT_LT(elsewhere.explained, 0.5);
   EXPECT_GT(elsewhere.contradicted, 0.3);
 }
@@ -47,18 +48,18 @@ TEST(RecentMap, LeavesOutTheNewestScans) {
     robot.path.push(believed);
     robot.recent.add(scan);
   }
-  EXPECT_GT(robot.recent.compare(scan, believed, robot.path, 0).explained, 0.9);
-  EXPECT_LT(robot.recent.compare(scan, believed, robot.path, 3).explained, 0.5);
+  EXPECT_GT(beamShares(scan, believed, robot.recent.map(robot.path, 0)).explained, 0.9);
+  EXPECT_LT(beamShares(scan, believed, robot.recent.map(robot.path, 3)).explained, 0.5);
 }
 
 TEST(RecentMap, KnowsNothingWithoutScans) {
   Driven robot(20);
   const TPose2D next(2, 0, 0.4);
   const ScanBeams scan = robot.scanAt(next);
-  EXPECT_EQ(robot.recent.compare(scan, next, robot.path, 20).explained, 0);
-  EXPECT_EQ(robot.recent.compare(scan, next, robot.path, 30).explained, 0);
+  EXPECT_EQ(beamShares(scan, next, robot.recent.map(robot.path, 20)).explained, 0);
+  EXPECT_EQ(beamShares(scan, next, robot.recent.map(robot.path, 30)).explained, 0);
   robot.recent.clear();
-  EXPECT_EQ(robot.recent.compare(scan, next, robot.path, 0).explained, 0);
+  EXPECT_EQ(beamShares(scan, next, robot.recent.map(robot.path, 0)).explained, 0);
 }
 
 /// Only the newest 40 scans count: the path may have drifted since the others.
@@ -66,14 +67,14 @@ TEST(RecentMap, ForgetsTheOldest) {
   Driven robot(2);
   const TPose2D beginning(0, 0, 0);
   const ScanBeams scan = robot.scanAt(beginning);
-  ASSERT_GT(robot.recent.compare(scan, beginning, robot.path, 0).explained, 0.9);
+  ASSERT_GT(beamShares(scan, beginning, robot.recent.map(robot.path, 0)).explained, 0.9);
   const Walls elsewhere = polygon({{30, 30}, {34, 30}, {34, 33}, {30, 33}});
   RandomStream random(2, 0, 0);
   for (int i = 0; i < 40; ++i) {
     robot.path.push({32, 31.5, 0.1 * i});
     robot.recent.add(prepared(elsewhere, robot.path.back(), random).matchedBeams);
   }
-  EXPECT_EQ(robot.recent.compare(scan, beginning, robot.path, 0).explained, 0);
+  EXPECT_EQ(beamShares(scan, beginning, robot.recent.map(robot.path, 0)).explained, 0);
 }
 
 }  // namespace

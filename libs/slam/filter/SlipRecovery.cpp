@@ -19,7 +19,9 @@ constexpr double kForgetting = 0.1;      // weight of the newest scan in the usu
 constexpr size_t kPlaces = 8;            // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
-constexpr double kKnown = 0.3;       // share of the beams that recent scans explain: it has not been carried
+// Of the recent scans: they explain at least this share of the beams and contradict at most that one if the
+// odometry is right; if it is wrong, they contradict at least this share of the beams that they know.
+constexpr double kExplained = 0.5, kDisputed = 0.05, kRefuted = 0.1;
 constexpr size_t kCarriedScans = 4;  // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
@@ -62,12 +64,24 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
     hypotheses = searchNearby(odometry, best, expected, usual, scan);
-    bool isLost = isContradicted(hypotheses[0].match.pose, best, scan);
-    if (isLost) {
-      hypotheses = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
-      isLost = isContradicted(hypotheses[0].match.pose, best, scan);
+    const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
+    const auto isRefuted = [&](const Hypothesis& hypothesis) {
+      const BeamShares shares = beamShares(scan.matchedBeams, hypothesis.match.pose, recent);
+      return shares.contradicted >= kRefuted * (shares.explained + shares.contradicted);
+    };
+    const BeamShares asBefore = beamShares(scan.matchedBeams, usual.match.pose, recent);
+    if (asBefore.explained > kExplained && asBefore.contradicted < kDisputed) {
+      hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), isRefuted), hypotheses.end());
+      if (hypotheses.empty()) hypotheses = {usual};
     }
-    if (isLost) {
+    const auto isContradicted = [&] {
+      const TPose2D& pose = hypotheses[0].match.pose;
+      return beamShares(scan.matchedBeams, pose, best.grid).contradicted > kContradicted &&
+             isRefuted(hypotheses[0]);
+    };
+    if (isContradicted())
+      hypotheses = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
+    if (isContradicted()) {
       contradicting_.push_back({odometry, scan.matchedBeams});
       if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
       const auto elsewhere = searchMap(best, scan);
@@ -94,12 +108,6 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   if (contradicting_.empty() && !scan.matchedBeams.rays.empty())
     usualFit_ = usualFit_ == 0 ? fit : (1 - kForgetting) * usualFit_ + kForgetting * fit;
   return motions;
-}
-
-bool SlipRecovery::isContradicted(const TPose2D& pose, const Particle& best, const PreparedScan& scan) const {
-  if (beamShares(scan.matchedBeams, pose, best.grid).contradicted <= kContradicted) return false;
-  const BeamShares recent = recent_.compare(scan.matchedBeams, pose, best.path, contradicting_.size());
-  return recent.contradicted > kUncontradicted || recent.explained < kKnown;
 }
 
 /// Returns the hypotheses that rival the best one, best first; nearly equal poses count once.

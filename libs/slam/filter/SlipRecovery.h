@@ -28,8 +28,9 @@ struct StepMotion {
 /// was carried: the whole map is searched for a place that all of them fit, with lines first at the four
 /// headings that align their walls with the map's, and then at all headings.
 ///
-/// A scan that agrees with the scans just before it contradicts no map: where the robot returns to a place
-/// from which its path has drifted, the older map is off, which loop closing corrects.
+/// A robot that returns to a place from which its path has drifted contradicts the map, too; loop closing
+/// corrects that. So nothing is searched if the scan agrees with those just before it, and nothing beyond the
+/// first windows if it does not contradict them.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
@@ -65,9 +66,6 @@ class SlipRecovery {
   std::vector<Hypothesis> searchWindow(const mrpt::math::TPose2D& centre, const SearchWindow& window,
                                        const Particle& best, const MotionDistribution& expected,
                                        const Hypothesis& usual, const PreparedScan& scan) const;
-  /// Returns whether the scan contradicts the best particle's map at `pose`, other than by the drift of its
-  /// path.
-  bool isContradicted(const mrpt::math::TPose2D& pose, const Particle& best, const PreparedScan& scan) const;
   std::vector<Hypothesis> searchMap(const Particle& best, const PreparedScan& scan) const;
   /// Returns whether the contradicting scans fit the map if the newest was taken at `pose`.
   bool fitsAll(mrpt::math::TPose2D pose, const Particle& best) const;
