@@ -28,9 +28,11 @@ struct StepMotion {
 /// was carried: the whole map is searched for a place that all of them fit, with lines first at the four
 /// headings that align their walls with the map's, and then at all headings.
 ///
-/// A robot that returns to a place from which its path has drifted contradicts the map, too; loop closing
-/// corrects that. So nothing is searched if the scan agrees with those just before it, and nothing beyond the
-/// first windows if it does not contradict them.
+/// A robot that returns to a place from which its path has drifted contradicts the map, too, and may fit
+/// better at another place that looks the same; loop closing corrects the drift. So a scan is also compared
+/// with a map of the newest scans alone: if it agrees with them where the odometry says, a pose where it
+/// contradicts them is no slip, and only a scan that contradicts them is searched for at all headings and in
+/// the whole map.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
