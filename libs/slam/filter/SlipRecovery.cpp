@@ -63,32 +63,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   std::vector<Hypothesis> hypotheses{usual};
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
-    hypotheses = searchNearby(odometry, best, expected, usual, scan);
-    const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
-    const auto isRefuted = [&](const Hypothesis& hypothesis) {
-      const BeamShares shares = beamShares(scan.matchedBeams, hypothesis.match.pose, recent);
-      return shares.contradicted >= kRefuted * (shares.explained + shares.contradicted);
-    };
-    const BeamShares asBefore = beamShares(scan.matchedBeams, usual.match.pose, recent);
-    if (asBefore.explained > kExplained && asBefore.contradicted < kDisputed) {
-      hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), isRefuted), hypotheses.end());
-      if (hypotheses.empty()) hypotheses = {usual};
-    }
-    const auto isContradicted = [&] {
-      const TPose2D& pose = hypotheses[0].match.pose;
-      return beamShares(scan.matchedBeams, pose, best.grid).contradicted > kContradicted &&
-             isRefuted(hypotheses[0]);
-    };
-    if (isContradicted())
-      hypotheses = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
-    if (isContradicted()) {
-      contradicting_.push_back({odometry, scan.matchedBeams});
-      if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
-      const auto elsewhere = searchMap(best, scan);
-      if (!elsewhere.empty()) hypotheses = elsewhere;
-    } else {
-      contradicting_.clear();
-    }
+    hypotheses = search(odometry, best, expected, usual, scan);
   } else {
     contradicting_.clear();
   }
@@ -126,6 +101,37 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
     if (!isKnown) kept.push_back(hypothesis);
   }
   return kept;
+}
+
+std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odometry, const Particle& best,
+                                                           const MotionDistribution& expected,
+                                                           const Hypothesis& usual,
+                                                           const PreparedScan& scan) {
+  std::vector<Hypothesis> found = searchNearby(odometry, best, expected, usual, scan);
+  const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
+  const auto isRefuted = [&](const Hypothesis& hypothesis) {
+    const BeamShares shares = beamShares(scan.matchedBeams, hypothesis.match.pose, recent);
+    return shares.contradicted >= kRefuted * (shares.explained + shares.contradicted);
+  };
+  const BeamShares asBefore = beamShares(scan.matchedBeams, usual.match.pose, recent);
+  if (asBefore.explained > kExplained && asBefore.contradicted < kDisputed) {
+    found.erase(std::remove_if(found.begin(), found.end(), isRefuted), found.end());
+    if (found.empty()) found = {usual};
+  }
+  const auto isContradicted = [&] {
+    const BeamShares shares = beamShares(scan.matchedBeams, found[0].match.pose, best.grid);
+    return shares.contradicted > kContradicted && isRefuted(found[0]);
+  };
+  if (isContradicted())
+    found = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
+  if (!isContradicted()) {
+    contradicting_.clear();
+    return found;
+  }
+  contradicting_.push_back({odometry, scan.matchedBeams});
+  if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
+  const auto elsewhere = searchMap(best, scan);
+  return elsewhere.empty() ? found : elsewhere;
 }
 
 // Around the odometry; if the scan does not fit there, around a robot that stood still (spinning wheels) and

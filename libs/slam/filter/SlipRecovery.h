@@ -62,6 +62,9 @@ class SlipRecovery {
     bool hasSlipped;
     bool isElsewhere = false;  ///< found in the whole map
   };
+  std::vector<Hypothesis> search(const mrpt::math::TPose2D& odometry, const Particle& best,
+                                 const MotionDistribution& expected, const Hypothesis& usual,
+                                 const PreparedScan& scan);
   std::vector<Hypothesis> searchNearby(const mrpt::math::TPose2D& odometry, const Particle& best,
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
