@@ -19,16 +19,20 @@ constexpr double kForgetting = 0.1;      // weight of the newest scan in the usu
 constexpr size_t kPlaces = 8;            // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
-// Of the recent scans: they explain at least this share of the beams and contradict at most that one if the
-// odometry is right; if it is wrong, they contradict at least this share of the beams that they know.
-constexpr double kExplained = 0.5, kDisputed = 0.05, kRefuted = 0.1;
-constexpr size_t kCarriedScans = 4;  // in succession, before the whole map is searched
+constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
+constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
 constexpr double kWholeStep = -9.2;  // ln 1e-4: prior of no motion or the opposite one, relative to a slip
 
 const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
+
+/// Share of the beams known to a map that it contradicts; 1 if it knows none.
+double refutedShare(const BeamShares& shares) {
+  const double known = shares.explained + shares.contradicted;
+  return known > 0 ? shares.contradicted / known : 1;
+}
 
 }  // namespace
 
@@ -107,23 +111,27 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
                                                            const MotionDistribution& expected,
                                                            const Hypothesis& usual,
                                                            const PreparedScan& scan) {
-  std::vector<Hypothesis> found = searchNearby(odometry, best, expected, usual, scan);
   const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
-  const auto isRefuted = [&](const Hypothesis& hypothesis) {
-    const BeamShares shares = beamShares(scan.matchedBeams, hypothesis.match.pose, recent);
-    return shares.contradicted >= kRefuted * (shares.explained + shares.contradicted);
+  const auto refuted = [&](const TPose2D& pose) {
+    return refutedShare(beamShares(scan.matchedBeams, pose, recent));
   };
-  const BeamShares asBefore = beamShares(scan.matchedBeams, usual.match.pose, recent);
-  if (asBefore.explained > kExplained && asBefore.contradicted < kDisputed) {
-    found.erase(std::remove_if(found.begin(), found.end(), isRefuted), found.end());
-    if (found.empty()) found = {usual};
-  }
+  // A match to a map that is off may contradict the recent scans where the odometry agrees with them.
+  const double asExpected = std::min(refuted(usual.match.pose), refuted(expected.mean));
+  const auto unrefuted = [&](std::vector<Hypothesis> all) {
+    const double most = std::max(kRefuted, asExpected);
+    const auto isRefuted = [&](const Hypothesis& h) { return refuted(h.match.pose) > most; };
+    all.erase(std::remove_if(all.begin(), all.end(), isRefuted), all.end());
+    return all.empty() ? std::vector<Hypothesis>{usual} : all;
+  };
+  std::vector<Hypothesis> found = unrefuted(searchNearby(odometry, best, expected, usual, scan));
   const auto isContradicted = [&] {
     const BeamShares shares = beamShares(scan.matchedBeams, found[0].match.pose, best.grid);
-    return shares.contradicted > kContradicted && isRefuted(found[0]);
+    return shares.contradicted > kContradicted &&
+           std::min(asExpected, refuted(found[0].match.pose)) >= kRefuted;
   };
   if (isContradicted())
-    found = searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan);
+    found =
+        unrefuted(searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan));
   if (!isContradicted()) {
     contradicting_.clear();
     return found;
