@@ -20,7 +20,9 @@ constexpr size_t kPlaces = 8;            // starting points of the local optimis
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
+constexpr double kExplained = 0.5;       // share of the beams that recent scans explain: it was not carried
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
+constexpr size_t kRemembered = 40;  // contradicting scans: as many as RecentMap holds, which leaves them out
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
@@ -125,9 +127,11 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
   };
   std::vector<Hypothesis> found = unrefuted(searchNearby(odometry, best, expected, usual, scan));
   const auto isContradicted = [&] {
-    const BeamShares shares = beamShares(scan.matchedBeams, found[0].match.pose, best.grid);
-    return shares.contradicted > kContradicted &&
-           std::min(asExpected, refuted(found[0].match.pose)) >= kRefuted;
+    const TPose2D& pose = found[0].match.pose;
+    if (beamShares(scan.matchedBeams, pose, best.grid).contradicted <= kContradicted) return false;
+    if (std::min(asExpected, refuted(pose)) >= kRefuted) return true;
+    // A robot that was carried drives on, to where the scans before it show little.
+    return !contradicting_.empty() && beamShares(scan.matchedBeams, pose, recent).explained < kExplained;
   };
   if (isContradicted())
     found =
@@ -137,7 +141,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
     return found;
   }
   contradicting_.push_back({odometry, scan.matchedBeams});
-  if (contradicting_.size() > kCarriedScans) contradicting_.pop_front();
+  if (contradicting_.size() > kRemembered) contradicting_.pop_front();
   const auto elsewhere = searchMap(best, scan);
   return elsewhere.empty() ? found : elsewhere;
 }
@@ -198,7 +202,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& be
 }
 
 bool SlipRecovery::fitsAll(TPose2D pose, const Particle& best) const {
-  for (auto scan = contradicting_.rbegin(); scan != contradicting_.rend(); ++scan) {
+  for (auto scan = contradicting_.rbegin(); scan != contradicting_.rbegin() + kCarriedScans; ++scan) {
     const ScanMatch match = matcher_.match(scan->beams, pose, best.grid, kAnywhere);
     const TPose2D offset = match.pose - pose;
     if (match.fit < kPoorFit * usualFit_ || offset.norm() > 0.3 ||
