@@ -26,7 +26,7 @@ run() {
 import json, sys
 result, seconds = sys.argv[1:]
 metrics = json.load(open(result + "/metrics.json"))
-print(json.load(open(result + ".json"))["trans_rmse_m"], metrics["verdict"], int(metrics.get("second_run", False)), seconds)
+print(json.load(open(result + ".json"))["trans_rmse_m"], metrics["verdict"], int("second run" in open(result + ".log").read()), seconds)
 END
   mv "$result.part" "$result.row"
 }
