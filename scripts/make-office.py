@@ -2,7 +2,7 @@
 """Floor plan, route and INI file of a random office building: make-office.py SEED FOLDER
 
 writes FOLDER/office-SEED.plan, .route and .ini (for simul-floorplan). Corridors in a rectangular grid, 2 to 3 m wide and
-18 to 60 m between crossings, with closed doors, small rooms and pillars: 1.3 to 1.8 km, first around the building, then
+18 to 60 m between crossings, with closed doors, small rooms and pillars: 1.2 to 1.8 km, first around the building, then
 along the inner corridors. All crossings look alike. Spacing of the scans, noise and errors of the odometry are random,
 too; half of the odometries slip twice, by 20 to 90 deg.
 """

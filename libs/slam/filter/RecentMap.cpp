@@ -2,12 +2,6 @@
 
 namespace hybrid_slam {
 
-namespace {
-
-constexpr size_t kScans = 40;
-
-}  // namespace
-
 void RecentMap::add(const ScanBeams& scan) {
   scans_.push_back(scan);
   if (scans_.size() > kScans) scans_.pop_front();

@@ -14,6 +14,8 @@ namespace hybrid_slam {
 /// the robot has just seen.
 class RecentMap {
  public:
+  static constexpr size_t kScans = 40;  ///< the newest ones; older ones are forgotten
+
   /// @param grid  of the particles
   explicit RecentMap(const GridOptions& grid) : grid_(grid) {}
   /// Adds the scan of an update.

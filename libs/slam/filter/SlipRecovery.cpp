@@ -22,7 +22,6 @@ constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
 constexpr double kExplained = 0.5;       // share of the beams that recent scans explain: it was not carried
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
-constexpr size_t kRemembered = 40;  // contradicting scans: as many as RecentMap holds, which leaves them out
 constexpr size_t kMapPlaces = 40;
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
@@ -141,7 +140,8 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
     return found;
   }
   contradicting_.push_back({odometry, scan.matchedBeams});
-  if (contradicting_.size() > kRemembered) contradicting_.pop_front();
+  // The map of recent scans leaves out as many, or all.
+  if (contradicting_.size() > RecentMap::kScans) contradicting_.pop_front();
   const auto elsewhere = searchMap(best, scan);
   return elsewhere.empty() ? found : elsewhere;
 }

@@ -92,8 +92,8 @@ class SlipRecovery {
     }
   };
   std::deque<TakenScan> contradicting_;  ///< the newest successive scans that contradict the map
-  RecentMap recent_;
-  double usualFit_ = 0;  ///< running mean of the fit, recent scans weighted most
+  RecentMap recent_;                     ///< what the robot has just seen
+  double usualFit_ = 0;                  ///< running mean of the fit, recent scans weighted most
 };
 
 /// The motion model's distribution of the pose after a step; after a slip, as wide as the search window
