@@ -9,4 +9,5 @@ if [[ -n ${HYBRID_SLAM_WERROR:-} ]]; then cmake --preset "$preset" -DHYBRID_SLAM
 build "$preset"
 [[ -n ${HYBRID_SLAM_DATASETS:-} ]] ||
   echo "HYBRID_SLAM_DATASETS is unset: tests on the public logs are skipped (doc/datasets.md)"
-ctest --preset "$preset" -j2 "$@"
+# One more than the cores: some tests wait, as for a replay in real time.
+ctest --preset "$preset" -j$(($(nproc) + 1)) "$@"

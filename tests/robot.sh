@@ -8,7 +8,7 @@ address=
 
 observation-server() {
   rm -f .server.out
-  command observation-server "$@" --set server.rawlog="$drive" --set server.port=0 --set server.replay_rate=30 \
+  command observation-server "$@" --set server.rawlog="$drive" --set server.port=0 --set server.replay_rate=100 \
     --set server.wait_for_clients=1 >.server.out 2>.server.err &
   server=$!
   until address=$(sed -n 's/^listening at //p' .server.out) && [[ -n $address ]]; do
