@@ -2,8 +2,8 @@
 # The default command on random office buildings whose crossings look alike (scripts/make-office.py): the table of
 # doc/accuracy.md.
 #   scripts/offices.sh [OUT]     OUT defaults to out/offices
-# BUILDINGS=12 of them from FIRST=228 on (227 was used for tuning), VARIANTS "default no-lines" (and no-closing), JOBS at
-# a time (all cores). Resumes after an interruption. Takes half an hour of one core.
+# BUILDINGS=12 of them from FIRST=228 on (227 was used for tuning), VARIANTS "default no-lines" (and no-closing), JOBS
+# at a time (all cores). Resumes after an interruption. Takes half an hour of one core.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/offices}
 bin=build/release/bin
@@ -27,7 +27,8 @@ run() {
 import json, sys
 result, seconds = sys.argv[1:]
 metrics = json.load(open(result + "/metrics.json"))
-print(json.load(open(result + ".json"))["trans_rmse_m"], metrics["verdict"], int("second run" in open(result + ".log").read()), seconds)
+error = json.load(open(result + ".json"))["trans_rmse_m"]
+print(error, metrics["verdict"], int("second run" in open(result + ".log").read()), seconds)
 END
   mv "$result.part" "$result.row"
 }
@@ -36,7 +37,8 @@ export out bin
 read -ra variants <<<"${VARIANTS:-default no-lines}"
 for ((building = ${FIRST:-228}; building < ${FIRST:-228} + ${BUILDINGS:-12}; ++building)); do
   log=$out/office-$building
-  [[ -f $log.rawlog ]] || { scripts/make-office.py "$building" "$out" && "$bin/simul-floorplan" -q "$log.ini" -o "$log.rawlog"; }
+  [[ -f $log.rawlog ]] ||
+    { scripts/make-office.py "$building" "$out" && "$bin/simul-floorplan" -q "$log.ini" -o "$log.rawlog"; }
   for variant in "${variants[@]}"; do echo "$building $variant"; done
 done | xargs -P "${JOBS:-$(nproc)}" -L 1 bash -ec 'run "$@"' run
 
