@@ -53,7 +53,8 @@ for variant in variants:
     errors = [float(row[0]) for row in rows]
     verdicts = collections.Counter(row[1] for row in rows)
     lost = sum(error > 5 for error in errors)
-    print(f"| {variant} | {statistics.median(errors):.2f} ({max(errors):.2f}) | {lost} of {len(rows)} | "
+    name = variant.replace("-", " ")
+    print(f"| {name} | {statistics.median(errors):.2f} ({max(errors):.2f}) | {lost} of {len(rows)} | "
           + ", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items()))
           + f" | {sum(row[2] == '1' for row in rows)} | {statistics.mean(float(row[3]) for row in rows):.0f} |")
 END
