@@ -30,8 +30,7 @@ Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& ce
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells.at(x + i, y + j));
   if (highest >= kWall) return Finding::agrees;
-  // A wall seen at a grazing angle has free cells: beams that end further along it pass through them.
-  return highest <= kFree ? Finding::contradicts : Finding::unknown;
+  return cells.at(x, y) <= kFree ? Finding::contradicts : Finding::unknown;
 }
 
 }  // namespace
