@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr size_t kBeams = 90;
-constexpr int kWall = 6, kSolidWall = 12, kFree = -3;  // log-odds, in units of a cell: 1, 2 hits; 3 misses
+constexpr int kWall = 6, kSolidWall = 12, kFree = -1;  // log-odds, in units of a cell: 1, 2 hits; 1 miss
 constexpr double kNear = 3, kShort = 4;  // cells at both ends of a beam that may touch its own wall
 constexpr size_t kFewest = 8;            // beams compared
 constexpr double kFewestShare = 0.1;
@@ -30,7 +30,8 @@ Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& ce
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells.at(x + i, y + j));
   if (highest >= kWall) return Finding::agrees;
-  return cells.at(x, y) <= kFree ? Finding::contradicts : Finding::unknown;
+  // A wall seen at a grazing angle has free cells: beams that end further along it pass through them.
+  return highest <= kFree ? Finding::contradicts : Finding::unknown;
 }
 
 }  // namespace

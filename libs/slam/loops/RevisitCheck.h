@@ -15,10 +15,10 @@ struct Revisit {
   size_t update = 0;         ///< index of the path
   double distance = 0;       ///< m, along the path
   size_t compared = 0;       ///< beams that end in or cross known cells of the earlier map
-  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of that map
+  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of it
   /// Share of the compared beams that contradict the map.
   double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
-  bool isContradicted() const { return share() > 0.3; }
+  bool isContradicted() const { return share() > 0.2; }
 };
 
 /// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. People

@@ -52,11 +52,50 @@ TEST(RevisitCheck, NothingIsComparedBeforeTheDelay) {
   EXPECT_GT(revisitsOf(ringDrive(0), true, 2).size(), revisitsOf(ringDrive(0), true).size());
 }
 
-TEST(RevisitCheck, AContradictedScanHasThreeOfTenBeamsAgainstIt) {
+/// The beams, one per degree, that see a wall along y = `wall` within 8 m.
+ScanBeams beamsToWall(const TPose2D& pose, double wall) {
+  ScanBeams beams;
+  beams.origins = {{0, 0}};
+  for (int degree = -90; degree <= 90; ++degree) {
+    const double angle = degree * kDegree, height = std::sin(pose.phi + angle);
+    if (height * RevisitCheck::kRange > wall - pose.y)
+      beams.rays.push_back({std::cos(angle), std::sin(angle), (wall - pose.y) / height, 0});
+  }
+  return beams;
+}
+
+/// Compares a scan of a robot at (x, 0), in front of a wall, with earlier ones from near the origin.
+Revisit seenAtGrazingAngles(double x, double before, double now) {
+  RevisitCheck check(20);
+  for (int turn = 0; turn < 12; ++turn) {
+    const TPose2D pose(0.05 * turn, 0, 0.3 * turn * kDegree);
+    check.add(pose, beamsToWall(pose, before), pose.x, turn);
+  }
+  const TPose2D back(x, 0, 90 * kDegree);
+  ScanBeams beams = beamsToWall(back, now);
+  beams.rays.erase(std::remove_if(beams.rays.begin(), beams.rays.end(),
+                                  [](const ScanBeams::Ray& ray) { return ray.dirX < 0.7; }),
+                   beams.rays.end());
+  check.add(back, beams, 40, 12);
+  EXPECT_EQ(check.revisits().size(), 1u);
+  return check.revisits().empty() ? Revisit() : check.revisits()[0];
+}
+
+// Beams that end further along the wall pass through its cells.
+TEST(RevisitCheck, AWallSeenAtAGrazingAngleContradictsNothing) {
+  for (const double wall : {0.92, 0.95, 0.98, 0.995}) {
+    const Revisit revisit = seenAtGrazingAngles(6, wall, wall);
+    EXPECT_GT(revisit.compared, 20u) << wall;
+    EXPECT_LE(revisit.share(), 0.05) << wall;
+  }
+  EXPECT_GT(seenAtGrazingAngles(5, 0.995, 0.75).share(), 0.9);
+}
+
+TEST(RevisitCheck, AContradictedScanHasMoreThanAFifthOfItsBeamsAgainstIt) {
   Revisit revisit;
-  revisit.compared = 100, revisit.contradicted = 30;
+  revisit.compared = 100, revisit.contradicted = 20;
   EXPECT_FALSE(revisit.isContradicted());
-  revisit.contradicted = 31;
+  revisit.contradicted = 21;
   EXPECT_TRUE(revisit.isContradicted());
   EXPECT_FALSE(Revisit().isContradicted());
 }
