@@ -256,6 +256,19 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
   return optimise(path, visit, direction);
 }
 
+std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) const {
+  RevisitCheck check(options_.minDistance);
+  double distance = 0;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (i > 0) distance += distanceOf(poses[i - 1], poses[i]);
+    ScanBeams beams{keyframes_[i].beams};
+    const auto isFar = [](const ScanBeams::Ray& ray) { return ray.range > RevisitCheck::kRange; };
+    beams.rays.erase(std::remove_if(beams.rays.begin(), beams.rays.end(), isFar), beams.rays.end());
+    check.add(poses[i], beams, distance, i);
+  }
+  return check.revisits();
+}
+
 std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path, const Visit& visit,
                                                 const std::optional<double>& direction) {
   PoseGraph graph;
@@ -281,10 +294,12 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   for (const Candidate& candidate : candidates_) graph.loops.push_back(candidate.edge);
   const OptimizedGraph result = optimized(graph);
 
-  // All of the new matches must hold, and at most one of the older pairs may be false.
+  // All of the new matches must hold, and at most one of the older pairs may be false. A false loop bends the
+  // path, so that walls end in free space.
   const auto newMatches = result.loopWeights.end() - static_cast<ptrdiff_t>(candidates_.size());
   const auto broken = std::count(result.loopWeights.begin(), result.loopWeights.end(), 0);
-  const bool holds = broken <= 1 && std::count(newMatches, result.loopWeights.end(), 0) == 0;
+  const bool holds = broken <= 1 && std::count(newMatches, result.loopWeights.end(), 0) == 0 &&
+                     !isMoreContradicted(revisits(visit.poses), revisits(result.poses));
   const std::vector<Candidate> candidates = std::move(candidates_);
   candidates_.clear();
   if (!holds) return std::nullopt;

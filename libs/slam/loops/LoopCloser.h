@@ -13,6 +13,7 @@
 #include "slam/loops/LoopMatch.h"
 #include "slam/loops/PathUncertainty.h"
 #include "slam/loops/PoseGraph.h"
+#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam {
 
@@ -27,7 +28,8 @@ namespace hybrid_slam {
 /// After `joinMap`, the stretch is matched first to the map of the earlier run, with the same outcomes.
 ///
 /// Once several successive candidates agree on the correction, the pose graph of the motions, the held pairs,
-/// the candidates and the directions of the walls is optimised.
+/// the candidates and the directions of the walls is optimised. If the scans then contradict the map more
+/// than before, the candidates are dropped.
 ///
 /// Keeps about 7 kB for each metre of the path.
 class LoopCloser {
@@ -103,6 +105,8 @@ class LoopCloser {
   std::vector<size_t> places(const Visit& visit, size_t here, const PathUncertainty& uncertainty) const;
   void hold(const Visit& visit, const PoseEdge& edge);
   void remember(const Visit& visit, const Candidate& candidate);
+  /// The keyframes that return, with the path through these poses.
+  std::vector<Revisit> revisits(const std::vector<mrpt::math::TPose2D>& poses) const;
   std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Visit& visit,
                                       const std::optional<double>& direction);
   LocalMap newest(const Visit& visit, double length) const;

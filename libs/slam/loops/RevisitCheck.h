@@ -55,7 +55,15 @@ class RevisitCheck {
   size_t scans_ = 0, beams_ = 0;
 };
 
-/// Share of the compared beams that contradict the map from 20 m of path before; 0 without any.
+/// Share of the compared beams that contradict the map; 0 without any.
+double contradictionOf(const std::vector<Revisit>& revisits);
+
+/// Whether a correction of the path makes the scans contradict the map more: all that return, and also those
+/// that returned before the correction (at least 20, more than 0.35 % of whose beams), since a scan may have
+/// returned to unknown space.
+bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Revisit>& after);
+
+/// The same share for the scans of a path, compared with the map from 20 m of path before.
 /// @param path   a pose for each update, map frame
 /// @param scans  of each update; those of the last ones may be missing
 double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);

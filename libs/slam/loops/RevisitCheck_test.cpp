@@ -100,5 +100,50 @@ TEST(RevisitCheck, AContradictedScanHasMoreThanAFifthOfItsBeamsAgainstIt) {
   EXPECT_FALSE(Revisit().isContradicted());
 }
 
+/// A returning scan, of update `update`, with `contradicted` of its 100 beams against the map.
+Revisit returned(size_t update, size_t contradicted) { return {{}, update, 0, 100, contradicted}; }
+
+/// `count` scans from update `first` on.
+std::vector<Revisit> returned(size_t first, size_t count, size_t contradicted) {
+  std::vector<Revisit> revisits;
+  for (size_t i = 0; i < count; ++i) revisits.push_back(returned(first + i, contradicted));
+  return revisits;
+}
+
+std::vector<Revisit> operator+(std::vector<Revisit> a, const std::vector<Revisit>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(RevisitCheck, ACorrectionThatContradictsMoreScansIsWorse) {
+  const auto few = returned(0, 20, 5), many = returned(0, 20, 6);
+  EXPECT_TRUE(isMoreContradicted(few, many));
+  EXPECT_FALSE(isMoreContradicted(few, few));
+  EXPECT_FALSE(isMoreContradicted(many, few));
+  EXPECT_FALSE(isMoreContradicted({}, many));
+  EXPECT_FALSE(isMoreContradicted(few, {}));
+}
+
+TEST(RevisitCheck, ACorrectionIsJudgedByThoseThatReturnedBefore) {
+  // The newest scans returned to unknown space; now they return to a place with people.
+  const auto older = returned(0, 40, 1);
+  EXPECT_FALSE(isMoreContradicted(older, older + returned(60, 40, 15)));
+  EXPECT_FALSE(isMoreContradicted(older + returned(40, 5, 0), older + returned(42, 40, 4)));
+  // The newest scans contradicted the map; its correction costs less.
+  EXPECT_FALSE(isMoreContradicted(older + returned(40, 20, 90), returned(0, 40, 4) + returned(40, 20, 4)));
+  // The newest scans fit in their new place; the older ones do not fit any more.
+  EXPECT_TRUE(isMoreContradicted(older + returned(40, 20, 10), returned(0, 40, 12) + returned(40, 20, 0)));
+}
+
+TEST(RevisitCheck, FewScansOrBeamsDoNotJudgeACorrection) {
+  EXPECT_FALSE(isMoreContradicted(returned(0, 19, 5), returned(0, 19, 60)));
+  const auto before = returned(0, 400, 5);
+  auto after = before;
+  for (size_t i = 0; i < 140; ++i) after[i].contradicted = 6;
+  EXPECT_FALSE(isMoreContradicted(before, after)) << "0.35 %";
+  after[140].contradicted = 7;
+  EXPECT_TRUE(isMoreContradicted(before, after));
+}
+
 }  // namespace
 }  // namespace hybrid_slam
