@@ -106,7 +106,8 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     }
     // On a wrong map, returning scans may match the walls of other places.
     constexpr double kMoreContradiction = 0.02;  // of the compared beams
-    std::vector<mrpt::math::TPose2D> even = relaxed(result.path, ofUpdates, configuration_.filter);
+    std::vector<mrpt::math::TPose2D> even =
+        relaxed(result.path, recorder_.motionsOfUpdates(), ofUpdates, configuration_.filter);
     result.isRelaxed = contradictionOf(even, ofUpdates) <= contradiction + kMoreContradiction;
     if (result.isRelaxed) result.path = std::move(even);
     result.trajectory = recorder_.trajectory(result.path);

@@ -60,6 +60,19 @@ std::vector<TPose2D> TrajectoryRecorder::motions() const {
   return all;
 }
 
+std::vector<TPose2D> TrajectoryRecorder::motionsOfUpdates() const {
+  std::vector<TPose2D> all;
+  size_t updates = 0;
+  TPose2D before;
+  for (const Scan& scan : scans_) {
+    if (scan.updates == updates) continue;
+    all.push_back(updates == 0 ? TPose2D() : scan.odometry - before);
+    updates = scan.updates;
+    before = scan.odometry;
+  }
+  return all;
+}
+
 std::vector<size_t> TrajectoryRecorder::updates() const {
   std::vector<size_t> all;
   for (const Scan& scan : scans_) all.push_back(scan.updates);

@@ -68,6 +68,19 @@ TEST(TrajectoryRecorder, GivesTheOdometryBetweenTheScans) {
     EXPECT_LT((given[i] - motions[i]).norm() + std::abs(given[i].phi - motions[i].phi), 1e-9) << i;
 }
 
+TEST(TrajectoryRecorder, GivesTheOdometryBetweenTheUpdates) {
+  TrajectoryRecorder recorder;
+  EXPECT_TRUE(recorder.motionsOfUpdates().empty());
+  recorder.add(9, {3, 3, 3}, 0);  // before the first update
+  for (const size_t updates : {1, 1, 1, 2, 3, 3}) recorder.add(10, {0.5, 0, 0.1}, updates);
+  const auto given = recorder.motionsOfUpdates();
+  const TPose2D step(0.5, 0, 0.1);
+  const std::vector<TPose2D> expected{{}, step + step + step, step};
+  ASSERT_EQ(given.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i)
+    EXPECT_LT((given[i] - expected[i]).norm() + std::abs(given[i].phi - expected[i].phi), 1e-9) << i;
+}
+
 TEST(TrajectoryRecorder, HeadingErrorsAreSpreadTheShorterWay) {
   TrajectoryRecorder recorder;
   recorder.add(10, {}, 1);

@@ -26,6 +26,8 @@ constexpr double kReach = 6;          // m of path to either side of an earlier 
 constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
 constexpr double kMinFit = 0.1;       // of a match; a map of one scan fits 0.04
 constexpr double kOutlier = 9;        // chi^2 at which a match has half its weight
+// Of a motion, off the odometry: a jump, and one that no drift explains.
+constexpr double kLeastJump = 0.15, kLeastJumpAngle = 5 * kDegree, kDrifted = 2, kDriftedAngle = 20 * kDegree;
 constexpr int kSolutions = 3;
 // Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, and of a scan that
 // shows all or nothing.
@@ -43,9 +45,10 @@ double squareBetween(const TPose2D& a, const TPose2D& b) {
 
 class Relaxation {
  public:
-  Relaxation(const std::vector<TPose2D>& path, const std::vector<Scans>& scans,
-             const FilterConfiguration& configuration)
+  Relaxation(const std::vector<TPose2D>& path, const std::vector<TPose2D>& odometry,
+             const std::vector<Scans>& scans, const FilterConfiguration& configuration)
       : path_(path),
+        odometry_(odometry),
         scans_(scans),
         configuration_(configuration),
         matcher_(configuration.matcher),
@@ -54,7 +57,8 @@ class Relaxation {
       distances_[i] = distances_[i - 1] + std::sqrt(squareBetween(path[i - 1], path[i]));
     for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
       const TPose2D since = i > 0 ? path[i] - path[nodes_.back()] : TPose2D();
-      if (i > 0 && since.norm() < kNodeDistance && std::abs(since.phi) < kNodeAngle) continue;
+      const bool isFar = since.norm() >= kNodeDistance || std::abs(since.phi) >= kNodeAngle;
+      if (i > 0 && !isFar && !jumps(i) && !(i + 1 < path.size() && jumps(i + 1))) continue;
       nodes_.push_back(i);
       graph_.poses.push_back(path[i]);
     }
@@ -90,6 +94,13 @@ class Relaxation {
   LaserScans scansOf(size_t i) const { return toLaserScans(scans_[i], configuration_.grid.maxRange); }
   void insert(size_t i, const TPose2D& pose, OccupancyGrid& map) const {
     map.insert(ScanBeams(scansOf(i)), pose, configuration_.grid);
+  }
+
+  /// Whether the path jumps against the odometry at update i, by no more than a drift.
+  bool jumps(size_t i) const {
+    const TPose2D off = odometry_[i] - (path_[i] - path_[i - 1]);
+    const double distance = off.norm(), angle = std::abs(off.phi);
+    return (distance > kLeastJump || angle > kLeastJumpAngle) && distance < kDrifted && angle < kDriftedAngle;
   }
 
   /// The nearest node of an earlier visit.
@@ -160,7 +171,7 @@ class Relaxation {
 
   /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match
   /// to the map of the last kReturn to 2 kReturn metres. Where the path was drawn to old walls, it goes on
-  /// from the new ones.
+  /// from the new ones. Where it jumped to them, the odometry may fit better.
   std::vector<TPose2D> tracked() const {
     std::vector<TPose2D> track{path_.front()};
     OccupancyGrid map(configuration_.grid.resolution);
@@ -170,8 +181,12 @@ class Relaxation {
     for (size_t i = 1; i <= nodes_.back(); ++i) {
       TPose2D pose = track.back() + (path_[i] - path_[i - 1]);
       ScanBeams beams;
-      if (const Seen seen = match(i, pose, drift(i - 1, i), map, beams); seen.match.fit >= kMinFit)
-        pose = seen.match.pose;
+      const Seen seen = match(i, pose, drift(i - 1, i), map, beams);
+      if (seen.match.fit >= kMinFit) pose = seen.match.pose;
+      if (jumps(i)) {
+        const Seen byOdometry = match(i, track.back() + odometry_[i], covarianceOf(kExpected), map, beams);
+        if (byOdometry.match.fit > std::max(kMinFit, seen.match.fit)) pose = byOdometry.match.pose;
+      }
       track.push_back(pose);
       if (distances_[i] < distances_[mapped.back()] + kMapInterval) continue;
       mapped.push_back(i);
@@ -188,6 +203,7 @@ class Relaxation {
   }
 
   const std::vector<TPose2D>& path_;
+  const std::vector<TPose2D>& odometry_;
   const std::vector<Scans>& scans_;
   const FilterConfiguration& configuration_;
   ScanMatcher matcher_;
@@ -198,9 +214,9 @@ class Relaxation {
 
 }  // namespace
 
-std::vector<TPose2D> relaxed(const std::vector<TPose2D>& path, const std::vector<Scans>& scans,
-                             const FilterConfiguration& configuration) {
-  return Relaxation(path, scans, configuration).solved();
+std::vector<TPose2D> relaxed(const std::vector<TPose2D>& path, const std::vector<TPose2D>& odometry,
+                             const std::vector<Scans>& scans, const FilterConfiguration& configuration) {
+  return Relaxation(path, odometry, scans, configuration).solved();
 }
 
 }  // namespace hybrid_slam

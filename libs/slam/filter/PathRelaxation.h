@@ -19,9 +19,13 @@ namespace hybrid_slam {
 /// motions are tracked on a map of the latest scans alone. The pose graph of both moves the path. Matches
 /// that disagree with the others lose weight (Cauchy's weight function). The first pose is fixed. A path that
 /// does not return stays as it is.
-/// @param path   a pose for each update, map frame
-/// @param scans  of each update; those of the last ones may be missing
+/// Where the path jumps against the odometry, the motion that fits the latest scans better counts: with a
+/// drift of half a metre, the search for slips finds the robot among the old walls.
+/// @param path      a pose for each update, map frame
+/// @param odometry  the motion to each update from the one before; none for the first
+/// @param scans     of each update; those of the last ones may be missing
 std::vector<mrpt::math::TPose2D> relaxed(const std::vector<mrpt::math::TPose2D>& path,
+                                         const std::vector<mrpt::math::TPose2D>& odometry,
                                          const std::vector<Scans>& scans,
                                          const FilterConfiguration& configuration);
 

@@ -15,23 +15,24 @@ using namespace test;
 
 /// A lap around the ring and a corridor more.
 struct Lap {
-  std::vector<TPose2D> path, truth;
+  std::vector<TPose2D> path, odometry, truth;
   std::vector<Scans> scans;
 };
 
-/// The path drifts by `drift` per metre; when the robot is back, the scans draw it over 3 m to the walls at
-/// the beginning. After that, every `displaced`-th scan (0: none) is one of 0.15 m ahead.
-Lap lapThatDrifts(const TPose2D& drift, size_t displaced = 0) {
-  constexpr double kBack = 100, kDrawn = 3;  // m
+/// The path drifts by `drift` per metre; when the robot is back, the scans draw it over `drawn` m to the
+/// walls at the beginning. After that, every `displaced`-th scan (0: none) is one of 0.15 m ahead.
+Lap lapThatDrifts(const TPose2D& drift, size_t displaced = 0, double drawn = 3) {
+  constexpr double kBack = 100;  // m
   Lap lap;
   double distance = 0;
   for (const DrivenPose& step : ringDrive(0)) {
     distance += step.motion.norm();
-    const double error = std::min(distance, kBack) * std::clamp(1 - (distance - kBack) / kDrawn, 0.0, 1.0);
+    const double error = std::min(distance, kBack) * std::clamp(1 - (distance - kBack) / drawn, 0.0, 1.0);
     lap.path.push_back(TPose2D(error * drift.x, error * drift.y, error * drift.phi) + step.truth);
+    lap.odometry.push_back(step.motion);
     lap.truth.push_back(step.truth);
     RandomStream random(1, lap.path.size(), 0);
-    const bool isDisplaced = distance > kBack + kDrawn && displaced > 0 && lap.path.size() % displaced == 0;
+    const bool isDisplaced = distance > kBack + drawn && displaced > 0 && lap.path.size() % displaced == 0;
     lap.scans.push_back(observed(
         isDisplaced ? scanOf(ring(), step.truth + TPose2D(0.15, 0, 0), {0.2, 0, 0}, 181, M_PI, 0.01, random)
                     : step.scans[0]));
@@ -48,7 +49,7 @@ double error(const std::vector<TPose2D>& path, const Lap& lap) {
 }
 
 std::vector<TPose2D> relaxed(const Lap& lap) {
-  return hybrid_slam::relaxed(lap.path, lap.scans, FilterConfiguration());
+  return hybrid_slam::relaxed(lap.path, lap.odometry, lap.scans, FilterConfiguration());
 }
 
 TEST(PathRelaxation, DistributesTheErrorOfALapOverTheLap) {
@@ -67,6 +68,7 @@ TEST(PathRelaxation, ATruePathStaysNearTheTruth) {
 TEST(PathRelaxation, APathInOneRoomStaysNearTheTruth) {
   Lap lap;
   for (const DriveStep& step : drive(8)) {
+    lap.odometry.push_back(lap.path.empty() ? TPose2D() : step.truth - lap.path.back());
     lap.path.push_back(step.truth), lap.truth.push_back(step.truth);
     lap.scans.push_back({mrpt::obs::CObservation2DRangeScan::Create(step.scan)});
   }
@@ -85,13 +87,49 @@ TEST(PathRelaxation, MatchesThatDisagreeLoseWeight) {
   EXPECT_LT(error(relaxed(lap), lap), 0.4 * error(lap.path, lap));
 }
 
+/// The largest error of a motion (m).
+double largestJump(const std::vector<TPose2D>& path, const Lap& lap) {
+  double largest = 0;
+  for (size_t i = 1; i < path.size(); ++i) {
+    const TPose2D moved = path[i] - path[i - 1], truly = lap.truth[i] - lap.truth[i - 1];
+    largest = std::max(largest, std::hypot(moved.x - truly.x, moved.y - truly.y));
+  }
+  return largest;
+}
+
+TEST(PathRelaxation, AJumpToTheOldWallsIsDistributed) {
+  for (const TPose2D& drift : {TPose2D(0.005, 0, 0), TPose2D(0, -0.004, 0)}) {
+    const Lap lap = lapThatDrifts(drift, 0, 0.01);
+    EXPECT_GT(largestJump(lap.path, lap), 0.35);
+    EXPECT_LT(largestJump(relaxed(lap), lap), 0.05) << drift.asString();
+    EXPECT_LT(error(relaxed(lap), lap), 0.7 * error(lap.path, lap)) << drift.asString();
+  }
+}
+
+TEST(PathRelaxation, AMotionThatTheOdometryMissedStays) {
+  Lap lap = lapThatDrifts({});
+  const auto slip = [&lap](size_t i, const TPose2D& by) { lap.odometry[i] = lap.odometry[i] + by; };
+  slip(lap.path.size() / 2, {0.3, 0.2, 15 * kDegree});
+  slip(lap.path.size() / 3, {-0.4, 0, 0});
+  EXPECT_LT(error(relaxed(lap), lap), 0.03);
+}
+
+// The new place is not in the map of the latest scans.
+TEST(PathRelaxation, ARobotThatWasCarriedIsNotTakenBack) {
+  Lap lap = lapThatDrifts({});
+  const auto carried = [](auto& values) { values.erase(values.begin() + 150, values.begin() + 270); };
+  carried(lap.path), carried(lap.odometry), carried(lap.truth), carried(lap.scans);
+  EXPECT_GT((lap.truth[150] - lap.truth[149]).norm(), 20);
+  EXPECT_LT(error(relaxed(lap), lap), 0.03);
+}
+
 TEST(PathRelaxation, TheFirstPoseIsFixedAndThreadsDoNotMatter) {
   const Lap lap = lapThatDrifts({0, 0.001, 0});
   FilterConfiguration two;
   two.filter.threads = 2;
   const auto path = relaxed(lap);
   EXPECT_EQ(path.front(), lap.path.front());
-  EXPECT_EQ(hybrid_slam::relaxed(lap.path, lap.scans, two), path);
+  EXPECT_EQ(hybrid_slam::relaxed(lap.path, lap.odometry, lap.scans, two), path);
 }
 
 TEST(PathRelaxation, PosesWithoutScansKeepTheirMotions) {
