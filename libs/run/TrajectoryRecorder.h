@@ -26,7 +26,7 @@ class TrajectoryRecorder {
   /// Returns the odometry from each scan to the next (m, rad).
   std::vector<mrpt::math::TPose2D> motions() const;
 
-  /// Returns the odometry of each update since the one before; none of the first (m, rad).
+  /// Returns the odometry of each update since the one before (m, rad); zero for the first.
   std::vector<mrpt::math::TPose2D> motionsOfUpdates() const;
 
   /// Returns the number of updates up to each scan.

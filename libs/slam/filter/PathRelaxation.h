@@ -19,10 +19,11 @@ namespace hybrid_slam {
 /// motions are tracked on a map of the latest scans alone. The pose graph of both moves the path. Matches
 /// that disagree with the others lose weight (Cauchy's weight function). The first pose is fixed. A path that
 /// does not return stays as it is.
-/// Where the path jumps against the odometry, the motion that fits the latest scans better counts: with a
-/// drift of half a metre, the search for slips finds the robot among the old walls.
+///
+/// With a drift of half a metre, the search for slips finds the robot among the old walls, and the path jumps
+/// there. If the odometry of this motion fits the latest scans clearly better, it is taken instead.
 /// @param path      a pose for each update, map frame
-/// @param odometry  the motion to each update from the one before; none for the first
+/// @param odometry  the motion from each update to the next one, at the index of the next; zero for the first
 /// @param scans     of each update; those of the last ones may be missing
 std::vector<mrpt::math::TPose2D> relaxed(const std::vector<mrpt::math::TPose2D>& path,
                                          const std::vector<mrpt::math::TPose2D>& odometry,

@@ -115,6 +115,27 @@ TEST(PathRelaxation, AMotionThatTheOdometryMissedStays) {
 }
 
 // The new place is not in the map of the latest scans.
+// A corridor shows no motion along it, so the odometry fits as well as the path.
+TEST(PathRelaxation, AMotionAlongABareCorridorStaysAsThePathHasIt) {
+  const Walls walls = box(-60, -1.5, 100, 1.5);
+  Lap lap;
+  for (const DrivenPose& step : driveAlong(walls, {{0, 0}, {40, 0}, {10, 0}}, 0)) {
+    lap.path.push_back(step.truth), lap.truth.push_back(step.truth);
+    lap.odometry.push_back(step.motion);
+    lap.scans.push_back(observed(step.scans[0]));
+  }
+  const double without = error(relaxed(lap), lap);
+  lap.odometry[80] = lap.odometry[80] + TPose2D(0.5, 0, 0);
+  EXPECT_NEAR(error(relaxed(lap), lap), without, 0.03);
+}
+
+TEST(PathRelaxation, AMotionThatTheOdometryMissedInATurnStays) {
+  Lap lap = lapThatDrifts({});
+  for (const size_t i : {size_t(100), lap.path.size() - 60})
+    lap.odometry[i] = lap.odometry[i] + TPose2D(0, 0, (i == 100 ? 10 : -60) * kDegree);
+  EXPECT_LT(error(relaxed(lap), lap), 0.03);
+}
+
 TEST(PathRelaxation, ARobotThatWasCarriedIsNotTakenBack) {
   Lap lap = lapThatDrifts({});
   const auto carried = [](auto& values) { values.erase(values.begin() + 150, values.begin() + 270); };

@@ -28,6 +28,7 @@ constexpr double kMinOverlap = 0.5, kHeldOverlap = 0.3;
 constexpr double kAttempt = 1.5, kAfterHeld = 3;  // m of path between attempts
 constexpr double kMaxAngle = 20 * kDegree;        // searched
 constexpr double kMaxChi2 = 16;                   // of a correction, under the path's uncertainty
+constexpr double kReturn = 20;                    // m of path, as in the verdict
 constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
 
 double distanceOf(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -257,7 +258,7 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
 }
 
 std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) const {
-  RevisitCheck check(options_.minDistance);
+  RevisitCheck check(kReturn);
   double distance = 0;
   for (size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) distance += distanceOf(poses[i - 1], poses[i]);
@@ -295,7 +296,7 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   const OptimizedGraph result = optimized(graph);
 
   // All of the new matches must hold, and at most one of the older pairs may be false. A false loop bends the
-  // path, so that walls end in free space.
+  // path, so that scans end in free space.
   const auto newMatches = result.loopWeights.end() - static_cast<ptrdiff_t>(candidates_.size());
   const auto broken = std::count(result.loopWeights.begin(), result.loopWeights.end(), 0);
   const bool holds = broken <= 1 && std::count(newMatches, result.loopWeights.end(), 0) == 0 &&

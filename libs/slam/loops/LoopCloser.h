@@ -105,7 +105,7 @@ class LoopCloser {
   std::vector<size_t> places(const Visit& visit, size_t here, const PathUncertainty& uncertainty) const;
   void hold(const Visit& visit, const PoseEdge& edge);
   void remember(const Visit& visit, const Candidate& candidate);
-  /// The keyframes that return, with the path through these poses.
+  /// The keyframes that return if they are at these poses; `update` is the index of a keyframe.
   std::vector<Revisit> revisits(const std::vector<mrpt::math::TPose2D>& poses) const;
   std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Visit& visit,
                                       const std::optional<double>& direction);

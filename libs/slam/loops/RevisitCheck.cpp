@@ -21,7 +21,7 @@ constexpr double kFewestShare = 0.1;
 // Of a correction: true loops add up to 0.002 to the share, false ones 0.005 or more (Intel, 12 simulated
 // offices).
 constexpr size_t kFewestReturning = 20;  // scans
-constexpr double kMoreContradiction = 0.0035;
+constexpr double kWorse = 0.0035;
 
 enum class Finding { unknown, agrees, contradicts };
 
@@ -86,7 +86,7 @@ bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Re
   if (contradictionOf(after) <= contradictionOf(before)) return false;
   const std::vector<Revisit> still = common(after, before);
   return still.size() >= kFewestReturning &&
-         contradictionOf(still) > contradictionOf(common(before, after)) + kMoreContradiction;
+         contradictionOf(still) > contradictionOf(common(before, after)) + kWorse;
 }
 
 double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {

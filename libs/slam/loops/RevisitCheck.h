@@ -12,10 +12,10 @@ namespace hybrid_slam {
 /// A scan of places mapped before.
 struct Revisit {
   mrpt::math::TPose2D pose;  ///< of the robot, map frame
-  size_t update = 0;         ///< index of the path
+  size_t update = 0;         ///< index of the scan on the path
   double distance = 0;       ///< m, along the path
   size_t compared = 0;       ///< beams that end in or cross known cells of the earlier map
-  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of it
+  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of that map
   /// Share of the compared beams that contradict the map.
   double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
   bool isContradicted() const { return share() > 0.2; }
@@ -58,12 +58,13 @@ class RevisitCheck {
 /// Share of the compared beams that contradict the map; 0 without any.
 double contradictionOf(const std::vector<Revisit>& revisits);
 
-/// Whether a correction of the path makes the scans contradict the map more: all that return, and also those
-/// that returned before the correction (at least 20, more than 0.35 % of whose beams), since a scan may have
-/// returned to unknown space.
+/// Whether a correction of the path makes its scans contradict the map more. The share of the contradicting
+/// beams must grow over all returning scans, and by more than 0.35 percentage points over those that returned
+/// both before and after it (at least 20). So a correction may move scans from unknown space to a place with
+/// people, and may cost old scans a little if it gains more at the newest.
 bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Revisit>& after);
 
-/// The same share for the scans of a path, compared with the map from 20 m of path before.
+/// Share of the compared beams of a path that contradict the map from 20 m of path before; 0 without any.
 /// @param path   a pose for each update, map frame
 /// @param scans  of each update; those of the last ones may be missing
 double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);
