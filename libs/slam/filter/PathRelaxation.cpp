@@ -26,10 +26,10 @@ constexpr double kReach = 6;          // m of path to either side of an earlier 
 constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
 constexpr double kMinFit = 0.1;       // of a match; a map of one scan fits 0.04
 constexpr double kOutlier = 9;        // chi^2 at which a match has half its weight
-// A motion jumps if it is off the odometry by more than kLeastJump or kLeastJumpAngle. Beyond kDrifted or
-// kDriftedAngle, no drift explains it: the odometry is wrong, or the robot was carried.
-constexpr double kLeastJump = 0.15, kLeastJumpAngle = 5 * kDegree, kDrifted = 2, kDriftedAngle = 20 * kDegree;
-constexpr double kClearlyBetter = 1.15;  // times the fit
+// A motion jumps if it is off the odometry by more than kLeastJump. Beyond kDrifted or kTurned, no drift
+// explains it: the odometry is wrong, or the robot was carried.
+constexpr double kLeastJump = 0.15, kDrifted = 2, kTurned = 5 * kDegree;
+constexpr double kBetter = 1.05;  // times the fit
 constexpr int kSolutions = 3;
 // Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, and of a scan that
 // shows all or nothing.
@@ -101,8 +101,7 @@ class Relaxation {
   /// Whether the path jumps against the odometry at update i, by as much as it may have drifted.
   bool jumps(size_t i) const {
     const TPose2D off = odometry_[i] - (path_[i] - path_[i - 1]);
-    const double distance = off.norm(), angle = std::abs(off.phi);
-    return (distance > kLeastJump || angle > kLeastJumpAngle) && distance < kDrifted && angle < kDriftedAngle;
+    return off.norm() > kLeastJump && off.norm() < kDrifted && std::abs(off.phi) < kTurned;
   }
 
   /// The nearest node of an earlier visit.
@@ -173,7 +172,7 @@ class Relaxation {
 
   /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match
   /// to the map of the last kReturn to 2 kReturn metres. Where the path was drawn to old walls, it goes on
-  /// from the new ones. Where it jumped to them, the odometry may fit clearly better.
+  /// from the new ones. Where it jumped to them, the odometry may fit better.
   std::vector<TPose2D> tracked() const {
     std::vector<TPose2D> track{path_.front()};
     OccupancyGrid map(configuration_.grid.resolution);
@@ -190,7 +189,7 @@ class Relaxation {
           return match(i, at, covarianceOf(kExpected), map, beams).match;
         };
         const ScanMatch byOdometry = matchNear(track.back() + odometry_[i]), byPath = matchNear(pose);
-        if (byOdometry.fit >= kMinFit && byOdometry.fit > kClearlyBetter * byPath.fit) pose = byOdometry.pose;
+        if (byOdometry.fit >= kMinFit && byOdometry.fit > kBetter * byPath.fit) pose = byOdometry.pose;
       }
       track.push_back(pose);
       if (distances_[i] < distances_[mapped.back()] + kMapInterval) continue;
