@@ -21,7 +21,7 @@ namespace hybrid_slam {
 /// does not return stays as it is.
 ///
 /// With a drift of half a metre, the search for slips finds the robot among the old walls, and the path jumps
-/// there. If the odometry of this motion fits the latest scans clearly better, it is taken instead.
+/// there. If the odometry of this motion fits the latest scans better, it is taken instead.
 /// @param path      a pose for each update, map frame
 /// @param odometry  the motion from each update to the next one, at the index of the next; zero for the first
 /// @param scans     of each update; those of the last ones may be missing
