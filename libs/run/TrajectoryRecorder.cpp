@@ -20,10 +20,7 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
   for (const Scan& scan : scans_) out.push_back({scan.timestamp, scan.odometry});
   if (path.empty()) return out;
 
-  std::vector<size_t> anchors;  // the scans of the updates
-  for (size_t i = 0; i < scans_.size(); ++i)
-    if (scans_[i].updates > (i == 0 ? 0 : scans_[i - 1].updates)) anchors.push_back(i);
-
+  const std::vector<size_t> anchors = scansOfUpdates();
   for (size_t i = 0; i < anchors.front(); ++i)
     out[i].pose = path.front() + (scans_[i].odometry - scans_[anchors.front()].odometry);
   for (size_t k = 0; k < anchors.size(); ++k) {
@@ -61,15 +58,17 @@ std::vector<TPose2D> TrajectoryRecorder::motions() const {
 }
 
 std::vector<TPose2D> TrajectoryRecorder::motionsOfUpdates() const {
-  std::vector<TPose2D> all;
-  size_t updates = 0;
-  TPose2D before;
-  for (const Scan& scan : scans_) {
-    if (scan.updates == updates) continue;
-    all.push_back(updates == 0 ? TPose2D() : scan.odometry - before);
-    updates = scan.updates;
-    before = scan.odometry;
-  }
+  const std::vector<size_t> anchors = scansOfUpdates();
+  std::vector<TPose2D> all(anchors.size());
+  for (size_t k = 1; k < anchors.size(); ++k)
+    all[k] = scans_[anchors[k]].odometry - scans_[anchors[k - 1]].odometry;
+  return all;
+}
+
+std::vector<size_t> TrajectoryRecorder::scansOfUpdates() const {
+  std::vector<size_t> all;
+  for (size_t i = 0; i < scans_.size(); ++i)
+    if (scans_[i].updates > (i == 0 ? 0 : scans_[i - 1].updates)) all.push_back(i);
   return all;
 }
 

@@ -46,6 +46,8 @@ class TrajectoryRecorder {
   }
 
  private:
+  std::vector<size_t> scansOfUpdates() const;  ///< their indices
+
   struct Scan {
     double timestamp;
     mrpt::math::TPose2D odometry;

@@ -114,7 +114,6 @@ TEST(PathRelaxation, AMotionThatTheOdometryMissedStays) {
   EXPECT_LT(error(relaxed(lap), lap), 0.03);
 }
 
-// The new place is not in the map of the latest scans.
 // A corridor shows no motion along it, so the odometry fits as well as the path.
 TEST(PathRelaxation, AMotionAlongABareCorridorStaysAsThePathHasIt) {
   const Walls walls = box(-60, -1.5, 100, 1.5);
@@ -136,6 +135,7 @@ TEST(PathRelaxation, AMotionThatTheOdometryMissedInATurnStays) {
   EXPECT_LT(error(relaxed(lap), lap), 0.03);
 }
 
+// The new place is not in the map of the latest scans.
 TEST(PathRelaxation, ARobotThatWasCarriedIsNotTakenBack) {
   Lap lap = lapThatDrifts({});
   const auto carried = [](auto& values) { values.erase(values.begin() + 150, values.begin() + 270); };
