@@ -49,7 +49,8 @@ PEER_LOGS = [("intel-lab", "errors-full", "Intel (2,984)"), ("intel-lab", "error
 
 
 def error_of(result):
-    return next(result[key] for key in ("trans_mean_m", "ate_rmse_m", "rmse_m", "trans_rmse_m", "median_m") if key in result)
+    """Of relations the mean, of a trajectory with a reference the RMSE (ATE), of revisits the median."""
+    return result["trans_rmse_m" if "alignment" in result else "trans_mean_m" if "trans_mean_m" in result else "median_m"]
 
 
 def runs(folder, name="errors"):

@@ -14,6 +14,7 @@
 #include "base/Errors.h"
 #include "base/Memory.h"
 #include "base/Numbers.h"
+#include "base/PoseRotation.h"
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
 #include "run/LoopNote.h"
@@ -178,7 +179,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(pose.x, 2) + ", " +
                    fixedText(pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(pose.phi), 1) +
                    " deg in the map of " + configuration_.run.continueFrom);
-  hybrid_->joinMap(*earlierMap_, pose);
+  joinMap(*earlierMap_, pose);
   earlierMap_.reset();
   search_.reset();
 }
@@ -192,7 +193,12 @@ void FilterRun::searchPlan(const readings::Reading& reading) {
   notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(found->pose.x, 2) + ", " +
                    fixedText(found->pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(found->pose.phi), 1) +
                    " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 3));
-  hybrid_->joinMap(found->map, found->pose);
+  joinMap(found->map, found->pose);
+}
+
+void FilterRun::joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose) {
+  const double turn = hybrid_->joinMap(map, pose);
+  for (PoseCovariance& covariance : particleCovariances_) covariance = rotated(covariance, turn);
 }
 
 std::string FilterRun::placeNote() const {

@@ -148,6 +148,8 @@ class FilterRun {
   std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
   void searchPlan(const readings::Reading& reading);
+  /// @param pose  current pose of the robot in the map
+  void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   Verdict verdictOfLocalization() const;
   nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
   void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);

@@ -99,10 +99,11 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     std::vector<LoopClosure> loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
-    if (const double of = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates); of < contradiction) {
+    if (const double closedOne = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates);
+        closedOne < contradiction) {
       refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
-      contradiction = of;
+      contradiction = closedOne;
     }
     // On a wrong map, returning scans may match the walls of other places.
     constexpr double kMoreContradiction = 0.02;  // of the compared beams
@@ -125,13 +126,13 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     result.trajectory[i].pose = scans[i].pose;
     if (scans[i].isMapped) result.path[update++] = scans[i].pose;
   }
+  result.map = MapMaker(configuration_.filter)(scans, base);
+  result.grid = toMrpt(result.map.grid);
+  result.lines = result.map.lines.lines();
   for (LoopClosure& loop : refinementLoops_) {
     loop.place = result.path[loop.later];
     notes_.push_back(loopNote(loop, updateTimes_, true));
   }
-  result.map = MapMaker(configuration_.filter)(scans, base);
-  result.grid = toMrpt(result.map.grid);
-  result.lines = result.map.lines.lines();
 }
 
 /// @throws std::bad_alloc if there was no memory for it
@@ -310,6 +311,7 @@ nlohmann::ordered_json FilterRun::metrics(const Result& result, const readings::
       {"resamplings", resamplings_},
       {"slips", slips_},
       {"loops_closed", loops_ + refinementLoops_.size()},
+      {"path_relaxed", result.isRelaxed},
       {"verdict", verdict_.name()},
       {"reasons", verdict_.reasons},
       {"doubtful_places", json(verdict_.places, updateTimes_)},

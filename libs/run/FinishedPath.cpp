@@ -6,6 +6,7 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "files/JsonFile.h"
 #include "files/LineReader.h"
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
@@ -33,6 +34,14 @@ std::vector<double> updateTimes(const std::string& file) {
     times.push_back(*time);
   }
   return times;
+}
+
+/// Reads whether the errors of the path were distributed over its loops.
+bool isRelaxed(const std::string& file) {
+  const auto metrics = files::readJson(file);
+  if (!metrics.is_object() || !metrics.contains("path_relaxed") || !metrics["path_relaxed"].is_boolean())
+    throw InputError("not the metrics of a run that made a map", file, "expected the key `path_relaxed`");
+  return metrics["path_relaxed"];
 }
 
 }  // namespace
@@ -71,13 +80,9 @@ FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
   if (row < trajectory.size())
     throw InputError("the log is not that of the run", log,
                      "expected a scan at each time of " + folder + "/trajectory.tum");
-  using Method = RunOptions::Method;
-  const RunOptions& run = configuration.run;
-  const bool isRelaxed = (run.method == Method::hybrid || run.method == Method::general) && run.refine > 0 &&
-                         configuration.filter.closesLoops() && run.continueFrom.empty() &&
-                         run.priorPlan.empty();
   return {trajectory, updates,
-          PathCovariances(path, {}, check.evidence().returning, configuration.filter.useLines, isRelaxed)};
+          PathCovariances(path, {}, check.evidence().returning, configuration.filter.useLines,
+                          isRelaxed(folder + "/metrics.json"))};
 }
 
 }  // namespace hybrid_slam::run

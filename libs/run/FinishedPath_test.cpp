@@ -21,17 +21,20 @@ struct FinishedRun : testing::Test {
   files::TemporaryFolder folder;
   std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(240));
 
-  std::string map(const std::string& method) const {
-    Configuration configuration("", {"run.rawlog=" + log, "run.output=" + folder.path(method),
-                                     "run.method=" + method, "particle_filter.particles=1"});
+  std::string map(const std::string& method, const std::string& continued = {}) const {
+    const std::string output = folder.path(method + (continued.empty() ? "" : "-continued"));
+    Configuration configuration("", {"run.rawlog=" + log, "run.output=" + output, "run.method=" + method,
+                                     "particle_filter.particles=1"});
+    if (!continued.empty()) {
+      configuration.run.continueFrom = continued + "/session.hslam";
+      configuration.run.start.emplace(0, 0, 0);
+    }
     replay(configuration, true, std::atomic<bool>{false});
-    return folder.path(method);
+    return output;
   }
-};
 
-TEST_F(FinishedRun, HasTheCovariancesOfTheRun) {
-  for (const char* method : {"hybrid", "general"}) {
-    const std::string results = map(method);
+  /// Whether the covariances are those of covariance.csv.
+  void expectSame(const std::string& results) const {
     const FinishedPath path = readFinishedPath(results, log);
     const auto ofPoses = path.covariances.ofPoses();
     const auto rows =
@@ -41,10 +44,28 @@ TEST_F(FinishedRun, HasTheCovariancesOfTheRun) {
       if (path.updates[i] == (i > 0 ? path.updates[i - 1] : 0)) continue;
       const auto& v = rows[i].values;
       const PoseCovariance& covariance = ofPoses.at(path.updates[i] - 1);
-      EXPECT_NEAR(covariance(0, 0), v[1], 1e-5 * v[1]) << method << ", row " << i;
-      EXPECT_NEAR(covariance(1, 1), v[3], 1e-5 * v[3]) << method << ", row " << i;
-      EXPECT_NEAR(covariance(2, 2), v[6], 1e-5 * v[6]) << method << ", row " << i;
+      EXPECT_NEAR(covariance(0, 0), v[1], 1e-5 * v[1]) << results << ", row " << i;
+      EXPECT_NEAR(covariance(1, 1), v[3], 1e-5 * v[3]) << results << ", row " << i;
+      EXPECT_NEAR(covariance(2, 2), v[6], 1e-5 * v[6]) << results << ", row " << i;
     }
+  }
+};
+
+TEST_F(FinishedRun, HasTheCovariancesOfTheRun) {
+  for (const char* method : {"hybrid", "general"}) expectSame(map(method));
+}
+
+// A run that continues a map does not relax its path.
+TEST_F(FinishedRun, HasTheCovariancesOfARunThatContinuesAMap) { expectSame(map("hybrid", map("hybrid"))); }
+
+TEST_F(FinishedRun, ARunThatMadeNoMap) {
+  const std::string results = map("hybrid");
+  for (const char* metrics : {"{", "{}", R"({"path_relaxed": 1})"}) {
+    folder.write("hybrid/metrics.json", metrics);
+    EXPECT_EQ(test::errorOf([&] { readFinishedPath(results, log); }),
+              "not the metrics of a run that made a map: " + results +
+                  "/metrics.json; expected the key `path_relaxed`")
+        << metrics;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/Numbers.h"
+#include "base/PoseRotation.h"
 
 namespace hybrid_slam::run {
 
@@ -26,7 +27,7 @@ struct Drift {
 constexpr Drift kRelaxed{0.002, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.003, mrpt::DEG2RAD(0.048)};
 constexpr Drift kOpen{0.01, mrpt::DEG2RAD(0.019)}, kOpenWithoutLines{0.028, mrpt::DEG2RAD(0.058)};
 constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
-constexpr double kLoops = 4, kNear = 3, kReturn = 20;                  // m
+constexpr double kLoops = 4, kNear = 3;                                // m
 
 Eigen::Matrix3d diagonal(double position, double heading) {
   return Eigen::Vector3d(square(position), square(position), square(heading)).asDiagonal();
@@ -63,7 +64,7 @@ std::vector<KnownPair> loopsOf(const std::vector<TPose2D>& path, const std::vect
     if (!pairs.empty() && distances[later] < distances[pairs.back().later] + apart) continue;
     double nearest = kNear;
     KnownPair pair{0, later, diagonal(kMatch, kMatchAngle), true};
-    for (size_t i = 0; distances[i] < distances[later] - kReturn; ++i)
+    for (size_t i = 0; distances[i] < distances[later] - RevisitCheck::kReturn; ++i)
       if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
           distance < nearest)
         nearest = distance, pair.earlier = i;
@@ -114,9 +115,7 @@ std::vector<PoseCovariance> PathCovariances::ofPoses() const {
 }
 
 PoseCovariance PathCovariances::between(const PathPoint& from, const PathPoint& to) const {
-  PoseCovariance turn = PoseCovariance::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.pose.phi).toRotationMatrix();
-  return turn * inMap(from, to) * turn.transpose();
+  return rotated(inMap(from, to), -from.pose.phi);
 }
 
 PoseCovariance PathCovariances::inMap(const PathPoint& from, const PathPoint& to) const {

@@ -140,11 +140,6 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.spread > kSpread)
     find(Level::doubtful,
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");
-  const bool isOdometryUseless =
-      evidence.slips >= kFewestSlips &&
-      static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
-  if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
-    find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
   if (static_cast<double>(evidence.odometryFaults) > kFaults * static_cast<double>(evidence.scans))
     find(Level::doubtful, std::to_string(evidence.odometryFaults) +
                               " odometry readings are impossible or jump, in " +
@@ -155,8 +150,12 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.isCut)
     find(Level::doubtful,
          "the log cannot be read again up to the end of the run: not all scans were compared with the map");
-  else if (evidence.returning.empty())
-    find(Level::consistent, "no place was seen twice");
+  const bool isOdometryUseless =
+      evidence.slips >= kFewestSlips &&
+      static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
+  if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
+    find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
+  if (!evidence.isCut && evidence.returning.empty()) find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
   return verdict;
 }

@@ -22,7 +22,7 @@ struct Verdict {
   enum class Level { consistent, doubtful, lost };
 
   Level level = Level::consistent;
-  std::vector<std::string> reasons;   ///< short sentences, the most serious first
+  std::vector<std::string> reasons;   ///< short sentences
   std::vector<DoubtfulPlace> places;  ///< at most ten; returning stretches before jumps, the longest first
   bool isContradicted = false;        ///< by scans; not only for want of evidence
 

@@ -49,7 +49,7 @@ void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) 
 }
 
 Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
-  RevisitCheck returning(kReturning), recent(kRecent);
+  RevisitCheck returning(RevisitCheck::kReturn), recent(kRecent);
   double distance = 0;
   size_t reached = 0;
   for (const auto& scan : scans_) {

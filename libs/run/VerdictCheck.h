@@ -14,8 +14,8 @@
 
 namespace hybrid_slam::run {
 
-/// Scans are compared with the map from this much path (m) before.
-constexpr double kReturning = 20, kRecent = 2;
+/// m of path: the scans before are the map from just before.
+constexpr double kRecent = 2;
 
 /// Chooses the scans to compare along a path: one every 0.5 m or 30 deg.
 class ComparisonSteps {
@@ -34,7 +34,7 @@ class VerdictCheck {
   Evidence evidence() const { return evidenceOf(returning_, recent_); }
 
  private:
-  RevisitCheck returning_{kReturning}, recent_{kRecent};
+  RevisitCheck returning_{RevisitCheck::kReturn}, recent_{kRecent};
   ComparisonSteps steps_;
   std::optional<mrpt::math::TPose2D> last_;
   double distance_ = 0;

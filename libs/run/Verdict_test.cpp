@@ -163,6 +163,18 @@ TEST(Verdict, SlipsAloneAreNoReason) {
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
 }
 
+TEST(Verdict, SlipsAreListedWithAnyOtherReason) {
+  Evidence cut, poor, faulty;
+  cut.isCut = true;
+  poor.beams = 10;
+  faulty.odometryFaults = 50;
+  for (Evidence evidence : {cut, poor, faulty}) {
+    evidence.returning = scans(100), evidence.slips = 1, evidence.updates = 200, evidence.scans = 200;
+    EXPECT_EQ(verdictOf(evidence).reasons.size(), 2u);
+    EXPECT_EQ(verdictOf(evidence).reasons.back(), "odometry rejected in 1 update");
+  }
+}
+
 TEST(Verdict, OdometryThatIsMostlyRejectedIsDoubtful) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.slips = 101, evidence.updates = 200;

@@ -82,7 +82,7 @@ void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   particles_.continueFrom(path, map.grid, map.lines, map.features);
 }
 
-void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
+double HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   base_ = map;
   const TPose2D now = particles_.best().path.back() + odometry_;
   const TPose2D origin = pose + (TPose2D() - now);  // of the map so far, in the other
@@ -92,6 +92,7 @@ void HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   continueFrom(path);
   loopCloser_.joinMap(origin.phi, bestPath());
   expectNoMap();
+  return origin.phi;
 }
 
 void HybridFilter::expectNoMap() {

@@ -42,7 +42,8 @@ class HybridFilter : public Filter {
   /// map.
   /// @param pose  current pose of the robot (m, rad), in that map; path and scans so far are transformed
   /// accordingly
-  void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
+  /// @returns the angle (rad) by which they turned
+  double joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   /// The map of `joinMap`.
   const std::optional<ScanMap>& base() const { return base_; }
 

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 
+#include "base/PoseRotation.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/BeamSelection.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/loops/PathCorrection.h"
 #include "slam/loops/PoseGraph.h"
+#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam {
 
@@ -20,12 +22,12 @@ namespace {
 
 constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kNodeDistance = 0.5, kNodeAngle = 15 * kDegree;
-constexpr double kReturn = 20;        // m of path between two visits, and of a map of the latest scans
-constexpr double kNear = 3;           // m, between two nodes that see the same walls
-constexpr double kReach = 6;          // m of path to either side of an earlier node: its map
-constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
-constexpr double kMinFit = 0.1;       // of a match; a map of one scan fits 0.04
-constexpr double kOutlier = 9;        // chi^2 at which a match has half its weight
+constexpr double kReturn = RevisitCheck::kReturn;  // also of a map of the latest scans
+constexpr double kNear = 3;                        // m, between two nodes that see the same walls
+constexpr double kReach = 6;                       // m of path to either side of an earlier node: its map
+constexpr double kMapInterval = 0.6;               // m of path between the scans of that map
+constexpr double kMinFit = 0.1;                    // of a match; a map of one scan fits 0.04
+constexpr double kOutlier = 9;                     // chi^2 at which a match has half its weight
 // A motion jumps if it is off the odometry by more than kLeastJump. Beyond kDrifted or kTurned, no drift
 // explains it: the odometry is wrong, or the robot was carried.
 constexpr double kLeastJump = 0.15, kDrifted = 2, kTurned = 5 * kDegree;
@@ -156,10 +158,7 @@ class Relaxation {
     if (seen.match.fit < kMinFit) return std::nullopt;
     const Eigen::Matrix3d information =
         scanInformation(seen.likelihood, seen.match.pose) + covarianceOf(kWorst).inverse();
-    Eigen::Matrix3d toFrame = Eigen::Matrix3d::Identity();
-    toFrame.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-frame.phi).toRotationMatrix();
-    const Eigen::Matrix3d covariance =
-        toFrame * (information.inverse() + covarianceOf(kBest)) * toFrame.transpose();
+    const Eigen::Matrix3d covariance = rotated(information.inverse() + covarianceOf(kBest), -frame.phi);
     return PoseEdge{earlier, node, seen.match.pose - frame, covariance.inverse()};
   }
 

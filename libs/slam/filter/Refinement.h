@@ -75,7 +75,7 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 /// odometry by about as much as before; otherwise the scan may be right, and the walls of others wrong.
 /// @param minFit    in [0, 1]
 /// @param threads   0: all cores; does not affect the result
-/// @param odometry  motions from each scan to the next, by the motion model (frame of the earlier scan's
+/// @param odometry  motion from each scan to the next, by the motion model (frame of the earlier scan's
 /// pose);
 ///                  empty: unknown, so that no scan moves that far
 void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,

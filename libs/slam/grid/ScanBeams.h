@@ -56,6 +56,15 @@ struct ScanBeams {
     return std::all_of(rays.begin(), rays.end(), [range](const Ray& ray) { return ray.range <= range; });
   }
 
+  /// Returns at most `most` of the beams, evenly spaced.
+  ScanBeams thinned(size_t most) const {
+    ScanBeams some;
+    some.origins = origins;
+    const size_t every = (rays.size() + most - 1) / most;
+    for (size_t i = 0; i < rays.size(); i += every) some.rays.push_back(rays[i]);
+    return some;
+  }
+
   /// Returns the end points of the beams, robot frame, m.
   std::vector<mrpt::math::TPoint2D> endPoints() const {
     std::vector<mrpt::math::TPoint2D> points;

@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr int8_t kWall = 7;  // 0.6, in units of a cell
+constexpr int8_t kWall = 7;  // log-odds, in units of a cell: more than one hit
 
 struct End {
   uint64_t cell;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseRotation.h"
 #include "slam/loops/PathCorrection.h"
 
 namespace hybrid_slam {
@@ -28,7 +29,6 @@ constexpr double kMinOverlap = 0.5, kHeldOverlap = 0.3;
 constexpr double kAttempt = 1.5, kAfterHeld = 3;  // m of path between attempts
 constexpr double kMaxAngle = 20 * kDegree;        // searched
 constexpr double kMaxChi2 = 16;                   // of a correction, under the path's uncertainty
-constexpr double kReturn = 20;                    // m of path, as in the verdict
 constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
 
 double distanceOf(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -49,7 +49,8 @@ const Eigen::Vector3d kOfHeld(10, 10, 1), kOfMatch(kSame, kSame, kSameAngle);
 const Eigen::Vector3d kOfJoin(0.1, 0.1, 0.5 * kDegree);
 
 SearchWindow searchWindow(const Eigen::Matrix3d& covariance, double maxOffset) {
-  return {std::clamp(3 * std::sqrt(std::max(covariance(0, 0), covariance(1, 1))), 0.6, maxOffset),
+  const double offset = 3 * std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+  return {std::clamp(offset, std::min(0.6, maxOffset), maxOffset),
           std::clamp(3 * std::sqrt(covariance(2, 2)), 4 * kDegree, kMaxAngle)};
 }
 
@@ -60,13 +61,6 @@ Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match, const Eigen::Vecto
       Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * kDegree * kDegree).asDiagonal();
   const Eigen::Matrix3d regular = 0.1 * match + most.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix();
   return (regular.inverse() + least).inverse();
-}
-
-/// The matrix that rotates x and y of (x, y, phi) by `angle` (rad).
-Eigen::Matrix3d rotationBy(double angle) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
-  return rotation;
 }
 
 }  // namespace
@@ -85,12 +79,7 @@ void LoopCloser::add(const TPose2D& motion, const LaserScans& scans, const std::
   const size_t update = updates_++;
   if (!keyframes_.empty() && motion_.norm() < kKeyframeDistance && std::abs(motion_.phi) < kKeyframeAngle)
     return;
-  ScanBeams beams(scans);
-  if (const size_t every = (beams.rays.size() + kBeams - 1) / kBeams; every > 1) {
-    std::vector<ScanBeams::Ray> some;
-    for (size_t i = 0; i < beams.rays.size(); i += every) some.push_back(beams.rays[i]);
-    beams.rays = some;
-  }
+  ScanBeams beams = ScanBeams(scans).thinned(kBeams);
   beams.rays.shrink_to_fit();
   keyframes_.push_back({update, std::move(beams)});
   variances_.push_back(variance_);
@@ -105,9 +94,10 @@ LocalMap LoopCloser::newest(const Visit& visit, double length) const {
                   keyframes_.size(), grid_);
 }
 
-LocalMap LoopCloser::around(const Visit& visit, size_t keyframe, double reach) const {
+LocalMap LoopCloser::around(const Visit& visit, size_t keyframe, double reach, double length) const {
   const auto& distances = visit.distances;
-  const double end = std::min(distances[keyframe] + reach, distances.back() - options_.minDistance);
+  const double end =
+      std::min(distances[keyframe] + reach, distances.back() - std::max(options_.minDistance, length));
   const auto from = std::lower_bound(distances.begin(), distances.end(), distances[keyframe] - reach);
   const auto to = std::upper_bound(from, distances.end(), end);
   return localMap(keyframes_, visit.poses, static_cast<size_t>(from - distances.begin()),
@@ -189,14 +179,12 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
 }
 
 void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
-  const Eigen::Matrix3d toMap = rotationBy(visit.frame(edge.from).phi);
   loops_.push_back(edge);
-  known_.push_back({edge.from, edge.to, toMap * edge.information.inverse() * toMap.transpose()});
+  known_.push_back({edge.from, edge.to, rotated(edge.information.inverse(), visit.frame(edge.from).phi)});
 }
 
 void LoopCloser::joinMap(double turn, const std::vector<TPose2D>& path) {
-  const Eigen::Matrix3d rotation = rotationBy(turn);
-  for (KnownPair& pair : known_) pair.covariance = rotation * pair.covariance * rotation.transpose();
+  for (KnownPair& pair : known_) pair.covariance = rotated(pair.covariance, turn);
   if (keyframes_.empty()) return;
   const Eigen::Matrix3d covariance = kOfJoin.cwiseAbs2().asDiagonal();
   const size_t last = keyframes_.size() - 1;
@@ -231,9 +219,10 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
   if (visit.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
   const LocalMap stretch = newest(visit, options_.stretch);
   const PathUncertainty uncertainty(visit.poses, variances_);
+  // Where several places fit, a longer stretch is tried.
   const auto attempt = [&](const auto& tried) {
-    const Outcome outcome = tried(stretch, kReach);
-    return outcome == Outcome::ambiguous ? tried(newest(visit, kLonger * options_.stretch), kLonger * kReach)
+    const Outcome outcome = tried(stretch, 1);
+    return outcome == Outcome::ambiguous ? tried(newest(visit, kLonger * options_.stretch), kLonger)
                                          : outcome;
   };
   const auto isOver = [](Outcome outcome) { return outcome == Outcome::held || outcome == Outcome::found; };
@@ -243,8 +232,8 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
         [&](const LocalMap& newer, double) { return tryEarlierMap(visit, newer, uncertainty, *earlier); });
   if (!isOver(outcome))
     for (const size_t place : places(visit, stretch.reference, uncertainty)) {
-      outcome = attempt([&](const LocalMap& newer, double reach) {
-        const LocalMap older = around(visit, place, reach);
+      outcome = attempt([&](const LocalMap& newer, double longer) {
+        const LocalMap older = around(visit, place, longer * kReach, longer * options_.stretch);
         return tryPlace(visit, newer, older, uncertainty.between(older.reference, newer.reference, known_));
       });
       if (isOver(outcome)) break;
@@ -258,7 +247,7 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
 }
 
 std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) const {
-  RevisitCheck check(kReturn);
+  RevisitCheck check(RevisitCheck::kReturn);
   double distance = 0;
   for (size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) distance += distanceOf(poses[i - 1], poses[i]);

@@ -110,7 +110,7 @@ class LoopCloser {
   std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Visit& visit,
                                       const std::optional<double>& direction);
   LocalMap newest(const Visit& visit, double length) const;
-  LocalMap around(const Visit& visit, size_t keyframe, double reach) const;
+  LocalMap around(const Visit& visit, size_t keyframe, double reach, double length) const;
 
   LoopClosingOptions options_;
   GridOptions grid_;  ///< coarse

@@ -155,6 +155,20 @@ TEST(LoopCloser, LinesInAnotherDirectionThanTheMapsAreIgnored) {
 
 TEST(LoopCloser, APathThatClosesItselfStaysAsItIs) { EXPECT_TRUE(closed(ringDrive(0)).closures.empty()); }
 
+// The usual search is wider; with debug assertions of the library, std::clamp ends the program.
+TEST(LoopCloser, TheOffsetMayBeBelowTheLeastSearch) {
+  LoopClosingOptions options;
+  options.maxOffset = 0.5;
+  EXPECT_TRUE(closed(ringDrive(0), options).closures.empty());
+}
+
+// Otherwise the newest scans are matched to themselves.
+TEST(LoopCloser, TheOlderMapEndsBeforeTheStretch) {
+  LoopClosingOptions options;
+  for (options.stretch = 4; options.stretch <= 24; options.stretch += 5)
+    EXPECT_FALSE(closed(ringDrive(0.03 * kDegree), options).closures.empty()) << options.stretch << " m";
+}
+
 TEST(LoopCloser, SuccessiveMatchesMustAgree) {
   LoopClosingOptions options;
   options.agreeing = 20;  // more than the second lap has

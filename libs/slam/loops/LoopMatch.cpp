@@ -43,14 +43,6 @@ Counts compare(const ScanBeams& walls, const TPose2D& pose, const OccupancyGrid&
   return counts;
 }
 
-ScanBeams thinned(const ScanBeams& beams) {
-  ScanBeams some = beams;
-  const size_t every = (beams.rays.size() + kMatchedBeams - 1) / kMatchedBeams;
-  some.rays.clear();
-  for (size_t i = 0; i < beams.rays.size(); i += every) some.rays.push_back(beams.rays[i]);
-  return some;
-}
-
 /// With the default [scan_matcher], whose sigma suits the cells of the local maps.
 const ScanMatcher& matcher() {
   static const ScanMatcher matcher{ScanMatcherOptions()};
@@ -83,18 +75,18 @@ Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const TPose2
 }
 
 Eigen::Matrix3d informationOf(const TPose2D& pose, const LocalMap& newer, const LocalMap& older) {
-  const ScanBeams some = thinned(newer.ends);
+  const ScanBeams some = newer.ends.thinned(kMatchedBeams);
   ScanLikelihood likelihood = matcher().likelihood(some, older.grid);
   return scanInformation(likelihood, pose);
 }
 
 LoopMatch matchFrom(const TPose2D& start, const LocalMap& newer, const LocalMap& older) {
-  return matched(start, thinned(newer.ends), newer, older);
+  return matched(start, newer.ends.thinned(kMatchedBeams), newer, older);
 }
 
 std::optional<LoopMatch> searchMatch(const TPose2D& centre, const SearchWindow& window, const LocalMap& newer,
                                      const LocalMap& older) {
-  const ScanBeams some = thinned(newer.ends);
+  const ScanBeams some = newer.ends.thinned(kMatchedBeams);
   std::vector<LoopMatch> matches;
   for (const TPose2D& place : correlativeSearch(some, centre, older.grid, window, kPlaces))
     matches.push_back(matched(place, some, newer, older));

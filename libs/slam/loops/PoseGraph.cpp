@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseRotation.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
@@ -57,8 +59,7 @@ struct NormalEquations {
     for (const PoseEdge* edge : edges) {
       const TPose2D from = frameOf(*edge, poses);
       const TPose2D is = poses[edge->to] - from;
-      Eigen::Matrix3d byTo = Eigen::Matrix3d::Identity();
-      byTo.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.phi).toRotationMatrix();
+      const Eigen::Matrix3d byTo = poseRotation(-from.phi);
       Eigen::Matrix3d byFrom = -byTo;
       byFrom(0, 2) = is.y, byFrom(1, 2) = -is.x;
       const Eigen::Vector3d off = residual(*edge, poses);

@@ -90,7 +90,7 @@ bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Re
 }
 
 double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
-  RevisitCheck check(20);
+  RevisitCheck check(RevisitCheck::kReturn);
   double distance = 0;
   for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
     if (i > 0) distance += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
@@ -99,13 +99,6 @@ double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans
   return contradictionOf(check.revisits());
 }
 
-ScanBeams beamsToCompare(const LaserScans& scans) {
-  ScanBeams beams(scans);
-  const size_t every = (beams.rays.size() + kBeams - 1) / kBeams;
-  std::vector<ScanBeams::Ray> some;
-  for (size_t i = 0; i < beams.rays.size(); i += every) some.push_back(beams.rays[i]);
-  beams.rays = std::move(some);
-  return beams;
-}
+ScanBeams beamsToCompare(const LaserScans& scans) { return ScanBeams(scans).thinned(kBeams); }
 
 }  // namespace hybrid_slam

@@ -39,6 +39,7 @@ class RevisitCheck {
   /// Mean number of beams of all scans added; NaN before the first.
   double meanBeams() const { return static_cast<double>(beams_) / static_cast<double>(scans_); }
 
+  static constexpr double kReturn = 20;       ///< m of path after which a scan returns
   static constexpr double kResolution = 0.1;  ///< m
   static constexpr double kRange = 8;         ///< m
 

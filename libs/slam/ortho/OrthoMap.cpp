@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseRotation.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPoint2D;
@@ -113,9 +115,7 @@ void OrthoMap::remove(size_t line) {
 TPose2D OrthoMap::pose() const { return TPose2D(0, 0, direction_.value_or(0)) + state_.pose(); }
 
 Eigen::Matrix3d OrthoMap::poseCovariance() const {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(direction_.value_or(0)).toRotationMatrix();
-  return rotation * state_.poseCovariance() * rotation.transpose();
+  return rotated(state_.poseCovariance(), direction_.value_or(0));
 }
 
 std::vector<DatabaseLine> OrthoMap::lines() const {

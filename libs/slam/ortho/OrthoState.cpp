@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/PoseRotation.h"
+
 namespace hybrid_slam {
 
 using Eigen::Index;
@@ -33,8 +35,7 @@ void OrthoState::move(const TPose2D& odometry, const MotionModelOptions& model) 
 
 void OrthoState::turnFrame(double angle, double variance) {
   const TPose2D turned = TPose2D(0, 0, -angle) + pose();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-angle).toRotationMatrix();
+  const Eigen::Matrix3d rotation = poseRotation(-angle);
   mean_.head<3>() << turned.x, turned.y, turned.phi;
   covariance_ = rotation * covariance_ * rotation.transpose();
   covariance_(2, 2) += variance;

@@ -1,8 +1,8 @@
-#include "study/comparison/JsonFile.h"
+#include "files/JsonFile.h"
 
 #include <fstream>
 
-namespace hybrid_slam::comparison {
+namespace hybrid_slam::files {
 namespace {
 
 constexpr int kMostLevels = 10;  // deeper ones overflow the stack where they are copied
@@ -28,4 +28,4 @@ nlohmann::json readJson(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace hybrid_slam::comparison
+}  // namespace hybrid_slam::files
