@@ -6,11 +6,11 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
-#include "files/JsonFile.h"
 #include "files/LineReader.h"
 #include "readings/LogWarnings.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
+#include "run/JsonFile.h"
 #include "run/VerdictCheck.h"
 
 namespace hybrid_slam::run {
@@ -38,7 +38,7 @@ std::vector<double> updateTimes(const std::string& file) {
 
 /// Reads whether the errors of the path were distributed over its loops.
 bool isRelaxed(const std::string& file) {
-  const auto metrics = files::readJson(file);
+  const auto metrics = readJson(file);
   if (!metrics.is_object() || !metrics.contains("path_relaxed") || !metrics["path_relaxed"].is_boolean())
     throw InputError("not the metrics of a run that made a map", file, "expected the key `path_relaxed`");
   return metrics["path_relaxed"];

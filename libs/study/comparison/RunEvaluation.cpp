@@ -9,7 +9,7 @@
 
 #include "base/Errors.h"
 #include "files/GridMapReader.h"
-#include "files/JsonFile.h"
+#include "run/JsonFile.h"
 #include "study/comparison/ReturnError.h"
 #include "study/comparison/SpreadTable.h"
 #include "study/comparison/WallErrors.h"
@@ -27,7 +27,7 @@ evaluation::RelationErrors relationErrors(const files::Trajectory& trajectory, c
 }
 
 void takeMetrics(RunResult& result, const std::string& file) {
-  const auto metrics = files::readJson(file);
+  const auto metrics = run::readJson(file);
   const auto take = [&](Figure figure, const char* key) {
     if (!metrics.is_object() || !metrics.contains(key) || !metrics[key].is_number())
       throw std::runtime_error("broken file: " + file + "; no number `" + key + "`");

@@ -14,7 +14,7 @@
 #include "base/Errors.h"
 #include "files/Checksum.h"
 #include "files/FolderReplacement.h"
-#include "files/JsonFile.h"
+#include "run/JsonFile.h"
 #include "run/JsonText.h"
 #include "run/ResultFiles.h"
 
@@ -69,7 +69,7 @@ struct Origin {
 
 /// Reads origin.json; empty if it is broken.
 std::optional<Origin> originIn(const fs::path& file) {
-  const auto json = files::readJson(file);
+  const auto json = run::readJson(file);
   if (!json.is_object()) return std::nullopt;
   const auto member = [&](const char* key) { return json.value(key, nlohmann::json()); };
   const auto size = member("log_size"), time = member("log_time_ns"), sections = member("other_sections");
@@ -219,7 +219,7 @@ std::string RunFolder::damage() const {
       return name;
   if (isThere(file(kOrigin)) && !originIn(file(kOrigin))) return kOrigin;
   if (!isThere(file(kChecksums))) return isThere(file(kOrigin)) ? kChecksums : "";
-  const auto checksums = files::readJson(file(kChecksums));
+  const auto checksums = run::readJson(file(kChecksums));
   if (!checksums.is_object()) return kChecksums;
   for (const char* name : kOfReport)
     if (isThere(file(name)) && !checksums.contains(name)) return kChecksums;

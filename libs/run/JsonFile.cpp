@@ -1,8 +1,8 @@
-#include "files/JsonFile.h"
+#include "run/JsonFile.h"
 
 #include <fstream>
 
-namespace hybrid_slam::files {
+namespace hybrid_slam::run {
 namespace {
 
 constexpr int kMostLevels = 10;  // deeper ones overflow the stack where they are copied
@@ -28,4 +28,4 @@ nlohmann::json readJson(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace hybrid_slam::files
+}  // namespace hybrid_slam::run
