@@ -99,11 +99,11 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     std::vector<LoopClosure> loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
-    if (const double closedOne = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates);
-        closedOne < contradiction) {
+    if (const double after = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates);
+        after < contradiction) {
       refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
-      contradiction = closedOne;
+      contradiction = after;
     }
     // On a wrong map, returning scans may match the walls of other places.
     constexpr double kMoreContradiction = 0.02;  // of the compared beams

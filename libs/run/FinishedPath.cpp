@@ -40,7 +40,7 @@ std::vector<double> updateTimes(const std::string& file) {
 bool isRelaxed(const std::string& file) {
   const auto metrics = readJson(file);
   if (!metrics.is_object() || !metrics.contains("path_relaxed") || !metrics["path_relaxed"].is_boolean())
-    throw InputError("not the metrics of a run that made a map", file, "expected the key `path_relaxed`");
+    throw InputError("no key `path_relaxed`", file, "expected the metrics of a run of this version");
   return metrics["path_relaxed"];
 }
 

@@ -35,9 +35,8 @@ void OrthoState::move(const TPose2D& odometry, const MotionModelOptions& model) 
 
 void OrthoState::turnFrame(double angle, double variance) {
   const TPose2D turned = TPose2D(0, 0, -angle) + pose();
-  const Eigen::Matrix3d rotation = poseRotation(-angle);
   mean_.head<3>() << turned.x, turned.y, turned.phi;
-  covariance_ = rotation * covariance_ * rotation.transpose();
+  covariance_ = rotated(covariance_, -angle);
   covariance_(2, 2) += variance;
 }
 
