@@ -108,8 +108,8 @@ class FilterRun {
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
-  /// Lets `finish` write no results if the verdict on the map is worse than this.
-  void expectVerdict(Verdict::Level worst) { worstVerdict_ = worst; }
+  /// Lets `finish` write no results if the verdict on the map is worse than this one.
+  void expectVerdict(const Verdict& worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
   /// @param log      its summary; if it is shorter than the processed readings (a recording on a full disk),
@@ -211,7 +211,7 @@ class FilterRun {
   double savedCell_ = 0;                   ///< m, of the map files
   double mostBytes_, refinementBytes_, sessionBytes_;
   Verdict verdict_;
-  Verdict::Level worstVerdict_ = Verdict::Level::lost;
+  std::optional<Verdict> worstVerdict_;
   std::string checkpointName_;
   std::future<void> checkpoint_;  ///< compressed and written while the filter goes on
 };

@@ -136,17 +136,16 @@ TEST_F(FilterRunTest, AWorseMapThanExpectedReplacesNothing) {
   Configuration c = configuration("plain");
   c.run.overwrite = true;
   const std::string before = result("plain/metrics.json");
-  {
+  const std::string cut = test::writeGzipped(folder.path("recording.rawlog"), test::laps(10));
+  Verdict consistent, lessContradicted;
+  lessContradicted.level = Verdict::Level::doubtful, lessContradicted.contradiction = -1;
+  for (const auto& [worst, message] :
+       {std::pair(consistent, "its map is doubtful"),
+        std::pair(lessContradicted, "its map is doubtful, too, and more scans contradict it")}) {
     FilterRun run(c);
     process(run, c);
-    run.expectVerdict(Verdict::Level::consistent);
-    const std::string cut = test::writeGzipped(folder.path("recording.rawlog"), test::laps(10));
-    try {
-      finish(run, c, cut);  // doubtful
-      FAIL();
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "its map is doubtful");
-    }
+    run.expectVerdict(worst);
+    EXPECT_EQ(test::errorOf<std::runtime_error>([&] { finish(run, c, cut); }), message);
   }
   EXPECT_EQ(result("plain/metrics.json"), before);
 }

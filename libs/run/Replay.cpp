@@ -141,7 +141,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   run.reset();
   try {
     FilterRun second(again, start);
-    second.expectVerdict(outcome.verdict.level);
+    second.expectVerdict(outcome.verdict);
     outcome = Pass(again, log, true, isQuiet)(second, nullptr, stop, wantsProfile);
   } catch (const std::exception& e) {
     outcome.warnings.push_back("no results of a second run: " + messageOf(e));

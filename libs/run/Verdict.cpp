@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/Numbers.h"
 
@@ -91,6 +92,10 @@ std::string Verdict::name() const {
   return names[static_cast<int>(level)];
 }
 
+bool Verdict::isWorseThan(const Verdict& other) const {
+  return std::tie(level, contradiction) > std::tie(other.level, other.contradiction);
+}
+
 std::string Verdict::line() const {
   std::string line = "verdict: " + name();
   for (size_t i = 0; i < reasons.size(); ++i) line += (i == 0 ? ": " : "; ") + reasons[i];
@@ -116,12 +121,13 @@ Verdict verdictOf(const Evidence& evidence) {
     verdict.isContradicted = true;
     find(level, reason);
   };
-  const auto judge = [&contradict](const std::vector<Revisit>& revisits, double doubtful, double lost,
-                                   const std::string& what) {
+  const auto judge = [&](const std::vector<Revisit>& revisits, double doubtful, double lost,
+                         const std::string& what) {
+    if (revisits.empty()) return;
     const size_t contradicted = contradictedOf(revisits);
-    if (contradicted < std::min(kFewestInDoubt, std::max<size_t>(revisits.size(), 1))) return;
     const double part = static_cast<double>(contradicted) / static_cast<double>(revisits.size());
-    if (part > doubtful)
+    verdict.contradiction += part;
+    if (contradicted >= std::min(kFewestInDoubt, revisits.size()) && part > doubtful)
       contradict(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
                  share(contradicted, revisits.size()) + " " + what);
   };

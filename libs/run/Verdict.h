@@ -25,7 +25,10 @@ struct Verdict {
   std::vector<std::string> reasons;   ///< short sentences
   std::vector<DoubtfulPlace> places;  ///< at most ten; returning stretches before jumps, the longest first
   bool isContradicted = false;        ///< by scans; not only for want of evidence
+  double contradiction = 0;  ///< contradicted share of the returning scans, plus that of the recent ones
 
+  /// Whether the map is worse than another one of the same log: its level or, if equal, its contradiction.
+  bool isWorseThan(const Verdict& other) const;
   std::string name() const;
   /// One line: `verdict: doubtful: REASON; REASON; longest at (X, Y) m`.
   std::string line() const;

@@ -124,6 +124,20 @@ TEST(Verdict, PlacesAreSeparateAndTheLongestComesFirst) {
   EXPECT_NEAR(verdict.places[1].at.x, 6, 1e-9);
 }
 
+/// Of two runs over a log: the level decides, then the contradicted shares.
+TEST(Verdict, WorseIsALowerLevelOrMoreContradiction) {
+  const Verdict good = of(scans(100, 0, 5)), bent = of(scans(100, 0, 30)), lost = of(scans(100, 0, 60));
+  const Verdict more = of(scans(200, 0, 62)), jumped = of(scans(100, 0, 30), scans(200, 40, 43));
+  EXPECT_NEAR(good.contradiction, 0.05, 1e-9);
+  EXPECT_NEAR(jumped.contradiction, 0.3 + 0.015, 1e-9);
+  for (const auto& [worse, better] :
+       {std::pair(lost, bent), std::pair(bent, good), std::pair(more, bent), std::pair(jumped, bent)}) {
+    EXPECT_TRUE(worse.isWorseThan(better)) << worse.line() << better.line();
+    EXPECT_FALSE(better.isWorseThan(worse)) << worse.line() << better.line();
+  }
+  EXPECT_FALSE(bent.isWorseThan(bent));
+}
+
 TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.spread = 1.5, evidence.slips = 2;

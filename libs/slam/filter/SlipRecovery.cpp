@@ -20,6 +20,7 @@ constexpr size_t kPlaces = 8;            // starting points of the local optimis
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
+constexpr double kKnown = 0.2;           // share of the beams: fewer are no evidence
 constexpr double kExplained = 0.5;       // share of the beams that recent scans explain: it was not carried
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
@@ -29,10 +30,10 @@ constexpr double kWholeStep = -9.2;  // ln 1e-4: prior of no motion or the oppos
 
 const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
 
-/// Share of the beams known to a map that it contradicts; 1 if it knows none.
+/// Share of the beams known to a map that it contradicts; 1 if it knows too few to tell.
 double refutedShare(const BeamShares& shares) {
   const double known = shares.explained + shares.contradicted;
-  return known > 0 ? shares.contradicted / known : 1;
+  return known > kKnown ? shares.contradicted / known : 1;
 }
 
 }  // namespace

@@ -87,6 +87,30 @@ TEST(SlipRecovery, FewBeamsRarelyOverruleTheOdometry) {
   EXPECT_LE(slips, 4);
 }
 
+/// The newest scans show only what a tenth of the beams still sees after the slip, a person who turns with
+/// the robot. That is no evidence against the slip.
+TEST(SlipRecovery, ASlipIsFoundWhereTheNewestScansKnowLittle) {
+  for (const double turn : {30, 80, 170}) {
+    Particle particle = test::particleAt(test::room(), kStart);
+    SlipRecovery recovery = used(particle, test::room());
+    RandomStream random(11, 0, 0);
+    PreparedScan before = test::prepared(test::room(), kStart, random);
+    auto& person = before.matchedBeams.rays;
+    person.resize(person.size() / 10);
+    for (int i = 0; i < 5; ++i) {
+      recovery.motionsOf(particle, {}, before);
+      particle.path.push(kStart);
+    }
+    const TPose2D truth = kStart + TPose2D(0, 0, turn * test::kDegree);
+    PreparedScan scan = test::prepared(test::room(), truth, random);
+    std::copy(person.begin(), person.end(), scan.matchedBeams.rays.begin());
+    const StepMotion motion = recovery.motionsOf(particle, {}, scan).front();
+    EXPECT_TRUE(motion.hasSlipped) << turn;
+    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.05) << turn;
+    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 1 * test::kDegree) << turn;
+  }
+}
+
 struct Found {
   bool isTrue = false;  ///< a hypothesis was the true pose
   size_t most = 0;      ///< number of hypotheses in a step
