@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/Numbers.h"
+#include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
+#include "slam/loops/PathDrift.h"
 
 namespace hybrid_slam::run {
 
@@ -20,12 +22,7 @@ constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
 constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);  // of a scan match
-/// Standard deviations of the drift per sqrt(m), in x and in y (m) and in heading (rad).
-struct Drift {
-  double position, heading;
-};
-constexpr Drift kRelaxed{0.002, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.003, mrpt::DEG2RAD(0.048)};
-constexpr Drift kOpen{0.01, mrpt::DEG2RAD(0.019)}, kOpenWithoutLines{0.028, mrpt::DEG2RAD(0.058)};
+constexpr PathDrift kRelaxed{0.002, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.003, mrpt::DEG2RAD(0.048)};
 constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
 constexpr double kLoops = 4, kNear = 3;                                // m
 
@@ -39,12 +36,10 @@ Eigen::Matrix3d ofMotion(const TPose2D& since) {
   return diagonal(kBetween * root, std::hypot(kBetweenAngle * root, 0.05 * since.phi));
 }
 
-double lengthBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
-std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, const Drift& drift) {
+std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, const PathDrift& drift) {
   std::vector<StepVariance> steps(path.size());
   for (size_t i = 1; i < path.size(); ++i) {
-    const double length = lengthBetween(path[i - 1], path[i]);
+    const double length = distanceBetween(path[i - 1], path[i]);
     steps[i] = {square(drift.position) * length, square(drift.heading) * length};
   }
   return steps;
@@ -52,9 +47,7 @@ std::vector<StepVariance> driftAlong(const std::vector<TPose2D>& path, const Dri
 
 /// Pairs of path indices at the same part of the map.
 std::vector<KnownPair> loopsOf(const std::vector<TPose2D>& path, const std::vector<Revisit>& returning) {
-  std::vector<double> distances(path.size());
-  for (size_t i = 1; i < path.size(); ++i)
-    distances[i] = distances[i - 1] + lengthBetween(path[i - 1], path[i]);
+  const std::vector<double> distances = lengthsAlong(path);
   // At most a thousand, so that a long path does not take a time in proportion to its square.
   const double apart = std::max(kLoops, path.empty() ? 0 : distances.back() / 1000);
   std::vector<KnownPair> pairs;
@@ -65,8 +58,7 @@ std::vector<KnownPair> loopsOf(const std::vector<TPose2D>& path, const std::vect
     double nearest = kNear;
     KnownPair pair{0, later, diagonal(kMatch, kMatchAngle), true};
     for (size_t i = 0; distances[i] < distances[later] - RevisitCheck::kReturn; ++i)
-      if (const double distance = std::hypot(path[i].x - path[later].x, path[i].y - path[later].y);
-          distance < nearest)
+      if (const double distance = distanceBetween(path[i], path[later]); distance < nearest)
         nearest = distance, pair.earlier = i;
     if (nearest < kNear) pairs.push_back(pair);
   }
@@ -98,8 +90,8 @@ PathCovariances::PathCovariances(std::vector<TPose2D> path, std::vector<PoseCova
       particles_(std::move(particles)),
       isRelaxed_(isRelaxed),
       drift_(path_, driftAlong(path_, isRelaxed  ? hasLines ? kRelaxed : kRelaxedWithoutLines
-                                      : hasLines ? kOpen
-                                                 : kOpenWithoutLines)),
+                                      : hasLines ? kDriftWithLines
+                                                 : kDriftWithoutLines)),
       loops_(loopsOf(path_, returning)) {
   particles_.resize(path_.size(), PoseCovariance::Zero());
 }

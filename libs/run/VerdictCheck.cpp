@@ -1,10 +1,10 @@
 #include "run/VerdictCheck.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "base/PoseDistance.h"
 
 namespace hybrid_slam::run {
 
@@ -14,16 +14,12 @@ namespace {
 
 constexpr double kStep = 0.5, kStepAngle = M_PI / 6;  // between compared scans
 
-double distanceBetween(const TPose2D& a, const TPose2D& b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
 ScanBeams beamsOf(const Scans& scans) { return beamsToCompare(toLaserScans(scans, RevisitCheck::kRange)); }
 
 }  // namespace
 
 bool ComparisonSteps::isDue(const TPose2D& pose) {
-  if (last_ && distanceBetween(*last_, pose) < kStep &&
-      std::abs(mrpt::math::wrapToPi(pose.phi - last_->phi)) < kStepAngle)
-    return false;
+  if (last_ && isWithin(*last_, pose, kStep, kStepAngle)) return false;
   last_ = pose;
   return true;
 }

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <optional>
 
+#include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/BeamSelection.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/loops/PathCorrection.h"
+#include "slam/loops/PathDrift.h"
 #include "slam/loops/PoseGraph.h"
 #include "slam/loops/RevisitCheck.h"
 
@@ -36,15 +38,9 @@ constexpr int kSolutions = 3;
 // Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, and of a scan that
 // shows all or nothing.
 const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kBest(0.005, 0.005, 0.05 * kDegree), kWorst(1, 1, 0.2);
-// The same, of the path per sqrt(m), with lines and without.
-const Eigen::Vector3d kDrift(0.01, 0.01, 0.019 * kDegree), kOpenDrift(0.028, 0.028, 0.058 * kDegree);
 
 Eigen::Matrix3d covarianceOf(const Eigen::Vector3d& deviations) {
   return deviations.cwiseAbs2().asDiagonal();
-}
-
-double squareBetween(const TPose2D& a, const TPose2D& b) {
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
 class Relaxation {
@@ -56,9 +52,7 @@ class Relaxation {
         scans_(scans),
         configuration_(configuration),
         matcher_(configuration.matcher),
-        distances_(path.size()) {
-    for (size_t i = 1; i < path.size(); ++i)
-      distances_[i] = distances_[i - 1] + std::sqrt(squareBetween(path[i - 1], path[i]));
+        distances_(lengthsAlong(path)) {
     for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
       const TPose2D since = i > 0 ? path[i] - path[nodes_.back()] : TPose2D();
       const bool isFar = since.norm() >= kNodeDistance || std::abs(since.phi) >= kNodeAngle;
@@ -109,10 +103,10 @@ class Relaxation {
   /// The nearest node of an earlier visit.
   std::optional<size_t> nearestEarlier(size_t node) const {
     std::optional<size_t> nearest;
-    double least = kNear * kNear;
+    double least = kNear;
     for (size_t k = 0; distances_[nodes_[k]] <= distances_[nodes_[node]] - kReturn; ++k)
-      if (const double square = squareBetween(graph_.poses[k], graph_.poses[node]); square < least)
-        least = square, nearest = k;
+      if (const double distance = distanceBetween(graph_.poses[k], graph_.poses[node]); distance < least)
+        least = distance, nearest = k;
     return nearest;
   }
 
@@ -166,7 +160,8 @@ class Relaxation {
   Eigen::Matrix3d drift(size_t from, size_t to) const {
     constexpr double kShortest = 0.01;  // m
     const double length = distances_[to] - distances_[from] + std::abs((path_[to] - path_[from]).phi);
-    return (length + kShortest) * covarianceOf(configuration_.useLines ? kDrift : kOpenDrift);
+    const PathDrift& drift = configuration_.useLines ? kDriftWithLines : kDriftWithoutLines;
+    return (length + kShortest) * covarianceOf({drift.position, drift.position, drift.heading});
   }
 
   /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match

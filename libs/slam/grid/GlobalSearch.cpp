@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "base/PoseDistance.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPoint2D;
@@ -173,8 +175,7 @@ std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
   for (const Place& place : places) {
     if (best.size() == count) break;
     const bool isNear = std::any_of(best.begin(), best.end(), [&p = place.pose](const Place& other) {
-      return std::hypot(p.x - other.pose.x, p.y - other.pose.y) < kApart &&
-             std::abs(mrpt::math::wrapToPi(p.phi - other.pose.phi)) < kApartAngle;
+      return isWithin(p, other.pose, kApart, kApartAngle);
     });
     if (!isNear) best.push_back(place);
   }

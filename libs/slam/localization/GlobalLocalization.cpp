@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseDistance.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/CorrelativeSearch.h"
 
@@ -48,10 +49,7 @@ bool explains(const Hypothesis& hypothesis) {
          std::none_of(evidence.end() - kNewest, evidence.end(), isMissed);
 }
 
-bool isSamePlace(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < kSame &&
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) < kSameAngle;
-}
+bool isSamePlace(const TPose2D& a, const TPose2D& b) { return isWithin(a, b, kSame, kSameAngle); }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
 #include "slam/loops/PathCorrection.h"
 
@@ -30,9 +31,6 @@ constexpr double kAttempt = 1.5, kAfterHeld = 3;  // m of path between attempts
 constexpr double kMaxAngle = 20 * kDegree;        // searched
 constexpr double kMaxChi2 = 16;                   // of a correction, under the path's uncertainty
 constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
-
-double distanceOf(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-double angleOf(const TPose2D& a, const TPose2D& b) { return std::abs(mrpt::math::wrapToPi(a.phi - b.phi)); }
 
 /// Returns the direction of the walls in the lines of a scan, modulo 90 deg.
 std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
@@ -113,7 +111,7 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
   std::vector<Place> all;
   for (size_t k = 0; k < visit.poses.size(); ++k) {
     if (visit.distances[k] > visit.distances.back() - options_.stretch - options_.minDistance) break;
-    const double distance = distanceOf(visit.poses[k], visit.poses[here]);
+    const double distance = distanceBetween(visit.poses[k], visit.poses[here]);
     if (distance < kNear + options_.maxOffset) all.push_back({distance, k});
   }
   std::stable_sort(all.begin(), all.end(),
@@ -151,7 +149,7 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   const TPose2D expected = visit.poses[here] - frame;
   const LoopMatch near = matchFrom(expected, stretch, older);
   const auto isWhereExpected = [&](const LoopMatch& match) {
-    return distanceOf(match.pose, expected) < kSame && angleOf(match.pose, expected) < kSameAngle;
+    return isWithin(match.pose, expected, kSame, kSameAngle);
   };
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
@@ -199,7 +197,7 @@ void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
     if (visit.distances[here] - visit.distances[before.edge.to] > kForget) return false;
     const TPose2D byBefore = visit.frame(before.edge.from) + before.edge.relative +
                              (visit.poses[here] - visit.poses[before.edge.to]);
-    return distanceOf(byBefore, corrected) < kAgree && angleOf(byBefore, corrected) < kAgreeAngle;
+    return isWithin(byBefore, corrected, kAgree, kAgreeAngle);
   });
   if (!agrees) candidates_.clear();
   candidates_.push_back(candidate);
@@ -213,7 +211,7 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
   for (const Keyframe& keyframe : keyframes_) {
     const TPose2D& pose = path.at(keyframe.update);
     visit.distances.push_back(
-        visit.poses.empty() ? 0 : visit.distances.back() + distanceOf(visit.poses.back(), pose));
+        visit.poses.empty() ? 0 : visit.distances.back() + distanceBetween(visit.poses.back(), pose));
     visit.poses.push_back(pose);
   }
   if (visit.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
@@ -248,13 +246,12 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
 
 std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) const {
   RevisitCheck check(RevisitCheck::kReturn);
-  double distance = 0;
+  const std::vector<double> distances = lengthsAlong(poses);
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) distance += distanceOf(poses[i - 1], poses[i]);
     ScanBeams beams{keyframes_[i].beams};
     const auto isFar = [](const ScanBeams::Ray& ray) { return ray.range > RevisitCheck::kRange; };
     beams.rays.erase(std::remove_if(beams.rays.begin(), beams.rays.end(), isFar), beams.rays.end());
-    check.add(poses[i], beams, distance, i);
+    check.add(poses[i], beams, distances[i], i);
   }
   return check.revisits();
 }
@@ -299,8 +296,8 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   LoopClosure closure;
   closure.path = corrected(path, nodes, result.poses);
   for (size_t i = 0; i < path.size(); ++i) {
-    closure.shift = std::max(closure.shift, distanceOf(closure.path[i], path[i]));
-    closure.turn = std::max(closure.turn, angleOf(closure.path[i], path[i]));
+    closure.shift = std::max(closure.shift, distanceBetween(closure.path[i], path[i]));
+    closure.turn = std::max(closure.turn, angleBetween(closure.path[i], path[i]));
   }
   for (size_t i = loops_.size(); i-- > 0;)
     if (result.loopWeights[i] == 0) {

@@ -1,10 +1,9 @@
 #include "slam/loops/LoopMatch.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseDistance.h"
 #include "slam/grid/RaySamples.h"
 #include "slam/grid/ScanMatcher.h"
 
@@ -56,10 +55,7 @@ LoopMatch matched(const TPose2D& start, const ScanBeams& some, const LocalMap& n
   return result;
 }
 
-bool isElsewhere(const TPose2D& a, const TPose2D& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) > kElsewhere ||
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) > kElsewhereAngle;
-}
+bool isElsewhere(const TPose2D& a, const TPose2D& b) { return !isWithin(a, b, kElsewhere, kElsewhereAngle); }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/PoseDistance.h"
 #include "slam/grid/RaySamples.h"
 #include "slam/grid/ScanBeams.h"
 
@@ -91,11 +92,9 @@ bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Re
 
 double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
   RevisitCheck check(RevisitCheck::kReturn);
-  double distance = 0;
-  for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i) {
-    if (i > 0) distance += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
-    check.add(path[i], beamsToCompare(toLaserScans(scans[i], RevisitCheck::kRange)), distance, i);
-  }
+  const std::vector<double> distances = lengthsAlong(path);
+  for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i)
+    check.add(path[i], beamsToCompare(toLaserScans(scans[i], RevisitCheck::kRange)), distances[i], i);
   return contradictionOf(check.revisits());
 }
 

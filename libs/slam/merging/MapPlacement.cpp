@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/PoseDistance.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/GlobalSearch.h"
 #include "slam/merging/MapPatches.h"
@@ -29,11 +30,6 @@ constexpr size_t kLeastPatches = 3;
 constexpr double kLeastCompared = 20, kLeastFit = 0.75, kMostSecond = 0.8;
 
 TPose2D inverse(const TPose2D& pose) { return TPose2D() - pose; }
-
-bool isWithin(const TPose2D& a, const TPose2D& b, double distance, double angle) {
-  return std::hypot(a.x - b.x, a.y - b.y) <= distance &&
-         std::abs(mrpt::math::wrapToPi(a.phi - b.phi)) <= angle;
-}
 
 double medianFit(std::vector<PatchMatch> patches) {
   if (patches.empty()) return 0;

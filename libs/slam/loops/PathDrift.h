@@ -1,0 +1,18 @@
+/// @file PathDrift.h
+/// @brief How far a mapped path drifts before it returns.
+#pragma once
+
+#include <mrpt/core/bits_math.h>
+
+namespace hybrid_slam {
+
+/// Standard deviations of the drift per sqrt(m) of path: in x and in y (m), and in heading (rad). Tuned on
+/// simulated logs: doc/verdict.md.
+struct PathDrift {
+  double position, heading;
+};
+
+constexpr PathDrift kDriftWithLines{0.01, mrpt::DEG2RAD(0.019)};
+constexpr PathDrift kDriftWithoutLines{0.028, mrpt::DEG2RAD(0.058)};
+
+}  // namespace hybrid_slam
