@@ -33,7 +33,7 @@ class LostRun : public HybridSlam {
 TEST_F(LostRun, IsRepeatedWithMoreParticles) {
   ASSERT_EQ(replay(kLog, retrying(20)), 0) << err;
   EXPECT_THAT(err, HasSubstr("verdict: lost: "));
-  EXPECT_THAT(err, HasSubstr("\nsecond run, with 20 particles; the first one's results: " + output + "\n"));
+  EXPECT_THAT(err, HasSubstr("\nsecond run, with 20 particles and seed 1; results so far: " + output + "\n"));
   EXPECT_THAT(out, HasSubstr("verdict: consistent"));
   EXPECT_EQ(metrics()["second_run"], true);
   EXPECT_EQ(metrics()["particles_min"], 20);
@@ -43,6 +43,19 @@ TEST_F(LostRun, IsRepeatedWithMoreParticles) {
   EXPECT_EQ(result("trajectory.tum"), trajectory);
   EXPECT_EQ(result("covariance.csv"), covariance);
   EXPECT_EQ(metrics()["second_run"], false);
+}
+
+/// A single particle with the same seed is lost again, and with another one, too.
+TEST_F(LostRun, IsRepeatedTwiceAndTheLeastContradictedIsKept) {
+  ASSERT_EQ(replay(kLog, retrying(1)), 0) << err;
+  EXPECT_THAT(err, HasSubstr("\nsecond run, with 1 particle and seed 1; "));
+  EXPECT_THAT(err, HasSubstr("\nthird run, with 1 particle and seed 2; "));
+  EXPECT_EQ(metrics()["second_run"], true);
+  const bool isWorse = err.find("no results of a third run: its map is lost") != std::string::npos;
+  EXPECT_EQ(metrics()["seed"], isWorse ? 1 : 2);
+  const std::string trajectory = result("trajectory.tum");
+  ASSERT_EQ(replay(kLog, isWorse ? "-n 1" : "-n 1 -s 2"), 0) << err;
+  EXPECT_EQ(result("trajectory.tum"), trajectory);
 }
 
 TEST_F(LostRun, IsKeptWithoutASecondRunOrWithAFixedNumber) {

@@ -36,10 +36,10 @@ void RunOptions::describe(OptionTable& t) {
   t.add("refine", refine, 0, 100,
         "number of refinements after the run; each matches every scan to the final map and rebuilds the map; "
         "not for linemap, ortho and stock");
-  t.add("retry_particles", retryParticles, 0, 100000,
-        "number of particles of a second run, if scans contradict the map of one with an adaptive number; 0: "
-        "no second "
-        "run");
+  t.add(
+      "retry_particles", retryParticles, 0, 100000,
+      "number of particles of a second and a third run, if scans contradict the map of one with an adaptive "
+      "number; 0: no further run");
 }
 
 namespace {

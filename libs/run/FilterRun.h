@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,11 @@
 #include "slam/localization/PlanSearch.h"
 
 namespace hybrid_slam::run {
+
+/// The map of a run is worse than that of another run over the log.
+struct WorseMap : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Writes the files of doc/results.md at the end. They appear together (files/StagedFolder.h); without
 /// `finish` no results remain but the last checkpoint.
@@ -108,7 +114,7 @@ class FilterRun {
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
-  /// Lets `finish` write no results if the verdict on the map is worse than this one.
+  /// Lets `finish` write no results, but throw WorseMap, if the verdict on the map is worse than this one.
   void expectVerdict(const Verdict& worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
@@ -118,7 +124,7 @@ class FilterRun {
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written, after which it can be called again;
-  ///         std::runtime_error for a worse map than expected
+  ///         WorseMap (`expectVerdict`)
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
   /// Returns why results of the finished run are missing, which notes name; empty if none are.

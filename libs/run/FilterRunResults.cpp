@@ -191,9 +191,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
     writeMap(result, file, log);
   }
   if (worstVerdict_ && verdict_.isWorseThan(*worstVerdict_))
-    throw std::runtime_error(
-        "its map is " + verdict_.name() +
-        (verdict_.level > worstVerdict_->level ? "" : ", too, and more scans contradict it"));
+    throw WorseMap("its map is " + verdict_.name() +
+                   (verdict_.level > worstVerdict_->level ? "" : ", too, and more scans contradict it"));
   writeOrNote("map.png", [&] {
     savePicture(folder_, gridOf(result), result.trajectory, result.lines, verdict_.places);
   });

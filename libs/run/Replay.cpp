@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,12 +24,12 @@ std::string spreadNote(const FilterStep& step) {
   return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
 }
 
-/// Runs over the log once, from the session if there is one. A second run that does not reach the end writes
-/// no results.
+/// Runs over the log once, from the session if there is one. A repeated run that does not reach the end
+/// writes no results.
 class Pass {
  public:
-  Pass(Configuration& configuration, const readings::RawlogSummary& log, bool isSecond, bool isQuiet)
-      : configuration_(configuration), log_(log), isSecond_(isSecond), progress_(log.scans, isQuiet) {}
+  Pass(Configuration& configuration, const readings::RawlogSummary& log, bool isRepeated, bool isQuiet)
+      : configuration_(configuration), log_(log), isRepeated_(isRepeated), progress_(log.scans, isQuiet) {}
 
   ReplayOutcome operator()(FilterRun& run, SessionReader* session, const std::atomic<bool>& stop,
                            bool wantsProfile) {
@@ -38,13 +39,13 @@ class Pass {
     ReplayOutcome outcome;
     const std::string& file = configuration_.run.rawlog;
     const std::string cut = process(run, session, stop);
-    if (isSecond_ && !cut.empty()) throw std::runtime_error(cut);
+    if (isRepeated_ && !cut.empty()) throw std::runtime_error(cut);
     if (run.scans() == 0 && !cut.empty()) throw std::runtime_error(cut + ", before the first scan");
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
     outcome.warnings = readings::warningsOf(log_, file);
     if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
     if (const std::string stuck = run.stuckNote(); !stuck.empty()) outcome.warnings.push_back(stuck);
-    outcome.summary = run.finish(file, log_, {{"second_run", isSecond_}});
+    outcome.summary = run.finish(file, log_, {{"second_run", isRepeated_}});
     if (!run.whyMissing().empty() && outcome.incomplete.empty())
       outcome.incomplete = "results are missing: " + run.whyMissing();
     if (run.logHasChanged() && outcome.incomplete.empty())
@@ -92,7 +93,7 @@ class Pass {
 
   Configuration& configuration_;
   const readings::RawlogSummary& log_;
-  bool isSecond_;
+  bool isRepeated_;
   Progress progress_;
 };
 
@@ -127,24 +128,32 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     return outcome;
   }
 
-  // The results of the first run stay until those of the second replace them.
-  const std::string particles = std::to_string(configuration.run.retryParticles);
-  std::cerr << outcome.verdict.line() + "\nsecond run, with " + particles +
-                   " particles; the first one's results: " + run->folder() + "\n";
+  // The results of a run stay until those of a better one replace them.
   Configuration again = configuration;
   again.run.output = run->folder();
   again.run.overwrite = true;
   again.run.resume.clear();
   again.run.checkpointEvery = 0;  // the session there belongs to the first run
   again.filter.filter.particles = configuration.run.retryParticles;
+  const std::string particles = counted(static_cast<size_t>(again.filter.filter.particles), "particle(s)");
+  int& seed = again.filter.filter.seed;
   session.reset();
   run.reset();
-  try {
-    FilterRun second(again, start);
-    second.expectVerdict(outcome.verdict);
-    outcome = Pass(again, log, true, isQuiet)(second, nullptr, stop, wantsProfile);
-  } catch (const std::exception& e) {
-    outcome.warnings.push_back("no results of a second run: " + messageOf(e));
+  for (const std::string number : {"second", "third"}) {
+    if (!isRetryDue(outcome, configuration)) break;
+    if (number == "third") seed = seed == std::numeric_limits<int>::max() ? 0 : seed + 1;
+    std::cerr << outcome.verdict.line() + "\n" + number + " run, with " + particles + " and seed " +
+                     std::to_string(seed) + "; results so far: " + again.run.output + "\n";
+    try {
+      FilterRun next(again, start);
+      next.expectVerdict(outcome.verdict);
+      outcome = Pass(again, log, true, isQuiet)(next, nullptr, stop, wantsProfile);
+    } catch (const WorseMap& e) {
+      outcome.warnings.push_back("no results of a " + number + " run: " + e.what());
+    } catch (const std::exception& e) {
+      outcome.warnings.push_back("no results of a " + number + " run: " + messageOf(e));
+      break;
+    }
   }
   return outcome;
 }
