@@ -114,7 +114,8 @@ class FilterRun {
   /// Sets the memory (bytes) that the refinement may use for scans; by default a quarter of `memoryLimit`.
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
-  /// Lets `finish` write no results, but throw WorseMap, if the verdict on the map is worse than this one.
+  /// Lets `finish` write no results, but throw, if the map is worse than one of this verdict (WorseMap), or
+  /// if a result is missing or the log has changed (std::runtime_error).
   void expectVerdict(const Verdict& worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
@@ -124,7 +125,7 @@ class FilterRun {
   /// @param more     further keys of metrics.json
   /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written, after which it can be called again;
-  ///         WorseMap (`expectVerdict`)
+  ///         WorseMap and std::runtime_error after `expectVerdict`
   std::string finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
   /// Returns why results of the finished run are missing, which notes name; empty if none are.

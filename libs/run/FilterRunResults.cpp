@@ -208,6 +208,8 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
   logHasChanged_ = hasChanged(file, log);
+  if (worstVerdict_ && !whyMissing_.empty()) throw std::runtime_error("results are missing: " + whyMissing_);
+  if (worstVerdict_ && logHasChanged_) throw std::runtime_error("the log has changed");
   nlohmann::ordered_json all = metrics(result, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << jsonText(all); });

@@ -15,47 +15,15 @@
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "testing/ErrorOf.h"
+#include "testing/FilterRunTest.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::run {
 namespace {
 
+using test::FilterRunTest;
 using testing::Contains;
 using testing::HasSubstr;
-
-/// Runs over a log of 100 scans.
-class FilterRunTest : public testing::Test {
- protected:
-  Configuration configuration(const std::string& output, std::vector<std::string> settings = {}) {
-    settings.insert(settings.end(), {"run.output=" + folder.path(output), "particle_filter.particles=5",
-                                     "particle_filter.proposal=standard"});
-    return {"", settings};
-  }
-  void process(FilterRun& run, const Configuration& c) const {
-    readings::RawlogSource source(log, c.input, readings::summarise(log, c.input));
-    while (const auto reading = source.next()) run.process(*reading);
-  }
-  static void finish(FilterRun& run, const Configuration& c, const std::string& file) {
-    run.finish(file, readings::summarise(file, c.input), nlohmann::ordered_json::object());
-  }
-  /// Writes the results of a run that is not refined to `plain`.
-  void makePlain() {
-    Configuration c = configuration("plain", {"grid.resolution=0.1", "run.refine=0"});
-    FilterRun run(c);
-    process(run, c);
-    finish(run, c, log);
-  }
-  void expectPlain(const std::string& output) const {
-    for (const std::string name : {"/trajectory.tum", "/map.pgm", "/lines.csv", "/plan.geojson"}) {
-      EXPECT_EQ(result(output + name), result("plain" + name)) << name;
-      EXPECT_NE(result(output + name), "") << name;
-    }
-  }
-  std::string result(const std::string& name) const { return test::contentOf(folder.path(name)); }
-
-  files::TemporaryFolder folder;
-  const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(100));
-};
 
 // The map of the recorded part would not be that of the run.
 TEST_F(FilterRunTest, ARecordingThatEndsBeforeTheRunDoesNotCutItsMap) {
@@ -129,25 +97,6 @@ TEST_F(FilterRunTest, ASessionThatWouldFillTheMemoryIsLeftOut) {
   EXPECT_THAT(run.takeNotes(), Contains("no session: over 0.0 GB"));
   EXPECT_FALSE(std::filesystem::exists(folder.path("large/session.hslam")));
   EXPECT_TRUE(std::filesystem::exists(folder.path("large/map.png")));
-}
-
-TEST_F(FilterRunTest, AWorseMapThanExpectedReplacesNothing) {
-  makePlain();
-  Configuration c = configuration("plain");
-  c.run.overwrite = true;
-  const std::string before = result("plain/metrics.json");
-  const std::string cut = test::writeGzipped(folder.path("recording.rawlog"), test::laps(10));
-  Verdict consistent, lessContradicted;
-  lessContradicted.level = Verdict::Level::doubtful, lessContradicted.contradiction = -1;
-  for (const auto& [worst, message] :
-       {std::pair(consistent, "its map is doubtful"),
-        std::pair(lessContradicted, "its map is doubtful, too, and more scans contradict it")}) {
-    FilterRun run(c);
-    process(run, c);
-    run.expectVerdict(worst);
-    EXPECT_EQ(test::errorOf<std::runtime_error>([&] { finish(run, c, cut); }), message);
-  }
-  EXPECT_EQ(result("plain/metrics.json"), before);
 }
 
 /// The odometry stands still for 8 s while the robot drives half a lap.

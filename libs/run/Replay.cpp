@@ -39,7 +39,9 @@ class Pass {
     ReplayOutcome outcome;
     const std::string& file = configuration_.run.rawlog;
     const std::string cut = process(run, session, stop);
-    if (isRepeated_ && !cut.empty()) throw std::runtime_error(cut);
+    if (isRepeated_)
+      for (const std::string& why : {cut, run.placeNote()})
+        if (!why.empty()) throw std::runtime_error(why);
     if (run.scans() == 0 && !cut.empty()) throw std::runtime_error(cut + ", before the first scan");
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
     outcome.warnings = readings::warningsOf(log_, file);

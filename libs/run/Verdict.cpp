@@ -93,7 +93,8 @@ std::string Verdict::name() const {
 }
 
 bool Verdict::isWorseThan(const Verdict& other) const {
-  return std::tie(level, contradiction) > std::tie(other.level, other.contradiction);
+  return std::tie(level, isContradicted, contradiction) >
+         std::tie(other.level, other.isContradicted, other.contradiction);
 }
 
 std::string Verdict::line() const {

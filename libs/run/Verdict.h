@@ -27,7 +27,8 @@ struct Verdict {
   bool isContradicted = false;        ///< by scans; not only for want of evidence
   double contradiction = 0;  ///< contradicted share of the returning scans, plus that of the recent ones
 
-  /// Whether the map is worse than another one of the same log: its level or, if equal, its contradiction.
+  /// Whether the map is worse than another one of the same log: by its level; if equal, it is contradicted
+  /// and the other one is not, or it is contradicted more.
   bool isWorseThan(const Verdict& other) const;
   std::string name() const;
   /// One line: `verdict: doubtful: REASON; REASON; longest at (X, Y) m`.

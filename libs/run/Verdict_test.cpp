@@ -136,6 +136,11 @@ TEST(Verdict, WorseIsALowerLevelOrMoreContradiction) {
     EXPECT_FALSE(better.isWorseThan(worse)) << worse.line() << better.line();
   }
   EXPECT_FALSE(bent.isWorseThan(bent));
+  Evidence spread;  // doubtful for another reason, with 10 % of contradicted scans
+  spread.returning = scans(100, 0, 10), spread.recent = scans(200), spread.spread = 1.5;
+  const Verdict jump = of(scans(100), scans(200, 40, 43));
+  EXPECT_TRUE(jump.isWorseThan(verdictOf(spread)));
+  EXPECT_FALSE(verdictOf(spread).isWorseThan(jump));
 }
 
 TEST(Verdict, HypothesesThatDisagreeAreDoubtful) {

@@ -33,7 +33,7 @@ struct StepMotion {
 /// with a map of the newest scans alone: if it agrees with them where the odometry says, a pose where it
 /// contradicts them is no slip, and only a scan that contradicts them is searched for at all headings and in
 /// the whole map. Where they know less than a fifth of the beams at the odometry's pose, as with a short
-/// range, they exclude nothing.
+/// range, they exclude nothing; if they know more there, a pose where they know less counts as contradicted.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
