@@ -14,7 +14,7 @@ class RepeatedRun : public test::FilterRunTest {
     makePlain();
     before_ = result("plain/metrics.json");
   }
-  ~RepeatedRun() override { EXPECT_EQ(result("plain/metrics.json"), before_); }
+  void TearDown() override { EXPECT_EQ(result("plain/metrics.json"), before_); }
   /// Repeats it. @return the error with which `finish` refuses to replace the results
   template <class Error>
   std::string refusal(const Verdict& worst, const std::string& file, const std::string& summarised) {
