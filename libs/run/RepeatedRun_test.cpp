@@ -45,6 +45,8 @@ TEST_F(RepeatedRun, DoesNotReplaceCompleteResultsByIncompleteOnes) {
   lost.level = Verdict::Level::lost, lost.isContradicted = true, lost.contradiction = 1;
   EXPECT_THAT(refusal<std::runtime_error>(lost, folder.path("gone.rawlog"), log),
               testing::StartsWith("results are missing: "));
+  const std::string other = test::writeGzipped(folder.path("other.rawlog"), test::laps(100));
+  EXPECT_EQ(refusal<std::runtime_error>(lost, other, log), "the log has changed");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "slam/localization/GlobalLocalization.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
