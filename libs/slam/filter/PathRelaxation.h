@@ -15,10 +15,10 @@ namespace hybrid_slam {
 /// on the way, some centimetres, stays where the two visits meet. Matching every scan to the map of all scans
 /// does not distribute it: the walls of each visit hold the scans of that visit.
 ///
-/// So scans taken on a return are matched to a map of the earlier visit alone, two per metre of path, and all
-/// motions are tracked on a map of the latest scans alone. The pose graph of both moves the path. Matches
-/// that disagree with the others lose weight (Cauchy's weight function). The first pose is fixed. A path that
-/// does not return stays as it is.
+/// So scans taken on a return are matched to a map of the earlier visit alone, two per metre of path
+/// (`returnMatches`), and all motions are tracked on a map of the latest scans alone. The pose graph of both
+/// moves the path. Matches that disagree with the others lose weight (Cauchy's weight function). The first
+/// pose is fixed. A path that does not return stays as it is.
 ///
 /// With a drift of half a metre, the search for slips finds the robot among the old walls, and the path jumps
 /// there. If the odometry of this motion fits the latest scans better, it is taken instead.

@@ -23,24 +23,6 @@ OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& op
   return grid;
 }
 
-/// Returns the pose up to half a metre ahead, behind, left or right of `pose` where the scan fits best; empty
-/// if that is the next cell or `pose` itself, where a match leads anyway.
-std::optional<TPose2D> bestNear(ScanLikelihood& likelihood, const TPose2D& pose) {
-  constexpr double kReach = 0.5;  // m
-  std::optional<TPose2D> best;
-  double highest = likelihood.value(pose);
-  const double step = likelihood.resolution();
-  for (int i = 1; i * step <= kReach; ++i)
-    for (const TPose2D& side : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0)}) {
-      const TPose2D there = pose + TPose2D(i * step * side.x, i * step * side.y, 0);
-      if (const double value = likelihood.value(there); value > highest) {
-        highest = value;
-        best = i > 1 ? std::optional(there) : std::nullopt;
-      }
-    }
-  return best;
-}
-
 /// Moves each run of scans that fit better elsewhere, unless the motions at its two ends then depart from the
 /// odometry by more than before and 3 standard deviations.
 void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2D>>& elsewhere,

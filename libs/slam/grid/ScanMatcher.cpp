@@ -91,6 +91,22 @@ ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, c
   return match;
 }
 
+std::optional<TPose2D> bestNear(ScanLikelihood& likelihood, const TPose2D& pose) {
+  constexpr double kReach = 0.5;  // m
+  std::optional<TPose2D> best;
+  double highest = likelihood.value(pose);
+  const double step = likelihood.resolution();
+  for (int i = 1; i * step <= kReach; ++i)
+    for (const TPose2D& side : {TPose2D(1, 0, 0), TPose2D(-1, 0, 0), TPose2D(0, 1, 0), TPose2D(0, -1, 0)}) {
+      const TPose2D there = pose + TPose2D(i * step * side.x, i * step * side.y, 0);
+      if (const double value = likelihood.value(there); value > highest) {
+        highest = value;
+        best = i > 1 ? std::optional(there) : std::nullopt;
+      }
+    }
+  return best;
+}
+
 double degeneracy(const Eigen::Matrix3d& information) {
   Eigen::Matrix2d position = information.topLeftCorner<2, 2>();
   const Eigen::Vector2d withHeading = information.topRightCorner<2, 1>();

@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include <functional>
+#include <optional>
 
 #include "base/Options.h"
 #include "slam/grid/ScanLikelihood.h"
@@ -43,6 +44,10 @@ struct ScanMatch {
   double fit = 0;           ///< mean of m at the beam end points, in [0, 1]; 0 without beams
   double logPosterior = 0;  ///< of the scan and the prior at `pose`, up to a constant
 };
+
+/// Returns the pose up to half a metre ahead, behind, left or right of `pose` where the scan fits best; empty
+/// if that is the next cell or `pose` itself, where a match leads anyway.
+std::optional<mrpt::math::TPose2D> bestNear(ScanLikelihood& likelihood, const mrpt::math::TPose2D& pose);
 
 /// Matches the beam end points to the occupied cells by Gauss-Newton steps from the predicted pose.
 ///

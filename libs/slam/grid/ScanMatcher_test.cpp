@@ -175,6 +175,21 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
   }
 }
 
+TEST(ScanMatcher, TheBestNearPoseIsWhereAMatchReturnsFrom) {
+  RandomStream random(7, 0, 0);
+  for (int i = 0; i < 100; ++i) {
+    const TPose2D truth = somePose(random);
+    const ScanBeams scan = test::beamsAt(kRoom, truth, random);
+    ScanLikelihood likelihood = matcher().likelihood(scan, room());
+    const double off = (random.uniform() < 0.5 ? -1 : 1) * (0.2 + 0.25 * random.uniform());
+    const TPose2D start = truth + (i % 2 ? TPose2D(off, 0, 0) : TPose2D(0, off, 0));
+    const auto found = bestNear(likelihood, start);
+    ASSERT_TRUE(found) << i;
+    expectNear(matcher().match(likelihood, *found, kNoPrior).pose, truth, 0.02, 0.5 * kDegree);
+    EXPECT_FALSE(bestNear(likelihood, matcher().match(likelihood, truth, kNoPrior).pose)) << i;
+  }
+}
+
 TEST(ScanMatcher, DegeneracyTellsACorridorFromARoom) {
   RandomStream random(1, 0, 0);
   for (int i = 0; i < 10; ++i) {

@@ -1,0 +1,130 @@
+#include "slam/filter/ReturnMatches.h"
+
+#include <mrpt/core/bits_math.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/PoseDistance.h"
+#include "base/PoseRotation.h"
+#include "slam/filter/Threads.h"
+#include "slam/loops/RevisitCheck.h"
+
+namespace hybrid_slam {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kDegree = mrpt::DEG2RAD(1.0);
+constexpr double kNear = 3;           // m, between two nodes that see the same walls
+constexpr double kReach = 6;          // m of path to either side of an earlier node: its map
+constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
+// Other nodes within kStretch (m of path) that must fit better at the same distance, within kSame (m).
+constexpr int kOthers = 3;
+constexpr double kStretch = 5, kSame = 0.1;
+// Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, of one that fits
+// better elsewhere, and of a scan that shows nothing.
+const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kElsewhere(0.3, 0.3, kDegree), kNothing(1, 1, 0.2);
+
+/// The matches of a node.
+struct Found {
+  std::optional<PoseEdge> near, elsewhere;
+  TPose2D shift;  ///< from `near` to `elsewhere`, map axes
+};
+
+class Matching {
+ public:
+  Matching(const PathScans& scans, const std::vector<size_t>& nodes) : scans_(scans), nodes_(nodes) {}
+
+  Found found(size_t node) const {
+    const auto earlier = nearestEarlier(node);
+    return earlier ? matchTo(*earlier, node) : Found();
+  }
+
+  double distance(size_t node) const { return scans_.distance(nodes_[node]); }
+
+ private:
+  const TPose2D& pose(size_t node) const { return scans_.path()[nodes_[node]]; }
+
+  /// The nearest node of an earlier visit.
+  std::optional<size_t> nearestEarlier(size_t node) const {
+    std::optional<size_t> nearest;
+    double least = kNear;
+    for (size_t k = 0; distance(k) <= distance(node) - RevisitCheck::kReturn; ++k)
+      if (const double between = distanceBetween(pose(k), pose(node)); between < least)
+        least = between, nearest = k;
+    return nearest;
+  }
+
+  /// The map that the path made around an earlier node, before the visit of another one.
+  OccupancyGrid mapAround(size_t earlier, size_t node) const {
+    const double centre = distance(earlier);
+    const double end = std::min(centre + kReach, distance(node) - RevisitCheck::kReturn);
+    OccupancyGrid map(scans_.resolution());
+    double next = centre - kReach;
+    for (size_t i = scans_.firstFrom(next); scans_.distance(i) <= end; ++i) {
+      if (scans_.distance(i) < next) continue;
+      next = scans_.distance(i) + kMapInterval;
+      scans_.insert(i, scans_.path()[i], map);
+    }
+    return map;
+  }
+
+  Found matchTo(size_t earlier, size_t node) const {
+    const TPose2D &frame = pose(earlier), &expected = pose(node);
+    const OccupancyGrid map = mapAround(earlier, node);
+    const ScanBeams beams = scans_.beams(nodes_[node]);
+    ScanLikelihood likelihood = scans_.likelihood(beams, map);
+    const auto edge = [&](const ScanMatch& match) -> std::optional<PoseEdge> {
+      if (match.fit < kLeastFit) return std::nullopt;
+      const Eigen::Matrix3d information =
+          scanInformation(likelihood, match.pose) + covarianceOf(kNothing).inverse();
+      const Eigen::Matrix3d covariance =
+          rotated(information.inverse() + covarianceOf(kBestMatch), -frame.phi);
+      return PoseEdge{earlier, node, match.pose - frame, covariance.inverse()};
+    };
+    const ScanMatch near = scans_.match(likelihood, expected, expected, covarianceOf(kExpected));
+    Found found{edge(near), std::nullopt, {}};
+    const auto start = bestNear(likelihood, near.pose);
+    if (!start) return found;
+    const ScanMatch other = scans_.match(likelihood, *start, expected, covarianceOf(kElsewhere));
+    if (distanceBetween(other.pose, near.pose) < kSame ||
+        likelihood.value(other.pose) <= likelihood.value(near.pose))
+      return found;
+    found.elsewhere = edge(other);
+    found.shift = TPose2D(other.pose.x - near.pose.x, other.pose.y - near.pose.y, 0);
+    return found;
+  }
+
+  const PathScans& scans_;
+  const std::vector<size_t>& nodes_;
+};
+
+}  // namespace
+
+std::vector<PoseEdge> returnMatches(const PathScans& scans, const std::vector<size_t>& nodes, int threads) {
+  const Matching matching(scans, nodes);
+  std::vector<Found> found(nodes.size());
+  tbb::task_arena arena(arenaThreads(threads));
+  parallelFor(arena, 0, nodes.size(), [&](size_t node) { found[node] = matching.found(node); });
+  const auto isConfirmed = [&](size_t node) {
+    if (!found[node].elsewhere) return false;
+    int matched = 0, elsewhere = 0, same = 0;  // of the others
+    for (size_t k = 0; k < nodes.size(); ++k) {
+      if (k == node || std::abs(matching.distance(k) - matching.distance(node)) > kStretch) continue;
+      matched += found[k].near.has_value();
+      elsewhere += found[k].elsewhere.has_value();
+      same += found[k].elsewhere && distanceBetween(found[k].shift, found[node].shift) < kSame;
+    }
+    return same >= kOthers && 2 * elsewhere >= matched;
+  };
+  std::vector<PoseEdge> edges;
+  for (size_t node = 0; node < nodes.size(); ++node)
+    if (const auto& edge = isConfirmed(node) ? found[node].elsewhere : found[node].near)
+      edges.push_back(*edge);
+  return edges;
+}
+
+}  // namespace hybrid_slam
