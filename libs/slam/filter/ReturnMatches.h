@@ -19,10 +19,10 @@ constexpr double kLeastFit = 0.1;
 /// Matches each node within 3 m of an earlier one to the map that the path made around the nearest of these,
 /// at least RevisitCheck::kReturn (m) of path before. A node whose match fails has no edge.
 ///
-/// The match starts at the path's pose. The filter may have drawn the robot to a wrong place of the old walls,
-/// such as half a metre along a corridor. So where most nodes nearby fit better elsewhere, up to half a metre
-/// away, and at least three others as far away, that match is taken instead. A single scan may fit better
-/// elsewhere because furniture was moved.
+/// The match starts at the path's pose. The filter may have drawn the robot to a wrong place of the old
+/// walls, such as half a metre along a corridor. So where most nodes nearby fit better elsewhere, up to half
+/// a metre away, and at least three others as far away, that match is taken instead. A single scan may fit
+/// better elsewhere because furniture was moved.
 /// @param nodes    indices of the path
 /// @param threads  0: all cores; does not affect the result
 /// @return edges between nodes, by ascending later one
