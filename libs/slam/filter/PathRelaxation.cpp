@@ -51,7 +51,7 @@ class Relaxation {
     const std::vector<TPose2D> track = tracked();
     for (size_t k = 1; k < nodes_.size(); ++k) {
       const size_t from = nodes_[k - 1], to = nodes_[k];
-      // The path's poses are matches, too: some scans turn it and later ones turn it back.
+      // The path's poses are matches, too. Their noise counts as independent between motions.
       const Eigen::Matrix3d covariance = drift(from, to) + covarianceOf(kBestMatch);
       graph_.motions.push_back({k - 1, k, track[to] - track[from], covariance.inverse()});
     }

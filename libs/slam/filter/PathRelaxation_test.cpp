@@ -102,7 +102,7 @@ TEST(PathRelaxation, AStretchOfReturnsAtAWrongPlaceIsMoved) {
   for (const double off : {0.4, -0.4}) {
     const Lap lap = lapThatJumps(off);
     EXPECT_GT(error(lap.path, lap), 0.15);
-    EXPECT_LT(error(relaxed(lap), lap), 0.04) << off;
+    EXPECT_LT(error(relaxed(lap), lap), 0.05) << off;
   }
 }
 
@@ -143,6 +143,7 @@ TEST(PathRelaxation, AMotionAlongABareCorridorStaysAsThePathHasIt) {
     lap.scans.push_back(observed(step.scans[0]));
   }
   const double without = error(relaxed(lap), lap);
+  EXPECT_LT(without, 0.15);
   lap.odometry[80] = lap.odometry[80] + TPose2D(0.5, 0, 0);
   EXPECT_NEAR(error(relaxed(lap), lap), without, 0.03);
 }

@@ -12,7 +12,7 @@
 
 namespace hybrid_slam {
 
-/// Path and scans must outlive it.
+/// Path, scans and configuration must outlive it.
 class PathScans {
  public:
   /// @param path   a pose for each update, map frame
@@ -21,10 +21,9 @@ class PathScans {
             const FilterConfiguration& configuration);
 
   const std::vector<mrpt::math::TPose2D>& path() const { return path_; }
-  size_t size() const { return scans_.size(); }
   /// Length of the path up to update i, m.
   double distance(size_t i) const { return distances_[i]; }
-  /// First update at this length of the path (m) or after it.
+  /// First update at this length of the path (m) or after it; the number of poses if there is none.
   size_t firstFrom(double distance) const;
 
   double resolution() const { return configuration_.grid.resolution; }
@@ -32,7 +31,9 @@ class PathScans {
   void insert(size_t i, const mrpt::math::TPose2D& pose, OccupancyGrid& map) const;
   /// Returns the beams of scan i that are matched.
   ScanBeams beams(size_t i) const;
+  /// Both must outlive the likelihood.
   ScanLikelihood likelihood(const ScanBeams& beams, const OccupancyGrid& map) const;
+  ScanLikelihood likelihood(ScanBeams&&, const OccupancyGrid&) const = delete;
   /// Matches a scan from `start`; it is expected at `pose` with this covariance (map axes).
   ScanMatch match(ScanLikelihood& likelihood, const mrpt::math::TPose2D& start,
                   const mrpt::math::TPose2D& pose, const Eigen::Matrix3d& covariance) const;

@@ -21,17 +21,18 @@ constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kNear = 3;           // m, between two nodes that see the same walls
 constexpr double kReach = 6;          // m of path to either side of an earlier node: its map
 constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
-// Other nodes within kStretch (m of path) that must fit better at the same distance, within kSame (m).
-constexpr int kOthers = 3;
+// A match elsewhere counts if at least kAgreeing others within kStretch (m of path), and two thirds of them,
+// are off the path by the same, within kSame (m).
+constexpr int kAgreeing = 3;
 constexpr double kStretch = 5, kSame = 0.1;
 // Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, of one that fits
 // better elsewhere, and of a scan that shows nothing.
 const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kElsewhere(0.3, 0.3, kDegree), kNothing(1, 1, 0.2);
 
-/// The matches of a node.
+/// The matches of a node, and how far (map axes) they are from the path's pose.
 struct Found {
   std::optional<PoseEdge> near, elsewhere;
-  TPose2D shift;  ///< from `near` to `elsewhere`, map axes
+  TPose2D shiftNear, shiftElsewhere;
 };
 
 class Matching {
@@ -58,7 +59,7 @@ class Matching {
     return nearest;
   }
 
-  /// The map that the path made around an earlier node, before the visit of another one.
+  /// The map that the path made around an earlier node, at least kReturn before another one.
   OccupancyGrid mapAround(size_t earlier, size_t node) const {
     const double centre = distance(earlier);
     const double end = std::min(centre + kReach, distance(node) - RevisitCheck::kReturn);
@@ -86,15 +87,18 @@ class Matching {
       return PoseEdge{earlier, node, match.pose - frame, covariance.inverse()};
     };
     const ScanMatch near = scans_.match(likelihood, expected, expected, covarianceOf(kExpected));
-    Found found{edge(near), std::nullopt, {}};
+    const auto shift = [&](const ScanMatch& match) {
+      return TPose2D(match.pose.x - expected.x, match.pose.y - expected.y, 0);
+    };
+    Found found{edge(near), std::nullopt, shift(near), {}};
     const auto start = bestNear(likelihood, near.pose);
     if (!start) return found;
     const ScanMatch other = scans_.match(likelihood, *start, expected, covarianceOf(kElsewhere));
-    if (distanceBetween(other.pose, near.pose) < kSame ||
-        likelihood.value(other.pose) <= likelihood.value(near.pose))
-      return found;
-    found.elsewhere = edge(other);
-    found.shift = TPose2D(other.pose.x - near.pose.x, other.pose.y - near.pose.y, 0);
+    const bool isElsewhere = distanceBetween(other.pose, near.pose) >= kSame;
+    if (isElsewhere && likelihood.value(other.pose) > likelihood.value(near.pose)) {
+      found.elsewhere = edge(other);
+      found.shiftElsewhere = shift(other);
+    }
     return found;
   }
 
@@ -111,14 +115,17 @@ std::vector<PoseEdge> returnMatches(const PathScans& scans, const std::vector<si
   parallelFor(arena, 0, nodes.size(), [&](size_t node) { found[node] = matching.found(node); });
   const auto isConfirmed = [&](size_t node) {
     if (!found[node].elsewhere) return false;
-    int matched = 0, elsewhere = 0, same = 0;  // of the others
+    const auto agrees = [&](const auto& edge, const TPose2D& shift) {
+      return edge && distanceBetween(shift, found[node].shiftElsewhere) < kSame;
+    };
+    int others = 0, agreeing = 0;
     for (size_t k = 0; k < nodes.size(); ++k) {
       if (k == node || std::abs(matching.distance(k) - matching.distance(node)) > kStretch) continue;
-      matched += found[k].near.has_value();
-      elsewhere += found[k].elsewhere.has_value();
-      same += found[k].elsewhere && distanceBetween(found[k].shift, found[node].shift) < kSame;
+      const Found& other = found[k];
+      others += other.near || other.elsewhere;
+      agreeing += agrees(other.elsewhere, other.shiftElsewhere) || agrees(other.near, other.shiftNear);
     }
-    return same >= kOthers && 2 * elsewhere >= matched;
+    return agreeing >= kAgreeing && 3 * agreeing >= 2 * others;
   };
   std::vector<PoseEdge> edges;
   for (size_t node = 0; node < nodes.size(); ++node)
