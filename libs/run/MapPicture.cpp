@@ -70,9 +70,30 @@ void drawRobot(Pen& pen, const mrpt::math::TPose2D& robot) {
            kRobot, 2 * pen.thin());
 }
 
-void draw(Pen pen, const MapMarks& marks) {
-  for (const DatabaseLine& line : marks.lines)
-    pen.line(line.start.x, line.start.y, line.end.x, line.end.y, kLine, 2 * pen.thin());
+/// Whether a point and the cells around it are free.
+bool isFree(const MapRaster& map, const mrpt::math::TPoint2D& point) {
+  constexpr int kAround = 2;  // cells; a wall has this thickness
+  const int column = static_cast<int>((point.x - map.left()) / map.cell());
+  const int row = map.height() - 1 - static_cast<int>((point.y - map.bottom()) / map.cell());
+  return map.at(std::max(column - kAround, 0), std::max(row - kAround, 0), 2 * kAround + 1) ==
+         MapRaster::kFree;
+}
+
+/// Draws a line where the map has a wall: the database joins collinear walls, also across an opening.
+void drawLine(Pen& pen, const MapRaster& map, const DatabaseLine& line) {
+  constexpr double kShortest = 0.3;  // m; at the far side of a corridor, the line touches the wall
+  const int steps = static_cast<int>((line.end - line.start).norm() / map.cell());
+  const auto at = [&](double step) { return line.start + (line.end - line.start) * (step / steps); };
+  for (int first = 0, end; first < steps; first = end + 1) {
+    for (end = first; end < steps && !isFree(map, at(end + 0.5));) ++end;
+    if ((end - first) * map.cell() < kShortest) continue;
+    const auto from = at(first), to = at(end);
+    pen.line(from.x, from.y, to.x, to.y, kLine, 2 * pen.thin());
+  }
+}
+
+void draw(Pen pen, const MapRaster& map, const MapMarks& marks) {
+  for (const DatabaseLine& line : marks.lines) drawLine(pen, map, line);
   const files::Trajectory& path = marks.trajectory;
   for (size_t i = 1; i < path.size(); ++i)
     pen.line(path[i - 1].pose.x, path[i - 1].pose.y, path[i].pose.x, path[i].pose.y, kPath, pen.thin());
@@ -127,7 +148,7 @@ std::string mapPicture(const MapRaster& map, const MapMarks& marks) {
   const MapArea area{map.left(), map.bottom() + map.height() * map.cell(), enlarged / (reduced * map.cell())};
   cv::Mat picture = cellsOf(map, enlarged, reduced);
   drawGrid(picture, area);
-  draw(Pen(picture, area), marks);
+  draw(Pen(picture, area), map, marks);
   picture = framed(picture, area, legendOf(marks, thinLine(std::max(picture.cols, picture.rows))));
   // Encoded in memory: libpng would print a full disk to standard error itself.
   std::vector<unsigned char> png;

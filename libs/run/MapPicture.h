@@ -15,7 +15,7 @@ namespace hybrid_slam::run {
 /// Marks that `map.png` shows on the cells.
 struct MapMarks {
   const files::Trajectory& trajectory;         ///< red; the robot at its end is light blue
-  const std::vector<DatabaseLine>& lines;      ///< green
+  const std::vector<DatabaseLine>& lines;      ///< green, where the map is not free
   const std::vector<DoubtfulPlace>& doubtful;  ///< orange circles
 };
 
