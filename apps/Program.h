@@ -11,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -92,10 +93,26 @@ inline void addQuiet(CLI::App& app, bool& isQuiet) {
   app.add_flag("-q,--quiet", isQuiet, "print neither progress nor a summary");
 }
 
+/// Prints options in lines of at most 100 characters.
+class WrappedHelp : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    constexpr size_t kWidth = 100;
+    std::string text;
+    for (const std::string& line :
+         wrapped(CLI::Formatter::make_option_desc(option), kWidth - get_column_width()))
+      text += (text.empty() ? "" : "\n") + line;
+    return text;
+  }
+};
+
 /// Reads the command line.
 /// @return the exit code if the program ends here (--help, --version)
 /// @throws InputError for a wrong command line
 inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  const auto help = std::make_shared<WrappedHelp>();
+  app.formatter(help);
+  for (CLI::App* command : app.get_subcommands({})) command->formatter(help);
   try {
     app.parse(argc, argv);
     return {};

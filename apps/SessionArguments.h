@@ -33,7 +33,7 @@ struct SessionArguments {
     addCheckpoints(app);
     app.add_option(
            "--resume", resume,
-           "resume the run that saved this session (or folder of results), with its configuration, log and\n"
+           "resume the run that saved this session (or folder of results), with its configuration, log and "
            "output folder")
         ->type_name("FILE");
   }

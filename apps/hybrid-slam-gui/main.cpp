@@ -107,8 +107,9 @@ int main(int argc, char** argv) {
     session.addMap(app);
     hybrid_slam::addSettings(app, settings);
     app.footer(
-        "The menus list the shortcut keys; manual: doc/gui.md. Exit: 0 closed, 1 no display, no OpenGL, the "
-        "display was lost, or a signal ended a live run that failed, 2 wrong command line.");
+        "The menus list the shortcut keys; manual: doc/gui.md.\n"
+        "Exit: 0 closed, 1 no display, no OpenGL, the display was lost, or a signal ended a live run that\n"
+        "failed, 2 wrong command line.");
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
     files.sort();
     filter.addTo(settings, app);

@@ -51,7 +51,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.footer(
       "Results: those of hybrid-slam (doc/results.md) and recording-DATE.rawlog, which hybrid-slam "
       "replays.\n"
-      "Ctrl-C ends the run and writes the results. SIGUSR1 saves map and session to saved-DATE in DIR; the "
+      "Ctrl-C ends the run and writes the results. SIGUSR1 saves map and session to saved-DATE in DIR; the\n"
       "run continues.\n"
       "Exit: 0 done, 1 the run failed, 2 wrong command line or input.");
 }

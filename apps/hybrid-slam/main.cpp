@@ -55,8 +55,8 @@ void describe(CLI::App& app, CommandLine& line) {
       "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
       "plan.svg, plan.dxf, plan.geojson, steps.csv, metrics.json, config.ini, session.hslam\n"
       "(doc/results.md). Ctrl-C ends the run and writes the results.\n"
-      "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost, 2 wrong command "
-      "line or input.");
+      "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost,\n"
+      "2 wrong command line or input.");
 }
 
 std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app) {

@@ -53,9 +53,8 @@ void describe(CLI::App& app, CommandLine& line) {
   app.footer(
       "Learn with the proposal, update_distance and update_angle_deg you will run with, then\n"
       "  cat config.ini motion.ini > learnt.ini\n"
-      "gives config.ini with the learnt model. Exit: 0 done, 1 the run failed or covers only part of the "
-      "log,\n"
-      "2 wrong command line or input.");
+      "gives config.ini with the learnt model.\n"
+      "Exit: 0 done, 1 the run failed or covers only part of the log, 2 wrong command line or input.");
 }
 
 run::Configuration configurationOf(const CommandLine& line, const CLI::App& app) {

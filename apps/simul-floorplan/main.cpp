@@ -127,7 +127,7 @@ int parseAndRun(int argc, char** argv) {
   CommandLine line;
   app.add_option("config", line.config, "INI file (doc/simulation.md)")->required();
   app.add_option("-o,--output", line.output,
-                 "OUT.rawlog; also writes OUT.tum and OUT.png, and with\n"
+                 "OUT.rawlog; also writes OUT.tum and OUT.png, and with "
                  "doors or boxes OUT.truth.plan")
       ->required();
   app.add_option("-s,--seed", line.seed, "noise seed, overrides the INI file")

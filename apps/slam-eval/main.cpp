@@ -235,10 +235,9 @@ int evaluate(int argc, char** argv) {
   auto* revisits =
       app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
   auto* nees =
-      app.add_subcommand("nees", "normalised estimation error squared: covariances against the truth");
-  auto* neesRelations = app.add_subcommand(
-      "nees-relations",
-      "normalised estimation error squared against relations: covariances between two poses");
+      app.add_subcommand("nees", "normalised estimation error squared (NEES): covariances against the truth");
+  auto* neesRelations =
+      app.add_subcommand("nees-relations", "NEES against relations: covariances between two poses");
   for (CLI::App* command : {relations, ate, rpe, revisits, nees})
     command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
   for (CLI::App* command : {relations, neesRelations}) {

@@ -33,8 +33,8 @@ void describe(CLI::App& app, CommandLine& line) {
   app.footer(
       "Results: session.hslam (for --continue and --localize), map.png, map.pgm + map.yaml, map.gridmap.gz,\n"
       "lines.csv, config.ini, trajectory.tum of both sessions, metrics.json (place of B in A, evidence).\n"
-      "Exit: 0 done, 1 no overlap was found or the maps fit in several places, 2 wrong command line or "
-      "input.");
+      "Exit: 0 done, 1 no overlap was found or the maps fit in several places,\n"
+      "2 wrong command line or input.");
 }
 
 int merge(const CommandLine& line) {

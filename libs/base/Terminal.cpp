@@ -1,6 +1,7 @@
 #include "base/Terminal.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace hybrid_slam {
 namespace {
@@ -48,6 +49,18 @@ std::string onOneLine(std::string_view text) {
     }
   }
   return line;
+}
+
+std::vector<std::string> wrapped(const std::string& text, size_t width) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.empty() || lines.back().size() + 1 + word.size() > width)
+      lines.push_back(word);
+    else
+      lines.back() += ' ' + word;
+  }
+  return lines;
 }
 
 }  // namespace hybrid_slam

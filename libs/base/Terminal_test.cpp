@@ -27,5 +27,13 @@ TEST(OnOneLine, ALongTextIsCut) {
   EXPECT_EQ(onOneLine(std::string(5'000'000, 'a')), std::string(10001, 'a') + "... and 4989999 bytes more");
 }
 
+TEST(Wrapped, LinesEndBetweenWords) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrapped("one two\nthree  four", 9), (Lines{"one two", "three", "four"}));
+  EXPECT_EQ(wrapped("one two", 7), Lines{"one two"});
+  EXPECT_EQ(wrapped("a longer-than-that b", 5), (Lines{"a", "longer-than-that", "b"}));
+  EXPECT_EQ(wrapped(" ", 5), Lines{});
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -1,8 +1,6 @@
 /// @file IniManual.cpp
 /// @brief The manual of INI files.
-#include <algorithm>
-#include <sstream>
-
+#include "base/Terminal.h"
 #include "files/IniFile.h"
 
 namespace hybrid_slam::files {
@@ -12,16 +10,7 @@ namespace {
 void writeWrapped(const std::string& text, std::ostream& out) {
   constexpr size_t kWidth = 80;
   const std::string indent(6, ' ');
-  std::string line = indent;
-  std::istringstream words(text);
-  for (std::string word; words >> word; line += word) {
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > kWidth) {
-      out << line << '\n';
-      line = indent;
-    }
-    if (line.size() > indent.size()) line += ' ';
-  }
-  out << line << '\n';
+  for (const std::string& line : wrapped(text, kWidth - indent.size())) out << indent << line << '\n';
 }
 
 }  // namespace
