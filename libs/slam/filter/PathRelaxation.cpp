@@ -22,6 +22,7 @@ constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kNodeDistance = 0.5, kNodeAngle = 15 * kDegree;
 constexpr double kLatest = RevisitCheck::kReturn;  // m of path: a map of the latest scans
 constexpr double kMapInterval = 0.6;               // m of path between its scans
+constexpr double kLongMotion = 20;                 // m of path
 constexpr double kOutlier = 9;                     // chi^2 at which a match has half its weight
 // A motion jumps if it is off the odometry by more than kLeastJump. Beyond kDrifted or kTurned, no drift
 // explains it: the odometry is wrong, or the robot was carried.
@@ -49,11 +50,18 @@ class Relaxation {
     const std::vector<PoseEdge> returns = returnMatches(scans_, nodes_, configuration_.filter.threads);
     if (returns.empty()) return path_;
     const std::vector<TPose2D> track = tracked();
-    for (size_t k = 1; k < nodes_.size(); ++k) {
-      const size_t from = nodes_[k - 1], to = nodes_[k];
-      // The path's poses are matches, too. Their noise counts as independent between motions.
+    const auto addMotion = [&](size_t a, size_t b) {
+      const size_t from = nodes_[a], to = nodes_[b];
       const Eigen::Matrix3d covariance = drift(from, to) + covarianceOf(kBestMatch);
-      graph_.motions.push_back({k - 1, k, track[to] - track[from], covariance.inverse()});
+      graph_.motions.push_back({a, b, track[to] - track[from], covariance.inverse()});
+    };
+    // The path's poses are matches, too. Their noise does not add up along the path, so longer motions, which
+    // have it once, keep the path stiff.
+    for (size_t k = 1, last = 0; k < nodes_.size(); ++k) {
+      addMotion(k - 1, k);
+      if (scans_.distance(nodes_[k]) < scans_.distance(nodes_[last]) + kLongMotion) continue;
+      addMotion(last, k);
+      last = k;
     }
     std::vector<TPose2D> poses = graph_.poses;
     for (int solution = 0; solution < kSolutions; ++solution) {

@@ -55,7 +55,7 @@ std::vector<TPose2D> relaxed(const Lap& lap) {
 
 TEST(PathRelaxation, DistributesTheErrorOfALapOverTheLap) {
   for (const TPose2D& drift :
-       {TPose2D(0.001, 0, 0), TPose2D(0, 0.002, 0), TPose2D(-0.0007, 0.0007, 0), TPose2D(0, -0.002, 0)}) {
+       {TPose2D(0.001, 0, 0), TPose2D(0, 0.001, 0), TPose2D(-0.0007, 0.0007, 0), TPose2D(0, -0.002, 0)}) {
     const Lap lap = lapThatDrifts(drift);
     EXPECT_LT(error(relaxed(lap), lap), 0.7 * error(lap.path, lap)) << drift.asString();
   }
