@@ -16,6 +16,6 @@ figure() {
 }
 
 figure double -m general -p standard -n 5 --set loop_closing.enabled=false --set run.refine=0
-figure range --set grid.max_range=2
+figure range --set grid.max_range=2 --set run.retry_particles=0
 figure updates -p standard --set particle_filter.update_distance=100 --set particle_filter.update_angle_deg=360 \
   --set run.refine=0

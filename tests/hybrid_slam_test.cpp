@@ -248,6 +248,9 @@ TEST_F(HybridSlam, HelpVersionAndManual) {
   for (const char* option : {"--output", "--method", "--proposal", "--particles", "--seed", "--threads",
                              "--set", "--quiet", "--version", "--help-config", "trajectory.tum", "Exit:"})
     EXPECT_THAT(out, HasSubstr(option));
+  std::istringstream help(out);
+  for (std::string line; std::getline(help, line);)
+    EXPECT_TRUE(line.size() <= 100 || line.rfind("Usage: ", 0) == 0) << line;  // with the program's path
   EXPECT_EQ(run("--version"), 0);
   EXPECT_THAT(out, MatchesRegex("hybrid-slam [0-9]+[.][0-9]+[.][0-9]+\n"));
   EXPECT_EQ(run("--help-config"), 0);

@@ -100,9 +100,8 @@ void describe(CLI::App& app, CommandLine& line) {
                "start no runs; print the name of each, a tab, and its command without `-o FOLDER`");
   addQuiet(app, line.isQuiet);
   app.footer(
-      "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv, "
-      "summary.json,\n"
-      "report.html. Finished runs are kept: after Ctrl-C the same command continues.\n"
+      "Runs: DIR/runs/METHOD[-VARIANT]-PARTICLES-SEED/. Results: DIR/results.csv, summary.csv,\n"
+      "summary.json, report.html. Finished runs are kept: after Ctrl-C the same command continues.\n"
       "Exit: 0 done, 1 interrupted or a run failed, 2 wrong command line or input.");
 }
 

@@ -234,8 +234,7 @@ int evaluate(int argc, char** argv) {
   auto* rpe = app.add_subcommand("rpe", "relative pose error over a fixed time or distance");
   auto* revisits =
       app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
-  auto* nees =
-      app.add_subcommand("nees", "normalised estimation error squared (NEES) of covariances, by the truth");
+  auto* nees = app.add_subcommand("nees", "normalised estimation error squared (NEES) of covariances");
   auto* neesRelations =
       app.add_subcommand("nees-relations", "NEES against relations: covariances between two poses");
   for (CLI::App* command : {relations, ate, rpe, revisits, nees})

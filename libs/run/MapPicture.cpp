@@ -70,13 +70,16 @@ void drawRobot(Pen& pen, const mrpt::math::TPose2D& robot) {
            kRobot, 2 * pen.thin());
 }
 
-/// Whether a point and the cells around it are free.
+/// Whether a point and all cells around it are free. A wall that was hit once is neither free nor occupied.
 bool isFree(const MapRaster& map, const mrpt::math::TPoint2D& point) {
   constexpr int kAround = 2;  // cells; a wall has this thickness
   const int column = static_cast<int>((point.x - map.left()) / map.cell());
   const int row = map.height() - 1 - static_cast<int>((point.y - map.bottom()) / map.cell());
-  return map.at(std::max(column - kAround, 0), std::max(row - kAround, 0), 2 * kAround + 1) ==
-         MapRaster::kFree;
+  for (int j = row - kAround; j <= row + kAround; ++j)
+    for (int i = column - kAround; i <= column + kAround; ++i)
+      if (i < 0 || j < 0 || i >= map.width() || j >= map.height() || map.at(i, j) != MapRaster::kFree)
+        return false;
+  return true;
 }
 
 /// Draws a line where the map has a wall: the database joins collinear walls, also across an opening.

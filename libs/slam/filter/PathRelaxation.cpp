@@ -21,7 +21,6 @@ namespace {
 constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kNodeDistance = 0.5, kNodeAngle = 15 * kDegree;
 constexpr double kLatest = RevisitCheck::kReturn;  // m of path: a map of the latest scans
-constexpr double kMapInterval = 0.6;               // m of path between its scans
 constexpr double kLongMotion = 20;                 // m of path
 constexpr double kOutlier = 9;                     // chi^2 at which a match has half its weight
 // A motion jumps if it is off the odometry by more than kLeastJump. Beyond kDrifted or kTurned, no drift
@@ -29,8 +28,6 @@ constexpr double kOutlier = 9;                     // chi^2 at which a match has
 constexpr double kLeastJump = 0.15, kDrifted = 2, kTurned = 5 * kDegree;
 constexpr double kBetter = 1.05;  // times the fit
 constexpr int kSolutions = 3;
-// Standard deviations of a match about the path's pose, in x, y (m) and heading (rad).
-const Eigen::Vector3d kExpected(0.1, 0.1, kDegree);
 
 class Relaxation {
  public:
@@ -109,8 +106,8 @@ class Relaxation {
       TPose2D pose = track.back() + (path_[i] - path_[i - 1]);
       if (const ScanMatch found = match(pose, drift(i - 1, i)); found.fit >= kLeastFit) pose = found.pose;
       if (jumps(i)) {
-        const ScanMatch byOdometry = match(track.back() + odometry_[i], covarianceOf(kExpected));
-        const ScanMatch byPath = match(pose, covarianceOf(kExpected));
+        const ScanMatch byOdometry = match(track.back() + odometry_[i], covarianceOf(kExpectedMatch));
+        const ScanMatch byPath = match(pose, covarianceOf(kExpectedMatch));
         if (byOdometry.fit >= kLeastFit && byOdometry.fit > kBetter * byPath.fit) pose = byOdometry.pose;
       }
       track.push_back(pose);

@@ -17,17 +17,15 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
-constexpr double kNear = 3;           // m, between two nodes that see the same walls
-constexpr double kReach = 6;          // m of path to either side of an earlier node: its map
-constexpr double kMapInterval = 0.6;  // m of path between the scans of that map
+constexpr double kNear = 3;   // m, between two nodes that see the same walls
+constexpr double kReach = 6;  // m of path to either side of an earlier node: its map
 // A match elsewhere counts if at least kAgreeing others within kStretch (m of path), and two thirds of them,
 // are off the path by the same, within kSame (m).
 constexpr int kAgreeing = 3;
 constexpr double kStretch = 5, kSame = 0.1;
-// Standard deviations in x, y (m) and heading (rad): of a match about the path's pose, of one that fits
-// better elsewhere, and of a scan that shows nothing.
-const Eigen::Vector3d kExpected(0.1, 0.1, kDegree), kElsewhere(0.3, 0.3, kDegree), kNothing(1, 1, 0.2);
+// Standard deviations in x, y (m) and heading (rad): of a match elsewhere, about the path's pose, and of a
+// scan that shows nothing.
+const Eigen::Vector3d kElsewhere(0.3, 0.3, mrpt::DEG2RAD(1.0)), kNothing(1, 1, 0.2);
 
 /// The matches of a node, and how far (map axes) they are from the path's pose.
 struct Found {
@@ -86,7 +84,7 @@ class Matching {
           rotated(information.inverse() + covarianceOf(kBestMatch), -frame.phi);
       return PoseEdge{earlier, node, match.pose - frame, covariance.inverse()};
     };
-    const ScanMatch near = scans_.match(likelihood, expected, expected, covarianceOf(kExpected));
+    const ScanMatch near = scans_.match(likelihood, expected, expected, covarianceOf(kExpectedMatch));
     const auto shift = [&](const ScanMatch& match) {
       return TPose2D(match.pose.x - expected.x, match.pose.y - expected.y, 0);
     };

@@ -13,6 +13,10 @@ namespace hybrid_slam {
 
 /// Least standard deviations of a match: in x, y (m) and heading (rad).
 const Eigen::Vector3d kBestMatch(0.005, 0.005, mrpt::DEG2RAD(0.05));
+/// Standard deviations of a match about an expected pose: in x, y (m) and heading (rad).
+const Eigen::Vector3d kExpectedMatch(0.1, 0.1, mrpt::DEG2RAD(1.0));
+/// m of path between the scans of a map that scans are matched to.
+constexpr double kMapInterval = 0.6;
 /// Fit below which a match fails; on a map of one scan, the fit is 0.04.
 constexpr double kLeastFit = 0.1;
 
