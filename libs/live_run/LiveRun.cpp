@@ -43,6 +43,7 @@ LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, 
       run_(configuration),
       recording_(run_.folder(), recordingName(options), log),
       queue_(static_cast<size_t>(options.maxWaiting)),
+      mapSoFar_(configuration.filter.grid.maxRange),
       thread_([this] { filter(); }) {
   recording_.keepFree(1e6 * options.diskReserve);
   run_.setBeforeSession([this] { recording_.flush(); });

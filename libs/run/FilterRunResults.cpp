@@ -94,13 +94,15 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
-    double contradiction = contradictionOf(result.path, ofUpdates);
+    const auto contradictionAlong = [&](const std::vector<mrpt::math::TPose2D>& path) {
+      return contradictionOf(path, ofUpdates, configuration_.filter.grid.maxRange);
+    };
+    double contradiction = contradictionAlong(result.path);
     std::vector<mrpt::math::TPose2D> closed = result.path;
     std::vector<LoopClosure> loops =
         closeLoops(closed, ofUpdates, directionModuloRightAngle(result.lines), configuration_.filter);
     // A false loop puts walls into free space.
-    if (const double after = loops.empty() ? INFINITY : contradictionOf(closed, ofUpdates);
-        after < contradiction) {
+    if (const double after = loops.empty() ? INFINITY : contradictionAlong(closed); after < contradiction) {
       refinementLoops_ = std::move(loops);
       result.path = std::move(closed);
       contradiction = after;
@@ -109,7 +111,7 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     constexpr double kMoreContradiction = 0.02;  // of the compared beams
     std::vector<mrpt::math::TPose2D> even =
         relaxed(result.path, recorder_.motionsOfUpdates(), ofUpdates, configuration_.filter);
-    result.isRelaxed = contradictionOf(even, ofUpdates) <= contradiction + kMoreContradiction;
+    result.isRelaxed = contradictionAlong(even) <= contradiction + kMoreContradiction;
     if (result.isRelaxed) result.path = std::move(even);
     result.trajectory = recorder_.trajectory(result.path);
     for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = result.trajectory[i].pose;
@@ -250,7 +252,7 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
       gridOf(result);
       savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
     });
-  VerdictCheck check;
+  VerdictCheck check(configuration_.filter.grid.maxRange);
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
   bool isRead = true;

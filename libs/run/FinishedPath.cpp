@@ -69,7 +69,7 @@ FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
   const readings::RawlogSummary summary = readings::summarise(log, configuration.input);
   if (report) report(readings::warningsOf(summary, log));
   readings::RawlogSource source(log, configuration.input, summary);
-  VerdictCheck check;
+  VerdictCheck check(configuration.filter.grid.maxRange);
   size_t row = 0;
   while (const auto reading = source.next()) {
     if (row == trajectory.size() || std::abs(reading->timestamp - trajectory[row].timestamp) >= kSameTime)

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kStep = 0.5, kStepAngle = M_PI / 6;  // between compared scans
 
-ScanBeams beamsOf(const Scans& scans) { return beamsToCompare(toLaserScans(scans, RevisitCheck::kRange)); }
-
 }  // namespace
 
 bool ComparisonSteps::isDue(const TPose2D& pose) {
@@ -29,14 +27,14 @@ void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
   if (last_) distance_ += distanceBetween(*last_, pose);
   last_ = pose;
   if (!steps_.isDue(pose)) return;
-  const ScanBeams beams = beamsOf(scans);
+  const ScanBeams beams = beamsToCompare(scans, maxRange_);
   returning_.add(pose, beams, distance_, update);
   recent_.add(pose, beams, distance_, update);
 }
 
 void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) {
   if (!steps_.isDue(pose)) return;
-  const ScanBeams beams = beamsOf(scans);
+  const ScanBeams beams = beamsToCompare(scans, maxRange_);
   Scan scan{update, beams.origins, {}};
   for (const ScanBeams::Ray& ray : beams.rays)
     scan.beams.push_back({static_cast<float>(std::atan2(ray.dirY, ray.dirX)), static_cast<float>(ray.range),

@@ -29,11 +29,15 @@ class ComparisonSteps {
 /// Collects the evidence of the scans along the final path.
 class VerdictCheck {
  public:
+  /// @param maxRange  m, of the beams that the map uses
+  explicit VerdictCheck(double maxRange) : maxRange_(maxRange) {}
+
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
   Evidence evidence() const { return evidenceOf(returning_, recent_); }
 
  private:
+  double maxRange_;
   RevisitCheck returning_{RevisitCheck::kReturn}, recent_{kRecent};
   ComparisonSteps steps_;
   std::optional<mrpt::math::TPose2D> last_;
@@ -45,6 +49,9 @@ class VerdictCheck {
 /// share them.
 class ComparedScans {
  public:
+  /// @param maxRange  m, of the beams that the map uses
+  explicit ComparedScans(double maxRange) : maxRange_(maxRange) {}
+
   /// @param pose    of the best particle at an update, map frame
   /// @param update  index of the path
   void add(const mrpt::math::TPose2D& pose, size_t update, const Scans& scans);
@@ -61,6 +68,7 @@ class ComparedScans {
     std::vector<mrpt::math::TPoint2D> origins;  ///< of each laser, robot frame, m
     std::vector<Beam> beams;
   };
+  double maxRange_;
   std::vector<std::shared_ptr<const Scan>> scans_;
   ComparisonSteps steps_;
 };
@@ -68,6 +76,9 @@ class ComparedScans {
 /// The verdict on the map of an ongoing run.
 class RunningVerdict {
  public:
+  /// @param maxRange  m, of the beams that the map uses
+  explicit RunningVerdict(double maxRange) : scans_(maxRange) {}
+
   /// Call it after each update of a filter that maps. @param scans  of the update
   void add(const FilterView& view, const Scans& scans);
   /// Returns a function that judges the current map. Any thread may call it; it takes 30 ms to 70 ms per km

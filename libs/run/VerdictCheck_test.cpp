@@ -9,14 +9,16 @@ namespace {
 
 using mrpt::math::TPose2D;
 
+constexpr double kMaxRange = 20;  // m
+
 /// The evidence of three laps on a path: collected along it, and collected along another path of the same
 /// length but judged by this one.
 struct Both {
   Evidence final, soFar;
 };
 Both evidenceOn(const std::function<TPose2D(const TPose2D&)>& moved) {
-  VerdictCheck check;
-  ComparedScans scans;
+  VerdictCheck check(kMaxRange);
+  ComparedScans scans(kMaxRange);
   std::vector<TPose2D> path;
   for (size_t i = 0; i < 240; ++i) {
     const TPose2D truth = test::poseOnLap(i, 80);
@@ -51,6 +53,27 @@ TEST(ComparedScans, AreJudgedByThePathAsItIsNow) {
       [](const TPose2D& pose) { return TPose2D(3, -2, 0.7) + TPose2D(pose.x, -pose.y, -pose.phi); });
   expectEqual(both.final.returning, both.soFar.returning);
   EXPECT_EQ(verdictOf(both.soFar).level, Verdict::Level::lost);
+}
+
+/// Of a laser that logs 3 m for no return; their ends would contradict the map.
+TEST(VerdictCheck, BeamsThatTheMapDoesNotUseAreNotCompared) {
+  VerdictCheck check(2.99), withAllBeams(kMaxRange);
+  std::vector<TPose2D> path;
+  std::vector<Scans> scans;
+  for (size_t i = 0; i < 400; ++i) {
+    path.push_back(test::poseOnLap(i, 80));
+    const auto seen = test::scan(0, path.back());
+    for (size_t beam = 0; beam < seen->getScanSize(); ++beam)
+      seen->setScanRange(beam, std::min(seen->getScanRange(beam), 3.0f));
+    scans.push_back({seen});
+    check.add(path.back(), scans.back());
+    withAllBeams.add(path.back(), scans.back());
+  }
+  ASSERT_GT(check.evidence().returning.size(), 20u);
+  EXPECT_EQ(verdictOf(check.evidence()).level, Verdict::Level::consistent);
+  EXPECT_EQ(verdictOf(withAllBeams.evidence()).level, Verdict::Level::lost);
+  EXPECT_LT(contradictionOf(path, scans, 2.99), 0.02);
+  EXPECT_GT(contradictionOf(path, scans, kMaxRange), 0.2);
 }
 
 }  // namespace

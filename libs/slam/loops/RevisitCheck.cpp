@@ -90,14 +90,18 @@ bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Re
          contradictionOf(still) > contradictionOf(common(before, after)) + kWorse;
 }
 
-double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans) {
+double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans>& scans, double maxRange) {
   RevisitCheck check(RevisitCheck::kReturn);
   const std::vector<double> distances = lengthsAlong(path);
   for (size_t i = 0; i < std::min(path.size(), scans.size()); ++i)
-    check.add(path[i], beamsToCompare(toLaserScans(scans[i], RevisitCheck::kRange)), distances[i], i);
+    check.add(path[i], beamsToCompare(scans[i], maxRange), distances[i], i);
   return contradictionOf(check.revisits());
 }
 
 ScanBeams beamsToCompare(const LaserScans& scans) { return ScanBeams(scans).thinned(kBeams); }
+
+ScanBeams beamsToCompare(const Scans& scans, double maxRange) {
+  return beamsToCompare(toLaserScans(scans, std::min(RevisitCheck::kRange, maxRange)));
+}
 
 }  // namespace hybrid_slam

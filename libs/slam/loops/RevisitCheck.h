@@ -14,9 +14,9 @@ struct Revisit {
   mrpt::math::TPose2D pose;  ///< of the robot, map frame
   size_t update = 0;         ///< index of the scan on the path
   double distance = 0;       ///< m, along the path
-  size_t compared = 0;       ///< beams that end in or cross known cells of the earlier map
-  size_t contradicted = 0;   ///< of these, beams that end in free space or cross walls of that map
-  /// Share of the compared beams that contradict the map.
+  size_t compared = 0;       ///< beams that cross a wall of the earlier map, or end at one or in free space
+  size_t contradicted = 0;   ///< of these, beams that cross a wall or end in free space
+  /// Share of the compared beams that contradict the map; NaN without any.
   double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
   bool isContradicted() const { return share() > 0.2; }
 };
@@ -25,7 +25,7 @@ struct Revisit {
 /// and doors contradict with some beams; a doubled wall or a room on top of another one contradicts with
 /// most.
 ///
-/// Uses beams up to 8 m on cells of 0.1 m, so that a wall may be off by 0.1 m to 0.2 m.
+/// The cells are 0.1 m wide, so a wall may be off by 0.1 m to 0.2 m.
 class RevisitCheck {
  public:
   /// @param delay  m of path
@@ -41,7 +41,7 @@ class RevisitCheck {
 
   static constexpr double kReturn = 20;       ///< m of path after which a scan returns
   static constexpr double kResolution = 0.1;  ///< m
-  static constexpr double kRange = 8;         ///< m
+  static constexpr double kRange = 8;         ///< m, of the longest beam to compare
 
  private:
   struct Waiting {
@@ -66,11 +66,16 @@ double contradictionOf(const std::vector<Revisit>& revisits);
 bool isMoreContradicted(const std::vector<Revisit>& before, const std::vector<Revisit>& after);
 
 /// Share of the compared beams of a path that contradict the map from 20 m of path before; 0 without any.
-/// @param path   a pose for each update, map frame
-/// @param scans  of each update; those of the last ones may be missing
-double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans);
+/// @param path      a pose for each update, map frame
+/// @param scans     of each update; those of the last ones may be missing
+/// @param maxRange  m, of the beams that the map uses
+double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::vector<Scans>& scans,
+                       double maxRange);
 
 /// Selects at most 90 beams.
 ScanBeams beamsToCompare(const LaserScans& scans);
+/// Selects at most 90 beams of up to 8 m that the map uses.
+/// @param maxRange  m, of the beams that the map uses: longer ones may have no return
+ScanBeams beamsToCompare(const Scans& scans, double maxRange);
 
 }  // namespace hybrid_slam

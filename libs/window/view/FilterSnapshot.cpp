@@ -37,7 +37,8 @@ FilterWatch::FilterWatch(const run::Configuration& configuration, bool judges)
       useLines_(configuration.filter.useLines),
       judges_(judges),
       lineWeight_(configuration.filter.lineWeight),
-      prepare_(configuration.filter) {}
+      prepare_(configuration.filter),
+      mapSoFar_(configuration.filter.grid.maxRange) {}
 
 void FilterWatch::saw(const FilterView& view, const readings::Reading& reading, bool isUpdate) {
   if (!start_) start_ = reading.timestamp;
