@@ -101,7 +101,7 @@ TEST(PathCovariance, BetweenTwoPosesOfALoop) {
   const auto path = thereAndBack();
   const PathCovariances covariances(path, {}, returnOf(path, 2), false, true);
   // From x = 5 m out and back to x = 5 m: 30 m, or by the start, where the path ends: 10 m and a match.
-  const double drift = std::pow(0.048 * kDegree, 2), match = std::pow(0.09 * kDegree, 2);
+  const double drift = std::pow(0.038 * kDegree, 2), match = std::pow(0.09 * kDegree, 2);
   const PathPoint out{10, path[10]}, back{70, path[70]};
   const PoseCovariance there = covariances.between(out, back), here = covariances.between(back, out);
   EXPECT_NEAR(here(0, 0), there(0, 0), 1e-12);
