@@ -101,7 +101,7 @@ TEST_F(HybridSlam, AnotherNumberOfBeamsInMidLog) {
     const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(trajectory.size(), 40u);
     const auto truth = test::poseOnLap(39, 80) - test::poseOnLap(0, 80);
-    EXPECT_LT((trajectory.back().pose - truth).norm(), method == "stock" ? 1 : 0.3);
+    EXPECT_LT((trajectory.back().pose - truth).norm(), method == "stock" ? 1 : 0.1);
   }
 }
 

@@ -51,7 +51,7 @@ TEST_F(HybridSlam, WritesAllResultsAndASummary) {
   for (size_t i = 0; i < trajectory.size(); ++i) {
     EXPECT_NEAR(trajectory[i].timestamp, 1000 + 0.2 * static_cast<double>(i), 1e-6) << "the scan's own time";
     const auto truth = test::poseOnLap(i, 80) - test::poseOnLap(0, 80);
-    EXPECT_LT((trajectory[i].pose - truth).norm(), 0.3) << i;
+    EXPECT_LT((trajectory[i].pose - truth).norm(), 0.1) << i;
   }
 
   const auto metrics = nlohmann::json::parse(result("metrics.json"));
@@ -202,7 +202,7 @@ TEST_F(HybridSlam, AllMethodsAndProposals) {
     ASSERT_EQ(trajectory.size(), 24u);
     // The odometry is exact; MRPT's weights displace its few particles more than ours.
     EXPECT_LT((trajectory.back().pose - (test::poseOnLap(23, 80) - test::poseOnLap(0, 80))).norm(),
-              options == "-m stock" ? 1 : 0.3);
+              options == "-m stock" ? 1 : 0.1);
     const auto metrics = nlohmann::json::parse(result("metrics.json"));
     EXPECT_GT(metrics["updates"], 3);
     const std::string method = options[1] == 'm' ? options.substr(3, options.find(' ', 3) - 3) : "hybrid";

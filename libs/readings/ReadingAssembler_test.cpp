@@ -82,8 +82,13 @@ TEST(ReadingAssembler, OdometryThatIsNotExpectedIsIgnored) {
                                       odometry(1.1, {50, 0, 0}), scan(1.1, {}, 3, "rear")})
     assembler.take(object);
   assembler.finish();
+  size_t scans = 0;
   for (auto reading = assembler.next(); reading; reading = assembler.next())
-    for (const auto& taken : reading->scans) EXPECT_EQ(taken->sensorPose.norm(), 0) << taken->sensorLabel;
+    for (const auto& taken : reading->scans) {
+      EXPECT_EQ(taken->sensorPose.norm(), 0) << taken->sensorLabel;
+      ++scans;
+    }
+  EXPECT_EQ(scans, 2u);
 }
 
 TEST(ReadingAssembler, ActionsDoNotAddToOdometryReadings) {

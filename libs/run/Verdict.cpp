@@ -49,7 +49,7 @@ std::vector<Stretch> stretchesOf(const std::vector<Revisit>& revisits) {
   return stretches;
 }
 
-/// Successive scans with most of their beams contradicted.
+/// Successive compared scans with most of their beams contradicted.
 std::vector<Stretch> jumpsOf(const std::vector<Revisit>& recent) {
   std::vector<Stretch> jumps(1);
   for (const Revisit& revisit : recent) {
@@ -100,7 +100,10 @@ bool Verdict::isWorseThan(const Verdict& other) const {
 std::string Verdict::line() const {
   std::string line = "verdict: " + name();
   for (size_t i = 0; i < reasons.size(); ++i) line += (i == 0 ? ": " : "; ") + reasons[i];
-  if (level != Level::consistent && !places.empty()) line += "; longest at " + text(places[0].at);
+  const auto longest =
+      std::max_element(places.begin(), places.end(),
+                       [](const DoubtfulPlace& a, const DoubtfulPlace& b) { return a.length < b.length; });
+  if (level != Level::consistent && longest != places.end()) line += "; longest at " + text(longest->at);
   return line;
 }
 

@@ -202,7 +202,7 @@ TEST(HybridMapBuilder, GivesTheViewsOfMrptsOwnBuilder) {
       std::dynamic_pointer_cast<mrpt::poses::CPose3DPDFParticles>(face.getCurrentPoseEstimation());
   ASSERT_TRUE(pdf);
   EXPECT_EQ(pdf->m_particles.size(), 20u);
-  expectPose(meanPose(builder), steps.back().truth, 0.3);
+  expectPose(meanPose(builder), steps.back().truth, 0.05);
 }
 
 TEST(HybridMapBuilder, KeepsNoScansIfSwitchedOff) {

@@ -164,6 +164,21 @@ TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
   EXPECT_FALSE(p.isMatched);
   EXPECT_EQ(p.fit, 0);
   EXPECT_EQ(p.logWeight, 0);
+
+  // The poses are those of the motion model.
+  const MotionDistribution motion = motionDistribution(kStart, kOdometry, MotionBelief().model(c.motion));
+  constexpr int kDraws = 4000;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), variance = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kDraws; ++i) {
+    const Eigen::Vector3d off =
+        test::offset(proposalOf(c).propose(particle, kMotion, scan, random).pose, motion.mean);
+    mean += off / kDraws;
+    variance += off.cwiseAbs2() / kDraws;
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(mean[i], 0, 5 * std::sqrt(motion.covariance(i, i) / kDraws)) << i;
+    EXPECT_NEAR(variance[i] / motion.covariance(i, i), 1, 0.15) << i;
+  }
 }
 
 TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {

@@ -30,6 +30,9 @@ TEST(LineMap, CorrectsTheOdometryAroundARing) {
   // The grid is that of the scans: the corridor is free, the wall ahead of the start occupied.
   const auto grid = filter.bestGrid();
   EXPECT_GT(grid.getPos(10, 0), 0.6);
+  float least = 1;  // of the cells within 0.5 m of the wall
+  for (float x = 32.5F; x <= 33.5F; x += 0.05F) least = std::min(least, grid.getPos(x, 0));
+  EXPECT_LT(least, 0.3);
   EXPECT_GT(grid.getXMax() - grid.getXMin(), 36);
 }
 

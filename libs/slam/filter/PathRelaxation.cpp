@@ -84,8 +84,8 @@ class Relaxation {
     constexpr double kShortest = 0.01;  // m
     const double length =
         scans_.distance(to) - scans_.distance(from) + std::abs((path_[to] - path_[from]).phi);
-    const PathDrift& drift = configuration_.useLines ? kDriftWithLines : kDriftWithoutLines;
-    return (length + kShortest) * covarianceOf({drift.position, drift.position, drift.heading});
+    const PathDrift& perMetre = configuration_.useLines ? kDriftWithLines : kDriftWithoutLines;
+    return (length + kShortest) * covarianceOf({perMetre.position, perMetre.position, perMetre.heading});
   }
 
   /// The path as the latest scans alone show it: each motion, uncertain by its drift, is corrected by a match

@@ -200,7 +200,8 @@ TEST(CloseLoops, CorrectsAWholePath) {
   EXPECT_LT((path[0] - log.path[0]).norm(), 1e-6) << "the first pose defines the map frame";
   EXPECT_LT(test::rms(path, log.truth), 0.5 * test::rms(log.path, log.truth));
   for (const LoopClosure& closure : closures) {
-    EXPECT_LT(closure.earlier, closure.later);
+    ASSERT_TRUE(closure.earlier);
+    EXPECT_LT(*closure.earlier, closure.later);
     EXPECT_LT(closure.later, log.scans.size());
   }
 }

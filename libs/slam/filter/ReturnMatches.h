@@ -17,7 +17,7 @@ const Eigen::Vector3d kBestMatch(0.005, 0.005, mrpt::DEG2RAD(0.05));
 const Eigen::Vector3d kExpectedMatch(0.1, 0.1, mrpt::DEG2RAD(1.0));
 /// m of path between the scans of a map that scans are matched to.
 constexpr double kMapInterval = 0.6;
-/// Fit below which a match fails; on a map of one scan, the fit is 0.04.
+/// Fit below which a match fails; on a map of one scan, the fit is 0.04 (with the default `grid.p_hit`).
 constexpr double kLeastFit = 0.1;
 
 /// Matches each node within 3 m of an earlier one to the map that the path made around the nearest of these,

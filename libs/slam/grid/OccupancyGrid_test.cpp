@@ -174,6 +174,13 @@ TEST(OccupancyGrid, RandomScansAgreeWithAPlainMap) {
   }
   for (const auto& [cell, value] : reference)
     ASSERT_EQ(grid.tiles().at({cell.first, cell.second}), value) << cell.first << " " << cell.second;
+  size_t known = 0;
+  grid.tiles().forEachTile([&](int tx, int ty, const Tile&) {
+    for (int y = ty * Tile::kSize; y < (ty + 1) * Tile::kSize; ++y)
+      for (int x = tx * Tile::kSize; x < (tx + 1) * Tile::kSize; ++x) known += grid.tiles().at({x, y}) != 0;
+  });
+  EXPECT_EQ(known,
+            std::count_if(reference.begin(), reference.end(), [](const auto& cell) { return cell.second; }));
 }
 
 TEST(OccupancyGrid, ACopyKeepsItsMap) {

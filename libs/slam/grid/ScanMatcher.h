@@ -28,10 +28,10 @@ using Prior = std::function<LogDensity(const mrpt::math::TPose2D&)>;
 LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& mean,
                               const Eigen::Matrix3d& information);
 
-/// Information of a scan on its pose: minus the second derivative of the log-likelihood, negative part
-/// removed, from gradients 1.5 cells (3/4 deg) to either side. It is small along a featureless corridor. The
-/// Gauss-Newton matrix would count the roughness of a sparsely hit wall as information along it, and is zero
-/// on the ridge of a wall.
+/// Information of a scan on its pose (x, y, phi; map axes; 1/m^2, 1/(m rad), 1/rad^2): minus the second
+/// derivative of the log-likelihood, negative part removed, from gradients 1.5 cells (3/4 deg) to either
+/// side. It is small along a featureless corridor. The Gauss-Newton matrix would count the roughness of a
+/// sparsely hit wall as information along it, and is zero on the ridge of a wall.
 Eigen::Matrix3d scanInformation(ScanLikelihood& likelihood, const mrpt::math::TPose2D& pose);
 
 /// Smallest over largest eigenvalue of the information on the position, heading unknown: in [0, 1], about 0

@@ -148,6 +148,7 @@ TEST(SplitAtCorners, AClosedSquareGivesItsFourSides) {
 TEST(SplitAtCorners, EveryPieceIsWithinTheDistanceOfItsChord) {
   RandomStream random(2, 0, 0);
   const SegmentationOptions options;
+  size_t all = 0;
   for (int i = 0; i < 200; ++i) {
     std::vector<TPoint2D> points;
     for (int k = 0; k < 60; ++k) points.emplace_back(0.05 * k, 0.3 * random.gaussian() * (k % 10 == 0));
@@ -156,8 +157,10 @@ TEST(SplitAtCorners, EveryPieceIsWithinTheDistanceOfItsChord) {
       const LineSegment chord = makeSegment(piece.front(), piece.back());
       for (const TPoint2D& p : piece)
         EXPECT_LE(std::abs(signedDistance(p, chord.rho, chord.theta)), options.splitDistance + 1e-9);
+      ++all;
     }
   }
+  EXPECT_GT(all, 400u);
 }
 
 TEST(SplitAtCorners, PointsAllInOnePlaceAreOnePiece) {

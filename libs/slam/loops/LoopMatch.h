@@ -33,7 +33,8 @@ struct LoopMatch {
 /// Compares two local maps. @param pose  of the newer map's frame in the older's
 Agreement agreementOf(const LocalMap& newer, const LocalMap& older, const mrpt::math::TPose2D& pose);
 
-/// Information of the beams of the newer map on its pose in the older map.
+/// Information of the beams of the newer map on its pose in the older map (x, y, phi; axes of the older map;
+/// 1/m^2, 1/(m rad), 1/rad^2).
 Eigen::Matrix3d informationOf(const mrpt::math::TPose2D& pose, const LocalMap& newer, const LocalMap& older);
 
 /// Matches locally, from `start`.

@@ -62,7 +62,7 @@ class PathUncertainty {
   Eigen::Matrix3d between(size_t from, size_t to, const std::vector<KnownPair>& known = {}) const;
   /// The same for a path whose errors are distributed over its loops: where a known pair closes a loop, the
   /// mean, weighted by information, of the way through the loop and the way around it. Of several pairs, the
-  /// one that leaves the least. All pairs have a lever, and none is in the map.
+  /// one that leaves the least. All pairs count as with a lever, and none is in the map.
   Eigen::Matrix3d relaxed(size_t from, size_t to, const std::vector<KnownPair>& known) const;
   /// Covariance of pose `to` in the map, by the nearest pose measured there; empty without one.
   std::optional<Eigen::Matrix3d> inMap(size_t to, const std::vector<KnownPair>& known) const;

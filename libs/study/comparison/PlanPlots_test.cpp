@@ -87,8 +87,9 @@ TEST(CellsOverWalls, AreColouredByTheirDistance) {
 }
 
 TEST(CellsOverWalls, ThePictureOfALargeMapIsSmall) {
-  const simulation::BuildingPlan plan(
-      {simulation::Wall::straight({0, 0}, {300, 0}), simulation::Wall::straight({0, 0}, {0, 200})});
+  std::vector<simulation::Wall> walls;
+  for (double y = 0; y <= 200; y += 10) walls.push_back(simulation::Wall::straight({0, y}, {300, y}));
+  const simulation::BuildingPlan plan(walls);
   std::vector<TPoint2D> cells;
   for (int i = 0; i < 20000; ++i) cells.push_back({std::fmod(3.7 * i, 300), std::fmod(1.1 * i, 200)});
   EXPECT_LT(drawn(plotCellsOverWalls(cells, 0.05, plan, "hybrid-20")).size(), 150000u);
