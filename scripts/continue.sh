@@ -27,7 +27,7 @@ for log in intel-lab csail fr079 mit-killian; do
   "$bin/hybrid-slam" --overwrite "$out/second.clf" -o "$out/$log-2" --continue "$out/$log-1/session.hslam" >/dev/null \
     2>"$out/$log.err" || { echo "| $log | | | | $(tail -1 "$out/$log.err") | |"; continue; }
   cat "$out/$log-1/trajectory.tum" "$out/$log-2/trajectory.tum" >"$out/$log.tum"
-  found=$(grep -oE 'place found after [0-9]+' "$out/$log.err" | grep -oE '[0-9]+')
+  found=$(grep -oE 'place found after [0-9]+' "$out/$log.err" | grep -oE '[0-9]+' | tail -n 1)
   relations=$logs/$log.relations
   echo "| $log | $(error "$out/$log-whole/trajectory.tum" "$relations" $log) | $(error "$out/$log.tum" "$relations" $log) | $found |"
 done

@@ -239,6 +239,20 @@ TEST_F(Sessions, MapsOnFromAKnownOrASearchedStart) {
   EXPECT_EQ(files::loadTum(searched + "/trajectory.tum").size(), 90u) << "nothing is lost";
 }
 
+TEST_F(Sessions, AWrongPlaceInTheEarlierMapIsReported) {
+  ASSERT_EQ(replay(log), 0) << err;
+  const std::string other = folder.path("other");
+  for (const auto& [start, verdict] : {std::pair("0,0,0", "consistent"), std::pair("1,2,45", "lost")}) {
+    ASSERT_EQ(run("'" + ini + "' '" + log + "' --overwrite -o '" + other + "' --continue '" + session +
+                  "' --start " + start),
+              0)
+        << err;
+    EXPECT_THAT(out, HasSubstr(std::string("verdict: ") + verdict));
+    EXPECT_EQ(testing::Value(out, HasSubstr("contradict the map that the run continues")),
+              verdict == std::string("lost"));
+  }
+}
+
 TEST_F(Sessions, ARunThatMapsOnIsResumedToTheSameBytes) {
   ASSERT_EQ(replay(log), 0) << err;
   const std::string whole = folder.path("whole"), again = folder.path("again");

@@ -252,7 +252,8 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
       gridOf(result);
       savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
     });
-  VerdictCheck check(configuration_.filter.grid.maxRange);
+  const bool continuesMap = hasEarlierMap() && !configuration_.run.continueFrom.empty();
+  VerdictCheck check(configuration_.filter.grid.maxRange, continuesMap ? &hybrid_->base()->grid : nullptr);
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
   bool isRead = true;

@@ -21,6 +21,7 @@ constexpr size_t kMostPlaces = 10;
 // Calibrated on seeds from 101 on: doc/verdict.md.
 constexpr double kReturningDoubtful = 0.12, kReturningLost = 0.5;
 constexpr double kRecentDoubtful = 0.12, kRecentLost = 0.25;
+constexpr double kEarlierDoubtful = 0.3, kEarlierLost = 0.5;  // buildings change between runs
 constexpr double kJump = 0.5;      // share of a scan's beams that contradict the map
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
@@ -138,6 +139,12 @@ Verdict verdictOf(const Evidence& evidence) {
   judge(evidence.returning, kReturningDoubtful, kReturningLost,
         "returning scans contradict what was mapped before");
   judge(evidence.recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
+  // Another run with more particles would find the same place, so this does not count as contradicted.
+  const size_t against = contradictedOf(evidence.earlier);
+  const double part = static_cast<double>(against) / static_cast<double>(evidence.earlier.size());
+  if (against >= kFewest && part > kEarlierDoubtful)
+    find(part > kEarlierLost ? Level::lost : Level::doubtful,
+         share(against, evidence.earlier.size()) + " scans contradict the map that the run continues");
   verdict.places = placesOf(stretchesOf(evidence.returning), kFewest);
   if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
     contradict(Level::doubtful,

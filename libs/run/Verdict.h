@@ -39,6 +39,7 @@ struct Verdict {
 struct Evidence {
   std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
   std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
+  std::vector<Revisit> earlier;    ///< scans compared with the map that the run continues
   double spread = 0;               ///< m, standard deviation of the particles at the end
   size_t slips = 0, updates = 0;   ///< updates whose odometry was rejected, and all
   size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps

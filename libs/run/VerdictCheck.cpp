@@ -30,6 +30,13 @@ void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
   const ScanBeams beams = beamsToCompare(scans, maxRange_);
   returning_.add(pose, beams, distance_, update);
   recent_.add(pose, beams, distance_, update);
+  if (earlier_) earlier_->add(pose, beams, distance_, update);
+}
+
+Evidence VerdictCheck::evidence() const {
+  Evidence evidence = evidenceOf(returning_, recent_);
+  if (earlier_) evidence.earlier = earlier_->revisits();
+  return evidence;
 }
 
 void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) {

@@ -30,15 +30,19 @@ class ComparisonSteps {
 class VerdictCheck {
  public:
   /// @param maxRange  m, of the beams that the map uses
-  explicit VerdictCheck(double maxRange) : maxRange_(maxRange) {}
+  /// @param earlier   map that the run continues, or null
+  explicit VerdictCheck(double maxRange, const OccupancyGrid* earlier = nullptr) : maxRange_(maxRange) {
+    if (earlier) earlier_.emplace(*earlier);
+  }
 
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
-  Evidence evidence() const { return evidenceOf(returning_, recent_); }
+  Evidence evidence() const;
 
  private:
   double maxRange_;
   RevisitCheck returning_{RevisitCheck::kReturn}, recent_{kRecent};
+  std::optional<RevisitCheck> earlier_;
   ComparisonSteps steps_;
   std::optional<mrpt::math::TPose2D> last_;
   double distance_ = 0;

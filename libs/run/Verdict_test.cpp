@@ -124,6 +124,21 @@ TEST(Verdict, PlacesAreSeparateAndTheLongestComesFirst) {
   EXPECT_NEAR(verdict.places[1].at.x, 6, 1e-9);
 }
 
+TEST(Verdict, ScansThatContradictTheEarlierMap) {
+  const auto against = [](size_t contradicted, size_t count) {
+    Evidence evidence;
+    evidence.returning = scans(100), evidence.recent = scans(200);
+    evidence.earlier = scans(count, 0, contradicted);
+    return verdictOf(evidence);
+  };
+  EXPECT_EQ(against(30, 100).level, Level::consistent) << "the building has changed";
+  EXPECT_EQ(against(31, 100).level, Level::doubtful);
+  EXPECT_FALSE(against(31, 100).isContradicted) << "a second run would find the same place";
+  EXPECT_EQ(against(51, 100).line(),
+            "verdict: lost: 51 % of 100 scans contradict the map that the run continues");
+  EXPECT_EQ(against(3, 3).level, Level::consistent) << "too few";
+}
+
 /// Of two runs over a log: the level decides, then the contradicted shares.
 TEST(Verdict, WorseIsALowerLevelOrMoreContradiction) {
   const Verdict good = of(scans(100, 0, 5)), bent = of(scans(100, 0, 30)), lost = of(scans(100, 0, 60));

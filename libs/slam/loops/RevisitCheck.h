@@ -30,6 +30,8 @@ class RevisitCheck {
  public:
   /// @param delay  m of path
   explicit RevisitCheck(double delay) : delay_(delay), grid_(kResolution) {}
+  /// Compares each scan with `map` alone: the map of an earlier run.
+  explicit RevisitCheck(const OccupancyGrid& map);
 
   /// Adds the next scan of the path.
   /// @param distance  m, along the path

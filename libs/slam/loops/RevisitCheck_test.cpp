@@ -52,6 +52,38 @@ TEST(RevisitCheck, NothingIsComparedBeforeTheDelay) {
   EXPECT_GT(revisitsOf(ringDrive(0), true, 2).size(), revisitsOf(ringDrive(0), true).size());
 }
 
+/// The map of a ring, on cells of this size (m).
+OccupancyGrid mapOf(const std::vector<DrivenPose>& drive, double resolution) {
+  GridOptions options;
+  options.resolution = resolution;
+  OccupancyGrid map(resolution);
+  for (const DrivenPose& driven : drive) map.insert(ScanBeams(driven.scans), driven.truth, options);
+  return map;
+}
+
+TEST(RevisitCheck, ComparesWithAMapOfAnEarlierRun) {
+  const auto drive = ringDrive(0);
+  for (const double resolution : {0.05, 0.1, 0.25}) {
+    RevisitCheck here(mapOf(drive, resolution)), elsewhere(mapOf(drive, resolution));
+    for (size_t i = 0; i < 60; ++i) {
+      here.add(drive[i].truth, beamsToCompare(drive[i].scans), 0.25 * static_cast<double>(i), i);
+      elsewhere.add(TPose2D(0.4, 0.7, 0.3) + drive[i].truth, beamsToCompare(drive[i].scans), 0, i);
+    }
+    EXPECT_EQ(here.revisits().size(), 60u) << resolution << ": from the first scan on";
+    EXPECT_LT(contradictedShare(here.revisits()), 0.05) << resolution;
+    ASSERT_GT(elsewhere.revisits().size(), 20u) << resolution;
+    EXPECT_GT(contradictedShare(elsewhere.revisits()), 0.6) << resolution;
+  }
+}
+
+TEST(RevisitCheck, AnEarlierMapStaysAsItWas) {
+  const auto drive = ringDrive(0);
+  RevisitCheck check(OccupancyGrid(0.05));
+  for (size_t i = 0; i < drive.size(); ++i)
+    check.add(drive[i].truth, beamsToCompare(drive[i].scans), 0.25 * static_cast<double>(i), i);
+  EXPECT_TRUE(check.revisits().empty());
+}
+
 /// The beams, one per degree, that see a wall along y = `wall` within 8 m.
 ScanBeams beamsToWall(const TPose2D& pose, double wall) {
   ScanBeams beams;
