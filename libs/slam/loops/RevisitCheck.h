@@ -30,7 +30,8 @@ class RevisitCheck {
  public:
   /// @param delay  m of path
   explicit RevisitCheck(double delay) : delay_(delay), grid_(kResolution) {}
-  /// Compares each scan with `map` alone: the map of an earlier run.
+  /// Compares each scan with `map` alone: the map of an earlier run. Larger cells than 0.1 m blur the walls;
+  /// nothing is compared with them.
   explicit RevisitCheck(const OccupancyGrid& map);
 
   /// Adds the next scan of the path.
