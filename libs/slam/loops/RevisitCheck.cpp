@@ -51,7 +51,7 @@ std::vector<Revisit> common(const std::vector<Revisit>& revisits, const std::vec
   return both;
 }
 
-/// The map on cells of another size; of several values in a cell, the highest.
+/// The map on larger cells; of several values in a cell, the highest.
 OccupancyGrid resampled(const OccupancyGrid& map, double resolution) {
   OccupancyGrid result(resolution);
   const double scale = map.resolution() / resolution;
@@ -74,7 +74,9 @@ OccupancyGrid resampled(const OccupancyGrid& map, double resolution) {
 
 }  // namespace
 
-RevisitCheck::RevisitCheck(const OccupancyGrid& map) : delay_(INFINITY), grid_(resampled(map, kResolution)) {}
+RevisitCheck::RevisitCheck(const OccupancyGrid& map)
+    : delay_(INFINITY),
+      grid_(map.resolution() <= kResolution ? resampled(map, kResolution) : OccupancyGrid(kResolution)) {}
 
 void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
   if (!isInReach(pose)) return;
