@@ -21,6 +21,7 @@
 #include "base/Options.h"
 #include "base/Terminal.h"
 #include "files/InstalledFiles.h"
+#include "files/PartialFile.h"
 
 namespace hybrid_slam {
 
@@ -128,7 +129,8 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Runs a program's work. Returns 2 for wrong input, 1 for any other exception or a full standard output.
+/// Runs a program's work. Returns 2 for wrong input, 1 for any other exception, a full disk or a full standard
+/// output.
 /// @param words  message for any other exception
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
@@ -140,6 +142,8 @@ inline int exitCodeOf(const std::function<int()>& work,
     if (code == 0 && !isPrinted())
       return fail(1, "cannot write: standard output; expected free disk space or an open pipe");
     return code;
+  } catch (const files::DiskError& error) {
+    return fail(1, error.what());
   } catch (const InputError& error) {
     return fail(2, error.what());
   } catch (const std::exception& error) {

@@ -355,7 +355,10 @@ TEST_F(Log2Rawlog, DiskFull) {
   ASSERT_EQ(convert(path), 0);
   ASSERT_GT(fs::file_size(rawlog), 40000u);
   fs::remove(rawlog);
-  expectError(convert(path, "", "trap '' XFSZ; ulimit -f 20; "), "cannot write: " + rawlog);
+  EXPECT_EQ(convert(path, "", "trap '' XFSZ; ulimit -f 20; "), 1);
+  EXPECT_THAT(err, testing::StartsWith("log2rawlog: error: cannot write: " + rawlog));
+  EXPECT_FALSE(fs::exists(rawlog));
+  EXPECT_FALSE(fs::exists(folder.path(".partial.out.rawlog")));
 }
 
 }  // namespace

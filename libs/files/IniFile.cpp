@@ -100,7 +100,9 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
   std::optional<std::string> section;
   std::set<std::string> keys;  // of the section
   std::vector<std::string> warnings;
+  size_t number = 0;
   for (std::string line; std::getline(in, line);) {
+    const std::string where = file + ", line " + std::to_string(++number);
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
     removeByteOrderMark(line);
     if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
@@ -110,16 +112,17 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
       keys.clear();
       const std::string rest = mrpt::system::trim(line.substr(end + 1));
       if (contains(sections, *section) && !rest.empty() && rest.find_first_of("#;/") != 0)
-        throw InputError("wrong line `" + line + "`", file, "expected nothing but a comment after [section]");
+        throw InputError("wrong line `" + line + "`", where,
+                         "expected nothing but a comment after [section]");
       continue;
     }
     const bool isOurs = section && contains(sections, *section);
     if (!section || (isOurs && (equals == std::string::npos || equals == 0)))
-      throw InputError("wrong line `" + line + "`", file, "expected [section], key = value, or # comment");
+      throw InputError("wrong line `" + line + "`", where, "expected [section], key = value, or # comment");
     if (!isOurs) continue;
     const std::string key = mrpt::system::trim(line.substr(0, equals));
     if (!keys.insert(key).second)
-      warnings.push_back("repeated key `" + key + "`: " + file + ", section [" + *section +
+      warnings.push_back("repeated key `" + key + "`: " + where + ", section [" + *section +
                          "]; its last value is used");
   }
   return warnings;

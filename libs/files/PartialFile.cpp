@@ -104,10 +104,12 @@ void PartialFile::keep() {
   partial_.clear();  // another writer may have that name now
 }
 
-void PartialFile::fail(int error) const {
-  throw InputError("cannot write", final_,
-                   std::string("expected a writable folder with free disk space") +
-                       (error ? std::string(": ") + std::strerror(error) : std::string()));
+void failToWrite(const std::string& path, int error) {
+  const std::string expected = "expected a writable folder with free disk space" +
+                               (error ? std::string(": ") + std::strerror(error) : std::string());
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
+    throw DiskError("cannot write", path, expected);
+  throw InputError("cannot write", path, expected);
 }
 
 }  // namespace hybrid_slam::files

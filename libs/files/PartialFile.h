@@ -4,7 +4,19 @@
 
 #include <string>
 
+#include "base/Errors.h"
+
 namespace hybrid_slam::files {
+
+/// The disk is full or fails: no wrong input. Programs exit with 1.
+class DiskError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// @param error  errno, or 0 if unknown
+/// @throws DiskError for a full or failing disk, else InputError: the file cannot be written
+[[noreturn]] void failToWrite(const std::string& path, int error);
 
 /// Until `commit`, the file is called `.partial.NAME`, in the folder of NAME; without `commit` it is removed.
 /// If that folder is moved meanwhile, the file moves with it.
@@ -30,9 +42,8 @@ class PartialFile {
   void commit();
   /// Renames a file that cannot be written to its end. @throws InputError as `commit`
   void keep();
-  /// @param error  errno, or 0 if unknown
-  /// @throws InputError: the file cannot be written
-  [[noreturn]] void fail(int error) const;
+  /// @throws InputError as `failToWrite`
+  [[noreturn]] void fail(int error) const { failToWrite(final_, error); }
 
  private:
   void claim();

@@ -52,9 +52,7 @@ void syncOne(const fs::path& path) {
   const int error = file < 0 || ::fsync(file) != 0 ? errno : 0;
   if (file >= 0) ::close(file);
   const bool isUnknown = error == EINVAL && fs::is_directory(path);  // some file systems cannot sync folders
-  if (error && !isUnknown)
-    throw InputError("cannot write", path.string(),
-                     std::string("expected a writable folder with free disk space: ") + std::strerror(error));
+  if (error && !isUnknown) failToWrite(path.string(), error);
 }
 
 /// Syncs a folder to disk, with its subfolders, so that a power cut after the renaming leaves no empty files.

@@ -100,7 +100,7 @@ TEST_F(ConfigurationTest, ARepeatedKeyGivesAWarning) {
   folder.write("run.ini", "[grid]\nresolution = 0.2\nmax_range = 9\nresolution=0.1\n[x]\na=1\na=2\n");
   const Configuration configuration(ini, {});
   EXPECT_THAT(configuration.warnings, testing::Contains("repeated key `resolution`: " + ini +
-                                                        ", section [grid]; its last value is used"));
+                                                        ", line 4, section [grid]; its last value is used"));
   EXPECT_EQ(configuration.filter.grid.resolution, 0.1);
   folder.write("run.ini", "[grid]\nresolution = 0.2\n[run]\n[grid]\nresolution = 0.1\n");
   const Configuration joined(ini, {});
@@ -154,7 +154,7 @@ TEST_F(ConfigurationTest, TheTimeOfAScanIsSetInOneWay) {
 
 TEST_F(ConfigurationTest, LinesThatTheParserIgnoresAreErrors) {
   EXPECT_EQ(errorOf("[particle_filter]\nparticles 7\n"),
-            "wrong line `particles 7`: " + ini + "; expected [section], key = value, or # comment");
+            "wrong line `particles 7`: " + ini + ", line 2; expected [section], key = value, or # comment");
   EXPECT_THAT(errorOf("[grid]\n= 0.05\n"), StartsWith("wrong line `= 0.05`"));
   EXPECT_THAT(errorOf("particles\n[run]\n"), StartsWith("wrong line `particles`"));
   EXPECT_THAT(errorOf("particles = 7\n[run]\n"), StartsWith("wrong line `particles = 7`"));

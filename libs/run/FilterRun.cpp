@@ -72,6 +72,10 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
   staged_.expectKept({configuration.iniFile, run.rawlog, run.priorPlan});
   for (const std::string& name : {run.continueFrom, run.localizeIn}) staged_.expectKept(filesOfMap(name));
   cell_ = configuration.filter.grid.resolution;  // that of the map, if there is one
+  if (configuration.run.checkpointEvery > 0 &&
+      (configuration.run.method == Method::stock || configuration.run.method == Method::ortho))
+    throw InputError("method " + nameOf(configuration.run.method) + " saves no sessions",
+                     "option --checkpoint-every", "expected method hybrid, general or linemap");
   if (configuration.run.method == Method::stock) {
     auto stock = std::make_unique<StockMapBuilder>(stockSettings(configuration), configuration.filter.motion,
                                                    static_cast<uint32_t>(configuration.filter.filter.seed),
@@ -171,11 +175,26 @@ bool FilterRun::filter(const readings::Reading& reading) {
   return isUpdate;
 }
 
+// A corridor of another building may look like one of the map: then the scans from the way there contradict
+// it.
+bool FilterRun::contradictEarlierMap(const mrpt::math::TPose2D& pose) const {
+  constexpr double kMost = 0.3;  // of the scans
+  const std::vector<Revisit> compared = hybrid_->comparedWith(earlierMap_->grid, pose);
+  const auto contradicted = std::count_if(compared.begin(), compared.end(),
+                                          [](const Revisit& scan) { return scan.isContradicted(); });
+  return static_cast<double>(contradicted) > kMost * static_cast<double>(compared.size());
+}
+
 // Until the place in the map of the earlier run is found, the filter maps in its own frame.
 void FilterRun::searchPlace(const readings::Reading& reading) {
+  constexpr size_t kPause = 20;  // scans
   search_->process(reading.motion, reading.scans);
-  if (!search_->isLocalized()) return;
+  if (!search_->isLocalized() || scans_ < nextPlace_) return;
   const mrpt::math::TPose2D pose = search_->bestPath().back();
+  if (!configuration_.run.start && contradictEarlierMap(pose)) {
+    nextPlace_ = scans_ + kPause;
+    return;
+  }
   notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(pose.x, 2) + ", " +
                    fixedText(pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(pose.phi), 1) +
                    " deg in the map of " + configuration_.run.continueFrom);

@@ -154,6 +154,7 @@ class FilterRun {
   void checkMemory();
   std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
+  bool contradictEarlierMap(const mrpt::math::TPose2D& pose) const;
   void searchPlan(const readings::Reading& reading);
   /// @param pose  current pose of the robot in the map
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
@@ -187,6 +188,7 @@ class FilterRun {
   Localizer* localizer_ = nullptr;               ///< filter_, if it localises
   std::optional<ScanMap> earlierMap_;            ///< to continue, until the place in it is found
   std::unique_ptr<Localizer> search_;            ///< for this place
+  size_t nextPlace_ = 0;                         ///< scan from which a place may be accepted
   std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
   std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/PoseDistance.h"
 #include "slam/grid/GridConversion.h"
 
 namespace hybrid_slam {
@@ -15,6 +16,7 @@ HybridFilter::HybridFilter(const FilterConfiguration& configuration)
       closesLoops_(configuration.closesLoops()),
       keepsScans_(configuration.keepsScans()),
       resolution_(configuration.grid.resolution),
+      maxRange_(configuration.grid.maxRange),
       prepare_(configuration),
       makeMap_(configuration),
       particles_(configuration, &profiler()),
@@ -82,10 +84,25 @@ void HybridFilter::continueFrom(const std::vector<TPose2D>& path) {
   particles_.continueFrom(path, map.grid, map.lines, map.features);
 }
 
+TPose2D HybridFilter::frameIn(const TPose2D& pose) const {
+  return pose + (TPose2D() - (particles_.best().path.back() + odometry_));
+}
+
+std::vector<Revisit> HybridFilter::comparedWith(const OccupancyGrid& map, const TPose2D& pose) const {
+  constexpr double kLast = 50;  // m of path: earlier poses may have drifted
+  const TPose2D frame = frameIn(pose);
+  const std::vector<TPose2D> path = bestPath();
+  const std::vector<double> distances = lengthsAlong(path);
+  RevisitCheck check(map);
+  for (size_t i = 0; i < updateScans_.size(); ++i)
+    if (distances[i] > distances.back() - kLast)
+      check.add(frame + path[i], beamsToCompare(updateScans_[i], maxRange_), distances[i], i);
+  return check.revisits();
+}
+
 double HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   base_ = map;
-  const TPose2D now = particles_.best().path.back() + odometry_;
-  const TPose2D origin = pose + (TPose2D() - now);  // of the map so far, in the other
+  const TPose2D origin = frameIn(pose);
   std::vector<TPose2D> path = particles_.best().path.poses();
   for (TPose2D& at : path) at = origin + at;
   for (PosedScans& known : known_) known.pose = origin + known.pose;

@@ -8,6 +8,7 @@
 #include "slam/filter/PathGrid.h"
 #include "slam/filter/Refinement.h"
 #include "slam/loops/LoopCloser.h"
+#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam {
 
@@ -38,6 +39,10 @@ class HybridFilter : public Filter {
   void expectMap() { remembersScans_ = true; }
   /// Keeps the scans only if the settings need them (FilterConfiguration::keepsScans).
   void expectNoMap();
+  /// Compares the scans of the last 50 m of path with a map that the robot may be in. Call it after
+  /// `expectMap`.
+  /// @param pose  current pose of the robot (m, rad), in that map
+  std::vector<Revisit> comparedWith(const OccupancyGrid& map, const mrpt::math::TPose2D& pose) const;
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that
   /// map.
   /// @param pose  current pose of the robot (m, rad), in that map; path and scans so far are transformed
@@ -74,10 +79,12 @@ class HybridFilter : public Filter {
   const OccupancyGrid& bestOccupancy() const;
   void closeLoops(const PreparedScan& scan);
   void continueFrom(const std::vector<mrpt::math::TPose2D>& path);
+  /// Frame of the map so far in another map, where the robot is at `pose`.
+  mrpt::math::TPose2D frameIn(const mrpt::math::TPose2D& pose) const;
 
   UpdateInterval interval_;
   bool useGrid_, closesLoops_, keepsScans_;
-  double resolution_;  ///< m, of the grids
+  double resolution_, maxRange_;  ///< m, of the grids
   ScanPreparation prepare_;
   MapMaker makeMap_;
   ParticleSet particles_;

@@ -60,7 +60,7 @@ CellBox reach(const LaserScans& scans, const mrpt::math::TPose2D& robot, const O
 
 }  // namespace
 
-// w_grid of Sec. III-D. The penetration model is that of the paper's [4]; MRPT's methods are alternatives.
+// w_grid of Sec. III-D. The penetration model follows the paper's [4]; MRPT's methods are alternatives.
 double GridWeight::logWeight(const ScanBeams& beams, const LaserScans& scans,
                              const mrpt::math::TPose2D& robot, const OccupancyGrid& grid) const {
   if (options_.method == Method::penetration) return penetration_.meanLogLikelihood(beams, robot, grid);

@@ -13,8 +13,8 @@ void GridWeightOptions::describe(OptionTable& t) {
          {Method::likelihoodField, "likelihood_field"},
          {Method::rayTracing, "ray_tracing"},
          {Method::consensus, "consensus"}},
-        "penetration: as in the paper's reference [4]; the others are MRPT's likelihood methods (slow; for "
-        "comparison)");
+        "penetration: after the paper's reference [4]; the others are MRPT's likelihood methods (slow; for "
+        "comparison). The whole section: weights of proposal standard, and of places (slips, localisation)");
   t.add("exponent", exponent, 0, 1000, "",
         "w_grid = (geometric mean of the beam likelihoods)^exponent: the effective number of independent "
         "beams");

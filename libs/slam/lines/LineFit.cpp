@@ -14,7 +14,7 @@ void LineFitOptions::describe(OptionTable& table) {
             "orthogonal: least squares of the orthogonal distances; paper: eq. (2)-(5) (less accurate: "
             "doc/paper-notes.md)");
   table.add("max_rms", maxRms, 0, 10, "m",
-            "method orthogonal: largest RMS distance of a segment's points from the line");
+            "method orthogonal, and regression: largest RMS distance of a segment's points from the line");
   table.add("max_error", maxError, 0, 1e6, "m^2", "method paper: largest error, eq. (5), of a segment");
 }
 

@@ -13,9 +13,12 @@ void SegmentationOptions::describe(OptionTable& table) {
             "gap_relative x range");
   table.add("gap_relative", gapRelative, 0, 1, "",
             "range-dependent part of that gap (beam spacing grows with range)");
-  table.add("split", split, "split segments at corners (iterative end-point fit); not in the paper");
+  table.add("split", split,
+            "split and split_merge: split segments at corners (iterative end-point fit); not in the paper");
   table.add("split_distance", splitDistance, 0.001, 10, "m",
-            "distance from the segment's chord that makes a point a corner");
+            "distance from the segment's chord that makes a point a corner; other methods: from the line, "
+            "largest of "
+            "its points (regression: not used)");
   table.add("min_points", minPoints, 2, 10000, "minimum number of points for a line");
   table.add("min_length", minLength, 0, 100, "m",
             "minimum length of a line; shorter ones have uncertain directions");
