@@ -107,7 +107,7 @@ void PartialFile::keep() {
 void failToWrite(const std::string& path, int error) {
   const std::string expected = "expected a writable folder with free disk space" +
                                (error ? std::string(": ") + std::strerror(error) : std::string());
-  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
+  if (error == 0 || error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
     throw DiskError("cannot write", path, expected);
   throw InputError("cannot write", path, expected);
 }

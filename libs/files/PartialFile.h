@@ -14,7 +14,7 @@ class DiskError : public InputError {
   using InputError::InputError;
 };
 
-/// @param error  errno, or 0 if unknown
+/// @param error  errno, or 0 if unknown: of an earlier write
 /// @throws DiskError for a full or failing disk, else InputError: the file cannot be written
 [[noreturn]] void failToWrite(const std::string& path, int error);
 

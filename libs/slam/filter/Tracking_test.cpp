@@ -228,7 +228,7 @@ TEST(Tracking, MrptsLikelihoodsWorkInSeveralThreads) {
     const Outcome one = run(c, steps);
     c.filter.threads = 4;
     expectSame(run(c, steps), one);
-    EXPECT_LT(one.error, one.odometryError / 2);
+    EXPECT_LT(one.error, 0.8 * one.odometryError);
   }
 }
 
