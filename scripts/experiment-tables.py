@@ -9,6 +9,7 @@
   scripts/experiment-tables.py parameters FOLDER   of scripts/features.sh parameters: parameters.md in FOLDER
   scripts/experiment-tables.py line-methods FOLDER of scripts/line-methods.sh: line-methods.md in FOLDER
   scripts/experiment-tables.py line-settings FOLDER of scripts/line-methods.sh settings: line-settings.md in FOLDER
+  scripts/experiment-tables.py literal FOLDER      of scripts/literal-paper.sh: literal.md in FOLDER
   scripts/experiment-tables.py always FOLDER METHOD N    ends with 0 if all runs of METHOD with N particles succeeded
 
 Also prints the tables. Needs gnuplot for the figures."""
@@ -252,6 +253,21 @@ def line_settings(folder):
     print(text)
 
 
+def literal(folder):
+    """The paper's formulas as printed against the defaults of its set-up."""
+    by_world = {w: {g.name: g for g in groups(folder / w)} for w in WORLDS if (folder / w / "summary.json").is_file()}
+    rows = []
+    for name in next(iter(by_world.values())):
+        formulas, _, threshold = name.removeprefix("hybrid-").removeprefix("general-").partition("_")
+        rows.append(["as printed" if formulas == "literal" else "ours",
+                     f"eq. (9), {threshold} deg" if threshold else "none" if name.startswith("general") else "graded",
+                     *(of_name[name].cell() for of_name in by_world.values())])
+    text = "<!-- made by: scripts/literal-paper.sh -->\n" + markdown(
+        ["formulas", "line weight"] + [WORLDS[w] for w in by_world], rows)
+    (folder / "literal.md").write_text(text)
+    print(text)
+
+
 def legend(lines, levels):
     """The legend in a separate panel, to save space in the plots."""
     entries = [f"NaN with linespoints pt 7 ps 0.5 lw 2 lc '{COLOURS[k]}' title '{LABELS[k]}'" for k in lines]
@@ -326,7 +342,8 @@ set grid lc '#dddddd'
 
 def main():
     commands = {"weights": weights, "search": search, "particles": particles, "frames": frames, "features": features,
-                "parameters": parameters, "line-methods": line_methods, "line-settings": line_settings}
+                "parameters": parameters, "line-methods": line_methods, "line-settings": line_settings,
+                "literal": literal}
     if len(sys.argv) == 5 and sys.argv[1] == "always":
         sys.exit(not any(g.name == sys.argv[3] and g.particles == int(sys.argv[4]) and g.successes == g.runs
                          for g in groups(sys.argv[2])))

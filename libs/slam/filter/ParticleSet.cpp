@@ -181,7 +181,7 @@ void ParticleSet::sampleByMrpt(const TPose2D& odometry, const PreparedScan& scan
   step_.resampled = hasResampled();
 }
 
-// Sec. III-D: w_grid by the penetration model of the paper's [4], w_line by eq. (9).
+// Sec. III-D: w_grid by a penetration model after the paper's [4], w_line by eq. (9) or a smooth match.
 ParticleSet::Weight ParticleSet::weigh(const Particle& particle, const TPose2D& pose,
                                        const PreparedScan& scan) const {
   Weight weight;
