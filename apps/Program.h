@@ -129,8 +129,8 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Runs a program's work. Returns 2 for wrong input, 1 for any other exception, a full disk or a full standard
-/// output.
+/// Runs a program's work. Returns 2 for wrong input, 1 for any other exception, a full disk or a full
+/// standard output.
 /// @param words  message for any other exception
 inline int exitCodeOf(const std::function<int()>& work,
                       const std::function<std::string(const std::exception&)>& words = messageOf) {
