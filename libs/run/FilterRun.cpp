@@ -22,6 +22,7 @@
 #include "run/ResourceUse.h"
 #include "run/ResultFiles.h"
 #include "run/StepsTable.h"
+#include "run/VerdictCheck.h"
 #include "slam/filter/StockMapBuilder.h"
 #include "slam/ortho/OrthoFilter.h"
 
@@ -175,14 +176,12 @@ bool FilterRun::filter(const readings::Reading& reading) {
   return isUpdate;
 }
 
-// A corridor of another building may look like one of the map: then the scans from the way there contradict
-// it.
-bool FilterRun::contradictEarlierMap(const mrpt::math::TPose2D& pose) const {
-  constexpr double kMost = 0.3;  // of the scans
-  const std::vector<Revisit> compared = hybrid_->comparedWith(earlierMap_->grid, pose);
-  const auto contradicted = std::count_if(compared.begin(), compared.end(),
-                                          [](const Revisit& scan) { return scan.isContradicted(); });
-  return static_cast<double>(contradicted) > kMost * static_cast<double>(compared.size());
+// A corridor of another building may look like one of the map. Then the scans on the way there contradict it.
+bool FilterRun::isContradictedAt(const mrpt::math::TPose2D& pose) {
+  if (!earlierWalls_) earlierWalls_ = toCompare(earlierMap_->grid);
+  const std::vector<Revisit> compared = hybrid_->comparedWith(*earlierWalls_, pose);
+  return static_cast<double>(contradictedOf(compared)) >
+         kMostAgainstEarlierMap * static_cast<double>(compared.size());
 }
 
 // Until the place in the map of the earlier run is found, the filter maps in its own frame.
@@ -191,7 +190,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   search_->process(reading.motion, reading.scans);
   if (!search_->isLocalized() || scans_ < nextPlace_) return;
   const mrpt::math::TPose2D pose = search_->bestPath().back();
-  if (!configuration_.run.start && contradictEarlierMap(pose)) {
+  if (!configuration_.run.start && isContradictedAt(pose)) {
     nextPlace_ = scans_ + kPause;
     return;
   }
@@ -200,6 +199,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
                    " deg in the map of " + configuration_.run.continueFrom);
   joinMap(*earlierMap_, pose);
   earlierMap_.reset();
+  earlierWalls_.reset();
   search_.reset();
 }
 

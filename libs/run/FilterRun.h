@@ -154,7 +154,8 @@ class FilterRun {
   void checkMemory();
   std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
-  bool contradictEarlierMap(const mrpt::math::TPose2D& pose) const;
+  /// Whether the scans so far contradict the earlier map, with the robot at `pose` in it.
+  bool isContradictedAt(const mrpt::math::TPose2D& pose);
   void searchPlan(const readings::Reading& reading);
   /// @param pose  current pose of the robot in the map
   void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
@@ -188,6 +189,7 @@ class FilterRun {
   Localizer* localizer_ = nullptr;               ///< filter_, if it localises
   std::optional<ScanMap> earlierMap_;            ///< to continue, until the place in it is found
   std::unique_ptr<Localizer> search_;            ///< for this place
+  std::optional<OccupancyGrid> earlierWalls_;    ///< of this map, to compare scans with
   size_t nextPlace_ = 0;                         ///< scan from which a place may be accepted
   std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry

@@ -21,7 +21,7 @@ constexpr size_t kMostPlaces = 10;
 // Calibrated on seeds from 101 on: doc/verdict.md.
 constexpr double kReturningDoubtful = 0.12, kReturningLost = 0.5;
 constexpr double kRecentDoubtful = 0.12, kRecentLost = 0.25;
-constexpr double kEarlierDoubtful = 0.3, kEarlierLost = 0.5;  // buildings change between runs
+constexpr double kEarlierLost = 0.5;
 constexpr double kJump = 0.5;      // share of a scan's beams that contradict the map
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
@@ -30,11 +30,6 @@ constexpr double kSlips = 0.5;     // share of the updates
 constexpr size_t kFewestSlips = 10;
 constexpr double kFaults = 0.1;   // of the odometry, per scan
 constexpr double kFewBeams = 30;  // wrong maps of fewer agree with themselves
-
-size_t contradictedOf(const std::vector<Revisit>& revisits) {
-  return static_cast<size_t>(std::count_if(revisits.begin(), revisits.end(),
-                                           [](const Revisit& revisit) { return revisit.isContradicted(); }));
-}
 
 using Stretch = std::vector<const Revisit*>;
 
@@ -142,7 +137,7 @@ Verdict verdictOf(const Evidence& evidence) {
   // Another run with more particles would find the same place, so this does not count as contradicted.
   const size_t against = contradictedOf(evidence.earlier);
   const double part = static_cast<double>(against) / static_cast<double>(evidence.earlier.size());
-  if (against >= kFewest && part > kEarlierDoubtful)
+  if (against >= kFewest && part > kMostAgainstEarlierMap)
     find(part > kEarlierLost ? Level::lost : Level::doubtful,
          share(against, evidence.earlier.size()) + " scans contradict the map that the run continues");
   verdict.places = placesOf(stretchesOf(evidence.returning), kFewest);

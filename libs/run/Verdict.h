@@ -48,6 +48,9 @@ struct Evidence {
   bool isCut = false;              ///< the scans after the end of a recording could not be compared
 };
 
+/// Share of the scans that may contradict the map that a run continues: buildings change between runs.
+constexpr double kMostAgainstEarlierMap = 0.3;
+
 /// The evidence of the same scans compared with both maps.
 Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/PoseDistance.h"
+#include "slam/merging/MapTransform.h"
 
 namespace hybrid_slam::run {
 
@@ -20,6 +21,11 @@ bool ComparisonSteps::isDue(const TPose2D& pose) {
   if (last_ && isWithin(*last_, pose, kStep, kStepAngle)) return false;
   last_ = pose;
   return true;
+}
+
+OccupancyGrid toCompare(const OccupancyGrid& map) {
+  constexpr double kCell = RevisitCheck::kResolution;
+  return map.resolution() <= kCell ? resampled(map, {}, kCell) : OccupancyGrid(kCell);
 }
 
 void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {

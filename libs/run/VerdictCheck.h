@@ -26,13 +26,17 @@ class ComparisonSteps {
   std::optional<mrpt::math::TPose2D> last_;
 };
 
+/// The map of an earlier run as RevisitCheck takes it. Larger cells blur the walls: their map becomes empty,
+/// so that nothing is compared with it.
+OccupancyGrid toCompare(const OccupancyGrid& map);
+
 /// Collects the evidence of the scans along the final path.
 class VerdictCheck {
  public:
   /// @param maxRange  m, of the beams that the map uses
   /// @param earlier   map that the run continues, or null
   explicit VerdictCheck(double maxRange, const OccupancyGrid* earlier = nullptr) : maxRange_(maxRange) {
-    if (earlier) earlier_.emplace(*earlier);
+    if (earlier) earlier_.emplace(toCompare(*earlier));
   }
 
   /// @param pose  of the next update, map frame; @param scans  of it

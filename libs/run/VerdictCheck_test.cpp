@@ -55,6 +55,26 @@ TEST(ComparedScans, AreJudgedByThePathAsItIsNow) {
   EXPECT_EQ(verdictOf(both.soFar).level, Verdict::Level::lost);
 }
 
+TEST(VerdictCheck, AnEarlierMapIsComparedIfItsCellsAreSmallEnough) {
+  for (const double cell : {0.03, 0.05, 0.1, 0.2}) {
+    GridOptions options;
+    options.resolution = cell;
+    OccupancyGrid map(cell);
+    for (size_t i = 0; i < 80; ++i)
+      map.insert(ScanBeams(toLaserScans({test::scan(0, test::poseOnLap(i, 80))}, kMaxRange)),
+                 test::poseOnLap(i, 80), options);
+    VerdictCheck here(kMaxRange, &map), turned(kMaxRange, &map);
+    for (size_t i = 0; i < 80; ++i) {
+      here.add(test::poseOnLap(i, 80), {test::scan(0, test::poseOnLap(i, 80))});
+      turned.add(TPose2D(0, 0, 1) + test::poseOnLap(i, 80), {test::scan(0, test::poseOnLap(i, 80))});
+    }
+    const std::vector<Revisit> right = here.evidence().earlier, wrong = turned.evidence().earlier;
+    EXPECT_EQ(right.size() > 10, cell <= 0.1) << cell;
+    EXPECT_EQ(contradictedOf(right), 0u) << cell;
+    EXPECT_EQ(contradictedOf(wrong) > 5, cell <= 0.1) << cell;
+  }
+}
+
 /// Of a laser that logs 3 m for no return; their ends would contradict the map.
 TEST(VerdictCheck, BeamsThatTheMapDoesNotUseAreNotCompared) {
   VerdictCheck check(2.99), withAllBeams(kMaxRange);

@@ -1,8 +1,6 @@
 // A filter that may be in the map of an earlier run.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "slam/filter/HybridFilter.h"
 #include "testing/FilteredDrive.h"
 
@@ -16,16 +14,15 @@ using namespace test;
 double contradictedShare(const TPose2D& off, size_t first, size_t last) {
   const std::vector<DrivenPose> drive = ringDrive(0);
   GridOptions options;
-  OccupancyGrid map;
+  options.resolution = RevisitCheck::kResolution;
+  OccupancyGrid map(options.resolution);
   for (const DrivenPose& driven : drive) map.insert(ScanBeams(driven.scans), driven.truth, options);
   HybridFilter filter{FilterConfiguration()};
   filter.expectMap();
   filtered(filter, {drive.begin() + first, drive.begin() + last});
   const std::vector<Revisit> compared = filter.comparedWith(map, drive[last - 1].truth + off);
   EXPECT_GT(compared.size(), 20u);
-  const auto contradicted = std::count_if(compared.begin(), compared.end(),
-                                          [](const Revisit& scan) { return scan.isContradicted(); });
-  return static_cast<double>(contradicted) / static_cast<double>(compared.size());
+  return static_cast<double>(contradictedOf(compared)) / static_cast<double>(compared.size());
 }
 
 TEST(EarlierMap, ScansContradictItAtAWrongPlaceOnly) {
@@ -36,7 +33,9 @@ TEST(EarlierMap, ScansContradictItAtAWrongPlaceOnly) {
 
 TEST(EarlierMap, TheNewestScansCountNotThoseFromLongAgo) {
   const std::vector<DrivenPose> drive = ringDrive(0);
-  HybridFilter filter{FilterConfiguration()};
+  FilterConfiguration configuration;
+  configuration.grid.resolution = RevisitCheck::kResolution;
+  HybridFilter filter(configuration);
   filter.expectMap();
   filtered(filter, {drive.begin(), drive.begin() + 320});
   const auto compared = filter.comparedWith(filter.bestMap().grid, filter.bestPath().back());

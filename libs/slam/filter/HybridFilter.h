@@ -41,6 +41,7 @@ class HybridFilter : public Filter {
   void expectNoMap();
   /// Compares the scans of the last 50 m of path with a map that the robot may be in. Call it after
   /// `expectMap`.
+  /// @param map   with cells of RevisitCheck::kResolution
   /// @param pose  current pose of the robot (m, rad), in that map
   std::vector<Revisit> comparedWith(const OccupancyGrid& map, const mrpt::math::TPose2D& pose) const;
   /// Joins the map so far to that of an earlier run, in its frame. Later loop closures do not change that

@@ -23,9 +23,8 @@ namespace hybrid_slam {
 /// With a drift of half a metre, the search for slips finds the robot among the old walls, and the path jumps
 /// there. If the odometry of this motion fits the latest scans better, it is taken instead.
 /// @param path      a pose for each update, map frame
-/// @param odometry  the motion from each update to the next one (m, rad; in the frame of the earlier pose),
-/// at
-///                  the index of the next; zero for the first
+/// @param odometry  the motion from each update to the next one, at the index of the next (m, rad; in the
+///                  frame of the earlier pose); zero for the first
 /// @param scans     of each update; those of the last ones may be missing
 std::vector<mrpt::math::TPose2D> relaxed(const std::vector<mrpt::math::TPose2D>& path,
                                          const std::vector<mrpt::math::TPose2D>& odometry,

@@ -43,9 +43,9 @@ TEST(ReturnMatches, AreTheTrueMotions) {
   }
 }
 
-/// Along a bare corridor, a match knows the position across it and the heading. The robot drives there and
-/// back, so the frames of the edges, those of the earlier poses, point along the corridor, whatever the map
-/// frame.
+/// A bare corridor shows the position across it and the heading, but not the position along it. The frame of
+/// an edge is that of the earlier pose, whose x axis is along the corridor, so its information on x is the
+/// smallest in any map frame.
 TEST(ReturnMatches, TheirInformationIsInTheFrameOfTheEarlierPose) {
   for (const double turn : {0.0, 0.7, M_PI / 2, -2.0}) {
     const TruePath there(driveAlong(box(-60, -1.5, 100, 1.5), {{0, 0}, {40, 0}, {10, 0}}, 0), turn);

@@ -51,32 +51,9 @@ std::vector<Revisit> common(const std::vector<Revisit>& revisits, const std::vec
   return both;
 }
 
-/// The map on larger cells; of several values in a cell, the highest.
-OccupancyGrid resampled(const OccupancyGrid& map, double resolution) {
-  OccupancyGrid result(resolution);
-  const double scale = map.resolution() / resolution;
-  const auto low = [scale](int cell) { return floorOf(cell * scale + 1e-6); };
-  const auto high = [scale](int cell) { return floorOf((cell + 1) * scale - 1e-6); };
-  map.tiles().forEachTile([&](int tx, int ty, const Tile& tile) {
-    for (int y = ty * Tile::kSize; y < (ty + 1) * Tile::kSize; ++y)
-      for (int x = tx * Tile::kSize; x < (tx + 1) * Tile::kSize; ++x) {
-        const int8_t value = tile.cells()[Tile::index(x, y)];
-        if (value == 0) continue;
-        for (int j = low(y); j <= high(y); ++j)
-          for (int i = low(x); i <= high(x); ++i) {
-            const int8_t before = result.tiles().at({i, j});
-            result.tiles().set({i, j}, before == 0 ? value : std::max(before, value));
-          }
-      }
-  });
-  return result;
-}
-
 }  // namespace
 
-RevisitCheck::RevisitCheck(const OccupancyGrid& map)
-    : delay_(INFINITY),
-      grid_(map.resolution() <= kResolution ? resampled(map, kResolution) : OccupancyGrid(kResolution)) {}
+RevisitCheck::RevisitCheck(const OccupancyGrid& map) : delay_(INFINITY), grid_(map) {}
 
 void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
   if (!isInReach(pose)) return;
@@ -98,6 +75,11 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
       static_cast<double>(revisit.compared) >= kFewestShare * static_cast<double>(beams.rays.size()))
     revisits_.push_back(revisit);
   if (std::isfinite(delay_)) waiting_.push_back({pose, beams, distance});
+}
+
+size_t contradictedOf(const std::vector<Revisit>& revisits) {
+  return static_cast<size_t>(std::count_if(revisits.begin(), revisits.end(),
+                                           [](const Revisit& revisit) { return revisit.isContradicted(); }));
 }
 
 double contradictionOf(const std::vector<Revisit>& revisits) {

@@ -30,8 +30,8 @@ class RevisitCheck {
  public:
   /// @param delay  m of path
   explicit RevisitCheck(double delay) : delay_(delay), grid_(kResolution) {}
-  /// Compares each scan with `map` alone: the map of an earlier run. Larger cells than 0.1 m blur the walls;
-  /// nothing is compared with them.
+  /// Compares each scan with `map` alone, the map of an earlier run.
+  /// @param map  with cells of kResolution
   explicit RevisitCheck(const OccupancyGrid& map);
 
   /// Adds the next scan of the path.
@@ -58,6 +58,9 @@ class RevisitCheck {
   std::vector<Revisit> revisits_;
   size_t scans_ = 0, beams_ = 0;
 };
+
+/// Number of the scans that contradict the map.
+size_t contradictedOf(const std::vector<Revisit>& revisits);
 
 /// Share of the compared beams that contradict the map; 0 without any.
 double contradictionOf(const std::vector<Revisit>& revisits);
