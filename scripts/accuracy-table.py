@@ -39,8 +39,8 @@ VARIANTS = {
 # Hess et al. 2016.
 PUBLISHED = {
     "scan matching (Kuemmerle et al. 2009)": ["0.220", "", "0.106", "0.258", "1.651"],
-    "GMapping (the same)": ["0.070", "", "0.049", "0.061", "0.122"],
-    "graph mapping (the same)": ["0.031", "", "0.004", "0.056", "0.050"],
+    "GMapping (Kuemmerle et al.)": ["0.070", "", "0.049", "0.061", "0.122"],
+    "graph mapping (Kuemmerle et al.)": ["0.031", "", "0.004", "0.056", "0.050"],
     "Cartographer (Hess et al. 2016)": ["0.023", "", "0.032", "0.045", "0.040"],
 }
 PEER_LOGS = [("intel-lab", "errors-full", "Intel (2,984)"), ("intel-lab", "errors", "Intel (1,745)"),

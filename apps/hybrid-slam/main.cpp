@@ -52,9 +52,9 @@ void describe(CLI::App& app, CommandLine& line) {
   app.footer(
       "Settings that depend on the sensor are derived from the log and printed; the INI file and --set\n"
       "override them.\n"
-      "Results: trajectory.tum, map.png, map.pgm + map.yaml, map.gridmap.gz, map.simplemap.gz, lines.csv,\n"
-      "plan.svg, plan.dxf, plan.geojson, steps.csv, metrics.json, config.ini, session.hslam\n"
-      "(doc/results.md). Ctrl-C ends the run and writes the results.\n"
+      "Results: trajectory.tum, covariance.csv, map.png, map.pgm + map.yaml, map.gridmap.gz,\n"
+      "map.simplemap.gz, lines.csv, plan.svg, plan.dxf, plan.geojson, steps.csv, metrics.json, config.ini,\n"
+      "session.hslam (doc/results.md). Ctrl-C ends the run and writes the results.\n"
       "Exit: 0 done, 1 the run failed, covers only part of the log or (--strict) is lost,\n"
       "2 wrong command line or input.");
 }
