@@ -11,6 +11,7 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "ChildProgram.h"
@@ -137,6 +138,9 @@ TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
 }
 
 TEST_F(SlamCompare, ReportOnlyStartsNothing) {
+  EXPECT_THAT(errorLine(run("--methods general --seeds 1 --report-only")),
+              HasSubstr("no finished run: folder out; expected runs of this command"));
+  EXPECT_FALSE(fs::exists(folder.path("out")));
   ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
   const Outcome o = run("--methods general --seeds 3 -q --report-only");
   EXPECT_EQ(o.status, 0) << o.err;
@@ -178,6 +182,22 @@ TEST_F(SlamCompare, AnotherLogNeedsAnotherFolder) {
   EXPECT_THAT(outcome.err, HasSubstr("other.rawlog"));
   EXPECT_EQ(test::contentOf(folder.path("out/report.html")), report);
   EXPECT_EQ(runs().size(), 1u);
+}
+
+/// The runs of a comparison differ in their seeds alone. A single particle does not close the loop.
+TEST_F(SlamCompare, ALostRunIsNotRepeated) {
+  config = folder.write("one.ini",
+                        "[particle_filter]\nparticles = 0\nmin_particles = 1\nmax_particles = 1\n"
+                        "proposal = standard\n");
+  const std::string command = std::string("'") + SLAM_COMPARE + "' " + config + " " + kCsie +
+                              "csie-loop.rawlog -o out -q --methods hybrid --seeds 1";
+  ASSERT_EQ(shell(command).status, 0);
+  const auto metrics =
+      nlohmann::json::parse(test::contentOf(folder.path("out/runs/" + runs().at(0) + "/metrics.json")));
+  EXPECT_EQ(metrics["verdict"], "lost");
+  EXPECT_EQ(metrics["second_run"], false);
+  const test::Outcome again = shell(command);
+  EXPECT_EQ(again.status, 0) << again.err;
 }
 
 }  // namespace

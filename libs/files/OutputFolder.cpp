@@ -14,6 +14,7 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder) {
   const std::string expected = "expected a folder that can be created and written to";
   std::error_code error, ignored;
   std::filesystem::create_directories(folder_, error);
+  if (isOfDisk(error.value())) failToWrite(folder, error.value());
   if (!std::filesystem::is_directory(folder_, ignored))
     throw InputError("no such folder, and it cannot be created", folder,
                      expected + (error ? ": " + error.message() : ""));

@@ -104,11 +104,12 @@ void PartialFile::keep() {
   partial_.clear();  // another writer may have that name now
 }
 
+bool isOfDisk(int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO; }
+
 void failToWrite(const std::string& path, int error) {
   const std::string expected = "expected a writable folder with free disk space" +
                                (error ? std::string(": ") + std::strerror(error) : std::string());
-  if (error == 0 || error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
-    throw DiskError("cannot write", path, expected);
+  if (error == 0 || isOfDisk(error)) throw DiskError("cannot write", path, expected);
   throw InputError("cannot write", path, expected);
 }
 

@@ -14,6 +14,9 @@ class DiskError : public InputError {
   using InputError::InputError;
 };
 
+/// Whether errno says that the disk is full or fails.
+bool isOfDisk(int error);
+
 /// @param error  errno, or 0 if unknown: of an earlier write
 /// @throws DiskError for a full or failing disk, else InputError: the file cannot be written
 [[noreturn]] void failToWrite(const std::string& path, int error);

@@ -145,8 +145,7 @@ std::string StagedFolder::keepOwn() {
   if (error && !fs::copy_file(own, kept, error)) {
     std::error_code ignored;
     fs::remove(kept, ignored);  // a part of it
-    throw InputError("cannot keep", own.string(),
-                     "expected free disk space for a copy beside the new results: " + error.message());
+    failToWrite(kept.string(), error.value());
   }
   return finalPath(own_);
 }
@@ -197,6 +196,7 @@ void StagedFolder::takeFolderBeside() {
   const std::string date = claimDatedName([this](const std::string& name) {
     if (::mkdir((final_.string() + "-" + name).c_str(), 0777) == 0) return true;
     if (errno == EEXIST) return false;
+    if (isOfDisk(errno)) failToWrite(asked_, errno);
     throw InputError(
         "output folder in use by another run", asked_,
         std::string("expected another folder, since none can be created beside it: ") + std::strerror(errno));
@@ -211,8 +211,7 @@ void StagedFolder::takeDatedSubfolder() {
   const std::string name = claimDatedName([&](const std::string& date) {
     if (::mkdir((folder / date).c_str(), 0777) == 0) return true;
     if (errno == EEXIST) return false;
-    throw InputError("output folder not writable", asked_,
-                     std::string("expected a folder that can be written to: ") + std::strerror(errno));
+    failToWrite(asked_, errno);
   });
   final_ = folder / name;
   shown_ = (fs::path(asked_) / name).string();
@@ -224,9 +223,7 @@ void StagedFolder::takeDatedSubfolder() {
 void StagedFolder::stageIn(const fs::path& place, const std::string& prefix) {
   for (;;) {
     std::string name = (place / (prefix + "XXXXXX")).string();
-    if (!::mkdtemp(name.data()))
-      throw InputError("output folder not writable", asked_,
-                       std::string("expected a folder that can be written to: ") + std::strerror(errno));
+    if (!::mkdtemp(name.data())) failToWrite(asked_, errno);
     lock_ = openFolder(name);
     const bool isFree = lock_ < 0 || lock(lock_) != Lock::ofAnother;
     if (isFree && fs::exists(name)) {  // otherwise another process has just removed it as abandoned

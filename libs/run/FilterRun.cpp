@@ -100,6 +100,10 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
                                             configuration.run.start);
     if (!configuration.run.priorPlan.empty()) planSearch_ = planSearchOf(configuration);
     if (search_ || planSearch_) hybrid_->expectMap();
+    if (search_ && !configuration.run.start && earlierMap_->grid.resolution() > RevisitCheck::kResolution)
+      notes_.push_back("the place in " + configuration.run.continueFrom +
+                       " is not checked: its cells are larger than " +
+                       fixedText(RevisitCheck::kResolution, 1) + " m");
   }
   if (!configuration.input.requireOdometry)
     scanOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
@@ -187,8 +191,10 @@ bool FilterRun::isContradictedAt(const mrpt::math::TPose2D& pose) {
 // Until the place in the map of the earlier run is found, the filter maps in its own frame.
 void FilterRun::searchPlace(const readings::Reading& reading) {
   constexpr size_t kPause = 20;  // scans
+  const size_t before = search_->updates();
   search_->process(reading.motion, reading.scans);
-  if (!search_->isLocalized() || scans_ < nextPlace_) return;
+  const bool isUpdate = search_->updates() > before;  // else its pose is that of an earlier scan
+  if (!isUpdate || !search_->isLocalized() || scans_ < nextPlace_) return;
   const mrpt::math::TPose2D pose = search_->bestPath().back();
   if (!configuration_.run.start && isContradictedAt(pose)) {
     nextPlace_ = scans_ + kPause;

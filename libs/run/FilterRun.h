@@ -192,6 +192,7 @@ class FilterRun {
   std::optional<OccupancyGrid> earlierWalls_;    ///< of this map, to compare scans with
   size_t nextPlace_ = 0;                         ///< scan from which a place may be accepted
   std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
+  bool wasPlaceUnknown_ = false;                 ///< in the session that was read
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
   std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still
   std::ostringstream steps_;                     ///< in memory: a disk that is full for a while costs no row

@@ -252,19 +252,20 @@ void FilterRun::writeMap(const Result& result, const std::string& file, const re
       gridOf(result);
       savePlan(folder_, floorPlanOf(result.lines, result.map.grid));
     });
-  const bool continuesMap = hasEarlierMap() && !configuration_.run.continueFrom.empty();
-  VerdictCheck check(configuration_.filter.grid.maxRange, continuesMap ? &hybrid_->base()->grid : nullptr);
+  VerdictCheck check(configuration_.filter.grid.maxRange, filter_->earlierMap());
   std::vector<bool> isUpdate;
   for (size_t i = 0; i < std::min(uses_.size(), log.scans); ++i) isUpdate.push_back(uses_[i] == Use::update);
-  bool isRead = true;
-  if (log.scans > 0)
-    isRead = writeOrNote("map.simplemap.gz", [&] {
-      LogAgain again(file, configuration_.input, log);
-      saveSimpleMap(folder_, again, isUpdate, result.path,
-                    [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
-    });
+  const auto compare = [&] {
+    LogAgain again(file, configuration_.input, log);
+    saveSimpleMap(folder_, again, isUpdate, result.path,
+                  [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+  };
+  const bool isCompared = log.scans == 0 || writeOrNote("map.simplemap.gz", compare);
   Evidence evidence = check.evidence();
-  evidence.isCut = !isRead || isUpdate.size() < uses_.size();
+  if (!isCompared)
+    evidence.notCompared = whyMissing_;
+  else if (isUpdate.size() < uses_.size())
+    evidence.notCompared = "the recording ends before the run";
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = slips_;
   evidence.updates = updateTimes_.size();

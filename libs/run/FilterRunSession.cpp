@@ -1,6 +1,5 @@
 // Saves a run and continues it.
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <stdexcept>
 
@@ -64,6 +63,10 @@ void FilterRun::visit(State& state) {
   if constexpr (State::kIsReading)
     if (state.isAtEnd()) return;  // a session of a version that did not replace stuck odometry
   if (stuckOdometry_) state(stuckScans_, firstStuck_, *stuckOdometry_);
+  if constexpr (State::kIsReading)
+    if (state.isAtEnd()) return;  // a session of a version that did not store this
+  wasPlaceUnknown_ = search_ || planSearch_;
+  state(wasPlaceUnknown_);
 }
 
 std::string FilterRun::sessionWith(const ScanMap& map, const std::vector<mrpt::math::TPose2D>& poses) {
@@ -205,9 +208,12 @@ ScanMap FilterRun::currentMap() const {
 void FilterRun::resume(SessionReader& session) {
   if (!hybrid_)
     throw InputError("method " + nameOf(configuration_.run.method) + " has no sessions", session.file(),
-                     "expected method hybrid or general");
+                     "expected method hybrid, general or linemap");
   updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
+  if (wasPlaceUnknown_)
+    throw InputError("the run had not found its place in the earlier map or floor plan", session.file(),
+                     "expected a session of a placed run; this one can be the map of --continue");
   files::PartialFile::removeLeft(session.file());  // what a killed run leaves of its next checkpoint
 }
 

@@ -29,7 +29,8 @@ void checkFilter(const Configuration& configuration) {
   if (proposal != Proposal::standard && proposal != Proposal::improved)
     throw InputError("filter not suited for learning", "section [particle_filter], key `proposal`",
                      "expected standard or improved");
-  if (configuration.run.method == RunOptions::Method::stock)
+  using Method = RunOptions::Method;
+  if (configuration.run.method == Method::stock || configuration.run.method == Method::ortho)
     throw InputError("filter not suited for learning", "section [run], key `method`",
                      "expected hybrid or general");
 }

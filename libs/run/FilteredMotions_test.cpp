@@ -35,5 +35,14 @@ TEST(FilteredMotions, ALogThatHasChangedSinceItsSummaryIsAnError) {
               testing::StartsWith("log has changed while it was read: " + log));
 }
 
+TEST(FilteredMotions, FiltersWithoutWeightedMotionsAreRejected) {
+  for (const char* method : {"stock", "ortho"}) {
+    const Configuration c("", {"run.method=" + std::string(method)});
+    const std::atomic<bool> stop{false};
+    EXPECT_EQ(test::errorOf([&] { filteredMotions(c, {}, true, "", stop); }),
+              "filter not suited for learning: section [run], key `method`; expected hybrid or general");
+  }
+}
+
 }  // namespace
 }  // namespace hybrid_slam::run

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
 
+#include "base/Errors.h"
+#include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
 #include "files/NumberTable.h"
 #include "files/TemporaryFolder.h"
@@ -17,50 +20,111 @@ namespace {
 
 struct FoundPlace : testing::Test {
   files::TemporaryFolder folder;
-  std::string incomplete;  ///< why the results of the last run are
+  std::string incomplete;             ///< why the results of the last run are
+  std::vector<std::string> settings;  ///< beside those of all runs
+
+  std::optional<mrpt::math::TPose2D> start;
+  std::string resume;  ///< session
+  Verdict verdict;     ///< of the last run
 
   /// Maps a log, from the map of an earlier run if one is given.
   std::string map(const std::string& name, const test::Log& entries, const std::string& earlier = {}) {
     const std::string log = test::writeGzipped(folder.path(name + ".rawlog"), entries);
-    Configuration configuration("", {"run.rawlog=" + log, "run.output=" + folder.path(name), "run.refine=0",
-                                     "loop_closing.enabled=false", "particle_filter.particles=10"});
+    std::vector<std::string> all = {"run.rawlog=" + log, "run.output=" + folder.path(name), "run.refine=0",
+                                    "loop_closing.enabled=false", "particle_filter.particles=10"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    Configuration configuration("", all);
+    configuration.run.start = start;
+    configuration.run.resume = resume;
     if (!earlier.empty()) configuration.run.continueFrom = earlier + "/session.hslam";
-    incomplete = replay(configuration, true, std::atomic<bool>{false}).incomplete;
+    const ReplayOutcome outcome = replay(configuration, true, std::atomic<bool>{false});
+    incomplete = outcome.incomplete;
+    verdict = outcome.verdict;
     return folder.path(name);
   }
 };
 
-/// A log of a drive along two sides of a block of 30 m x 18 m. The corridors are those of
-/// `ring`, but the first one reaches down to y = `low` (m).
-test::Log aroundTheBlock(double low) {
-  test::Walls walls = test::ring();
-  if (low < -1.5) {
-    walls = test::box(-3, low, 33, 22.5);
-    const test::Walls inside = test::ring();
-    walls.insert(walls.end(), inside.begin() + 4, inside.end());
-  }
-  const auto drive = test::driveAlong(walls, {{0, 0}, {31.5, 0}, {31.5, 18}}, 0);
+/// Truth and log of a drive around a block of 30 m x 18 m. The corridors are those of `ring`, but the first
+/// one reaches down to y = `low` (m).
+struct AroundTheBlock {
+  std::vector<test::TPose2D> truth;
   test::Log log;
-  test::TPose2D pose;
-  for (const test::DrivenPose& driven : drive) {
-    pose = pose + driven.motion;
-    const double time = 1000 + 0.1 * static_cast<double>(log.size());
-    const auto scan = test::observed(driven.scans[0])[0];
-    scan->timestamp = test::stamp(time);
-    scan->sensorLabel = "LASER";
-    log.push_back(test::odometry(time, pose));
-    log.push_back(scan);
+
+  explicit AroundTheBlock(double low,
+                          const std::vector<test::TPoint2D>& corners = {{0, 0}, {31.5, 0}, {31.5, 18}}) {
+    test::Walls walls = test::ring();
+    if (low < -1.5) {
+      walls = test::box(-3, low, 33, 22.5);
+      const test::Walls inside = test::ring();
+      walls.insert(walls.end(), inside.begin() + 4, inside.end());
+    }
+    test::TPose2D pose;
+    for (const test::DrivenPose& driven : test::driveAlong(walls, corners, 0)) {
+      pose = pose + driven.motion;
+      truth.push_back(driven.truth);
+      const double time = 1000 + 0.1 * static_cast<double>(log.size());
+      const auto scan = test::observed(driven.scans[0])[0];
+      scan->timestamp = test::stamp(time);
+      scan->sensorLabel = "LASER";
+      log.push_back(test::odometry(time, pose));
+      log.push_back(scan);
+    }
   }
-  return log;
-}
+};
 
 /// The last corridors of two buildings are alike, the first ones are not.
 TEST_F(FoundPlace, ACorridorOfAnotherBuildingIsNotTaken) {
-  const std::string earlier = map("earlier", aroundTheBlock(-1.5));
-  map("again", aroundTheBlock(-1.5), earlier);
+  const std::string earlier = map("earlier", AroundTheBlock(-1.5).log);
+  map("again", AroundTheBlock(-1.5).log, earlier);
   EXPECT_EQ(incomplete, "");
-  map("other", aroundTheBlock(-4), earlier);
+  map("other", AroundTheBlock(-4).log, earlier);
   EXPECT_THAT(incomplete, testing::HasSubstr("place not found"));
+}
+
+/// The first corridor has changed, so the place is taken only after others, at a scan between two updates.
+TEST_F(FoundPlace, BetweenTwoUpdatesJoinsTheMapAtThePoseOfTheScan) {
+  const std::vector<test::TPoint2D> corners = {{0, 0}, {31.5, 0}, {31.5, 21}, {-1.5, 21}};
+  const std::string earlier = map("earlier", AroundTheBlock(-1.5, corners).log);
+  for (const std::string distance : {"0.8", "1.3"}) {
+    const AroundTheBlock changed(-4, corners);
+    settings = {"improved_proposal.update_distance=" + distance};
+    const std::string joined = map("joined" + distance, changed.log, earlier);
+    ASSERT_EQ(incomplete, "");
+    const files::Trajectory trajectory = files::loadTum(joined + "/trajectory.tum");
+    ASSERT_EQ(trajectory.size(), changed.truth.size());
+    for (size_t i = 0; i < trajectory.size(); i += 20)
+      EXPECT_LT(distanceBetween(trajectory[i].pose, changed.truth[i]), 0.2) << i;
+  }
+}
+
+TEST_F(FoundPlace, AResumedRunIsComparedWithTheEarlierMapToo) {
+  const std::string earlier = map("earlier", AroundTheBlock(-1.5).log);
+  test::Log other = AroundTheBlock(-4, {{0, 0}, {20, 0}}).log;
+  start = mrpt::math::TPose2D();
+  map("whole", other, earlier);
+  EXPECT_THAT(verdict.line(), testing::HasSubstr("contradict the map that the run continues"));
+  const std::string line = verdict.line();
+  const test::Log begun(other.begin(), other.begin() + 60);
+  resume = map("begun", begun, earlier) + "/session.hslam";
+  start.reset();
+  map("resumed", other);
+  EXPECT_EQ(verdict.line(), line);
+}
+
+TEST_F(FoundPlace, ARunWithoutOneIsNotResumed) {
+  const std::string earlier = map("earlier", test::logOf(test::drive(8, 1)));
+  const test::Log log = test::logOf(test::drive(8, 2));
+  resume = map("begun", test::Log(log.begin(), log.begin() + 4), earlier) + "/session.hslam";
+  ASSERT_THAT(incomplete, testing::HasSubstr("place not found"));
+  try {
+    map("resumed", log);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(messageOf(error),
+              "the run had not found its place in the earlier map or floor plan: " + resume +
+                  "; expected a session of a placed run; this one can be the map of "
+                  "--continue");
+  }
 }
 
 Eigen::Matrix3d covarianceOf(const std::vector<double>& row) {

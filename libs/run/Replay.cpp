@@ -24,6 +24,12 @@ std::string spreadNote(const FilterStep& step) {
   return "spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) + " m";
 }
 
+/// Clears the profiler: MRPT prints the table of one that is destroyed.
+struct Silence {
+  mrpt::system::CTimeLogger& profiler;
+  ~Silence() { profiler.clear(true); }
+};
+
 /// Runs over the log once, from the session if there is one. A repeated run that does not reach the end
 /// writes no results.
 class Pass {
@@ -33,6 +39,7 @@ class Pass {
 
   ReplayOutcome operator()(FilterRun& run, SessionReader* session, const std::atomic<bool>& stop,
                            bool wantsProfile) {
+    const Silence silence{run.profiler()};
     run.profiler().enable(wantsProfile);
     const std::string place = run.folderNote();
     if (!place.empty()) progress_.say(place);
@@ -58,7 +65,6 @@ class Pass {
     if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there
     for (const std::string& note : run.takeNotes()) progress_.say(note);
     if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();
-    run.profiler().clear(true);  // else MRPT prints it as well
     return outcome;
   }
 

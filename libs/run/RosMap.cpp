@@ -28,8 +28,7 @@ std::array<int8_t, 256> cellValues(const RosMapFile& map, bool isTransparent) {
   std::array<int8_t, 256> values{};
   for (int grey = 0; grey < 256; ++grey) {
     const double occupied = occupancyOf(map, grey, isTransparent);
-    values[static_cast<size_t>(grey)] =
-        static_cast<int8_t>(std::lround(std::log(occupied / (1 - occupied)) / OccupancyGrid::kLogOddsScale));
+    values[static_cast<size_t>(grey)] = static_cast<int8_t>(std::lround(OccupancyGrid::valueOf(occupied)));
   }
   return values;
 }

@@ -159,15 +159,15 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.beams < kFewBeams)
     find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
                               fixedText(evidence.beams, 0) + " on average");
-  if (evidence.isCut)
-    find(Level::doubtful,
-         "the log cannot be read again up to the end of the run: not all scans were compared with the map");
+  if (!evidence.notCompared.empty())
+    find(Level::doubtful, "not all scans were compared with the map: " + evidence.notCompared);
   const bool isOdometryUseless =
       evidence.slips >= kFewestSlips &&
       static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
   if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
     find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
-  if (!evidence.isCut && evidence.returning.empty()) find(Level::consistent, "no place was seen twice");
+  if (evidence.notCompared.empty() && evidence.returning.empty())
+    find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
   return verdict;
 }

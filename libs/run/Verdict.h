@@ -45,7 +45,7 @@ struct Evidence {
   size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps
   size_t scans = 0;                ///< of the log
   double beams = NAN;              ///< mean number of beams of up to 8 m in a scan, at most 90; NaN: no scan
-  bool isCut = false;              ///< the scans after the end of a recording could not be compared
+  std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were
 };
 
 /// Share of the scans that may contradict the map that a run continues: buildings change between runs.

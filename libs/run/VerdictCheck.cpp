@@ -55,8 +55,10 @@ void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) 
   scans_.push_back(std::make_shared<const Scan>(std::move(scan)));
 }
 
-Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
+Evidence ComparedScans::evidence(const std::vector<TPose2D>& path, const OccupancyGrid* earlier) const {
   RevisitCheck returning(RevisitCheck::kReturn), recent(kRecent);
+  std::optional<RevisitCheck> before;
+  if (earlier) before.emplace(*earlier);
   double distance = 0;
   size_t reached = 0;
   for (const auto& scan : scans_) {
@@ -67,8 +69,11 @@ Evidence ComparedScans::evidence(const std::vector<TPose2D>& path) const {
       beams.rays.push_back({std::cos(beam.direction), std::sin(beam.direction), beam.range, beam.laser});
     returning.add(path[scan->update], beams, distance, scan->update);
     recent.add(path[scan->update], beams, distance, scan->update);
+    if (before) before->add(path[scan->update], beams, distance, scan->update);
   }
-  return evidenceOf(returning, recent);
+  Evidence evidence = evidenceOf(returning, recent);
+  if (before) evidence.earlier = before->revisits();
+  return evidence;
 }
 
 void RunningVerdict::add(const FilterView& view, const Scans& scans) {
@@ -77,12 +82,15 @@ void RunningVerdict::add(const FilterView& view, const Scans& scans) {
                                      [](const auto& a, const auto& b) { return a.logWeight < b.logWeight; });
   scans_.add(best->pose, view.updates() - 1, scans);
   slips_ += view.lastStep().slipped.value_or(false);
+  if (const OccupancyGrid* map = view.earlierMap(); map && !earlier_)
+    earlier_ = std::make_shared<const OccupancyGrid>(toCompare(*map));
 }
 
 std::function<Verdict()> RunningVerdict::judge(const FilterView& view) const {
   const double spread = std::hypot(view.lastStep().stdX, view.lastStep().stdY);
-  return [scans = scans_, path = view.bestPath(), spread, slips = slips_, updates = view.updates()] {
-    Evidence evidence = scans.evidence(path);
+  return [scans = scans_, earlier = earlier_, path = view.bestPath(), spread, slips = slips_,
+          updates = view.updates()] {
+    Evidence evidence = scans.evidence(path, earlier.get());
     evidence.spread = spread;
     evidence.slips = slips;
     evidence.updates = updates;

@@ -63,8 +63,10 @@ class ComparedScans {
   /// @param pose    of the best particle at an update, map frame
   /// @param update  index of the path
   void add(const mrpt::math::TPose2D& pose, size_t update, const Scans& scans);
-  /// @param path  a pose for each update, map frame
-  Evidence evidence(const std::vector<mrpt::math::TPose2D>& path) const;
+  /// @param path     a pose for each update, map frame
+  /// @param earlier  of the map that the run continues, as `toCompare` makes it, or null
+  Evidence evidence(const std::vector<mrpt::math::TPose2D>& path,
+                    const OccupancyGrid* earlier = nullptr) const;
 
  private:
   struct Beam {
@@ -95,7 +97,8 @@ class RunningVerdict {
 
  private:
   ComparedScans scans_;
-  size_t slips_ = 0;  ///< updates whose odometry was rejected
+  std::shared_ptr<const OccupancyGrid> earlier_;  ///< of the map that the run continues
+  size_t slips_ = 0;                              ///< updates whose odometry was rejected
 };
 
 }  // namespace hybrid_slam::run

@@ -55,14 +55,19 @@ TEST(ComparedScans, AreJudgedByThePathAsItIsNow) {
   EXPECT_EQ(verdictOf(both.soFar).level, Verdict::Level::lost);
 }
 
+OccupancyGrid mapOfALap(double cell) {
+  GridOptions options;
+  options.resolution = cell;
+  OccupancyGrid map(cell);
+  for (size_t i = 0; i < 80; ++i)
+    map.insert(ScanBeams(toLaserScans({test::scan(0, test::poseOnLap(i, 80))}, kMaxRange)),
+               test::poseOnLap(i, 80), options);
+  return map;
+}
+
 TEST(VerdictCheck, AnEarlierMapIsComparedIfItsCellsAreSmallEnough) {
   for (const double cell : {0.03, 0.05, 0.1, 0.2}) {
-    GridOptions options;
-    options.resolution = cell;
-    OccupancyGrid map(cell);
-    for (size_t i = 0; i < 80; ++i)
-      map.insert(ScanBeams(toLaserScans({test::scan(0, test::poseOnLap(i, 80))}, kMaxRange)),
-                 test::poseOnLap(i, 80), options);
+    const OccupancyGrid map = mapOfALap(cell);
     VerdictCheck here(kMaxRange, &map), turned(kMaxRange, &map);
     for (size_t i = 0; i < 80; ++i) {
       here.add(test::poseOnLap(i, 80), {test::scan(0, test::poseOnLap(i, 80))});
@@ -72,6 +77,36 @@ TEST(VerdictCheck, AnEarlierMapIsComparedIfItsCellsAreSmallEnough) {
     EXPECT_EQ(right.size() > 10, cell <= 0.1) << cell;
     EXPECT_EQ(contradictedOf(right), 0u) << cell;
     EXPECT_EQ(contradictedOf(wrong) > 5, cell <= 0.1) << cell;
+  }
+}
+
+/// A filter whose robot drives a lap, in the map of an earlier run.
+struct Lap : FilterView {
+  TPose2D frame;  ///< of the lap in that map
+  OccupancyGrid earlier = mapOfALap(0.05);
+  std::vector<TPose2D> path;
+  FilterStep step;
+
+  size_t updates() const override { return path.size(); }
+  const FilterStep& lastStep() const override { return step; }
+  std::vector<TPose2D> bestPath() const override { return path; }
+  mrpt::maps::COccupancyGridMap2D bestGrid() const override { return {}; }
+  std::vector<DatabaseLine> bestLines() const override { return {}; }
+  std::vector<WeightedPose> particlePoses() const override { return {{path.back(), 0}}; }
+  const OccupancyGrid* earlierMap() const override { return path.size() < 10 ? nullptr : &earlier; }
+};
+
+TEST(RunningVerdict, ComparesTheScansWithTheMapThatTheRunContinues) {
+  for (const bool isRight : {true, false}) {
+    Lap lap;
+    if (!isRight) lap.frame = TPose2D(0, 0, 1);
+    RunningVerdict running(kMaxRange);
+    for (size_t i = 0; i < 80; ++i) {
+      lap.path.push_back(lap.frame + test::poseOnLap(i, 80));
+      running.add(lap, {test::scan(0, test::poseOnLap(i, 80))});
+    }
+    const Verdict verdict = running.judge(lap)();
+    EXPECT_EQ(verdict.level, isRight ? Verdict::Level::consistent : Verdict::Level::lost) << verdict.line();
   }
 }
 

@@ -181,10 +181,9 @@ TEST(Verdict, OdometryThatIsMostlyBrokenIsDoubtful) {
 
 TEST(Verdict, AMapThatWasNotComparedToItsEndIsDoubtful) {
   Evidence evidence;
-  evidence.isCut = true;
+  evidence.notCompared = "out of memory";
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: the log cannot be read again up to the end of the run: not all scans were "
-            "compared with the map");
+            "verdict: doubtful: not all scans were compared with the map: out of memory");
 }
 
 TEST(Verdict, SlipsAloneAreNoReason) {
@@ -199,7 +198,7 @@ TEST(Verdict, SlipsAloneAreNoReason) {
 
 TEST(Verdict, SlipsAreListedWithAnyOtherReason) {
   Evidence cut, poor, faulty;
-  cut.isCut = true;
+  cut.notCompared = "out of memory";
   poor.beams = 10;
   faulty.odometryFaults = 50;
   for (Evidence evidence : {cut, poor, faulty}) {

@@ -34,7 +34,7 @@ void FeatureOptions::describe(OptionTable& table) {
             "updates between prunings, and grace period of a new feature");
 }
 
-std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known) {
+std::optional<double> squaredMatchDistance(const PointFeature& seen, const PointFeature& known) {
   if (seen.kind != known.kind) return std::nullopt;
   const Eigen::Vector2d off = innovation(seen, known);
   if (std::abs(off.x()) > kFarthest || std::abs(off.y()) > kFarthest) return std::nullopt;
@@ -116,7 +116,7 @@ const MapFeature* FeatureDatabase::closestMatch(const PointFeature& seen,
   for (const size_t i : candidates) {
     const MapFeature& feature = features_[i];
     if (feature.count < minCount) continue;
-    const auto squares = matchDistance(seen, feature);
+    const auto squares = squaredMatchDistance(seen, feature);
     if (squares && *squares < least) {
       least = *squares;
       closest = &feature;

@@ -28,7 +28,7 @@ struct MapFeature : PointFeature {
 /// Returns the squared Mahalanobis distance between two observations of one feature, or an observation and a
 /// feature. Empty if they cannot be the same: kinds differ, directions of corners differ by more than 45 deg,
 /// or radii or positions by more than three standard deviations.
-std::optional<double> matchDistance(const PointFeature& seen, const PointFeature& known);
+std::optional<double> squaredMatchDistance(const PointFeature& seen, const PointFeature& known);
 
 /// Updates a feature by an observation (Kalman).
 MapFeature merged(const MapFeature& feature, const PointFeature& seen);

@@ -31,27 +31,28 @@ PointFeature pillar(double x, double y, double radius) {
 }
 
 TEST(FeatureMatch, IsTheSquaredMahalanobisDistance) {
-  EXPECT_NEAR(*matchDistance(corner(1, 2, 0.03), corner(1.05, 2, 0.04)), 1, 1e-9);
-  EXPECT_FALSE(matchDistance(corner(1, 2, 0.03), corner(1.16, 2, 0.04)));  // over three standard deviations
+  EXPECT_NEAR(*squaredMatchDistance(corner(1, 2, 0.03), corner(1.05, 2, 0.04)), 1, 1e-9);
+  EXPECT_FALSE(
+      squaredMatchDistance(corner(1, 2, 0.03), corner(1.16, 2, 0.04)));  // over three standard deviations
   PointFeature far = corner(9, 2, 0.03), unknown = corner(1, 2, 100);
-  EXPECT_FALSE(matchDistance(far, unknown)) << "8 m apart";
+  EXPECT_FALSE(squaredMatchDistance(far, unknown)) << "8 m apart";
 }
 
 TEST(FeatureMatch, IsOfTheSameShape) {
-  EXPECT_TRUE(matchDistance(corner(0, 0, 0.05, 3.1), corner(0, 0, 0.05, -3.1)));
-  EXPECT_FALSE(matchDistance(corner(0, 0, 0.05, 0), corner(0, 0, 0.05, M_PI / 2)));
+  EXPECT_TRUE(squaredMatchDistance(corner(0, 0, 0.05, 3.1), corner(0, 0, 0.05, -3.1)));
+  EXPECT_FALSE(squaredMatchDistance(corner(0, 0, 0.05, 0), corner(0, 0, 0.05, M_PI / 2)));
   PointFeature concave = corner(0, 0);
   concave.kind = FeatureKind::concaveCorner;
-  EXPECT_FALSE(matchDistance(corner(0, 0), concave));
-  EXPECT_TRUE(matchDistance(pillar(0, 0, 0.3), pillar(0, 0, 0.33)));
-  EXPECT_FALSE(matchDistance(pillar(0, 0, 0.3), pillar(0, 0, 0.5)));
-  EXPECT_FALSE(matchDistance(pillar(0, 0, 0.3), corner(0, 0)));
+  EXPECT_FALSE(squaredMatchDistance(corner(0, 0), concave));
+  EXPECT_TRUE(squaredMatchDistance(pillar(0, 0, 0.3), pillar(0, 0, 0.33)));
+  EXPECT_FALSE(squaredMatchDistance(pillar(0, 0, 0.3), pillar(0, 0, 0.5)));
+  EXPECT_FALSE(squaredMatchDistance(pillar(0, 0, 0.3), corner(0, 0)));
 }
 
 TEST(FeatureMatch, WhatIsNotANumberMatchesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(matchDistance(corner(nan, 0), corner(0, 0)));
-  EXPECT_FALSE(matchDistance(corner(0, 0, nan), corner(0, 0)));
+  EXPECT_FALSE(squaredMatchDistance(corner(nan, 0), corner(0, 0)));
+  EXPECT_FALSE(squaredMatchDistance(corner(0, 0, nan), corner(0, 0)));
 }
 
 TEST(FeatureMerge, IsTheMeanOfEqualObservations) {
@@ -113,7 +114,7 @@ TEST(FeatureDatabase, TheCandidatesHoldEveryMatch) {
       const MapFeature* closest = nullptr;
       double least = std::numeric_limits<double>::infinity();
       for (const MapFeature& known : database.features())
-        if (const auto squares = matchDistance(feature, known); squares && *squares < least)
+        if (const auto squares = squaredMatchDistance(feature, known); squares && *squares < least)
           least = *squares, closest = &known;
       ASSERT_EQ(database.closestMatch(feature, candidates), closest);
       matched += closest != nullptr;

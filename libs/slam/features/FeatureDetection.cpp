@@ -39,7 +39,6 @@ struct WallPiece {
   double variance;  ///< of a point's distance, m^2
   double length;    ///< m
   TPoint2D middle;
-  size_t count;
 };
 
 double atLeast(double squares, double freedom) {
@@ -55,23 +54,23 @@ std::optional<WallPiece> wallOf(PointRange piece, PointRange run) {
   const double n = static_cast<double>(inner.size()), rms = rmsDistance(inner, *line);
   const TPoint2D a = projected(inner.front(), line->rho, line->theta),
                  b = projected(inner.back(), line->rho, line->theta);
-  return WallPiece{piece,          inner,         *line,       n * rms * rms, atLeast(n * rms * rms, n - 2),
-                   (b - a).norm(), (a + b) * 0.5, inner.size()};
+  return WallPiece{piece,          inner,        *line, n * rms * rms, atLeast(n * rms * rms, n - 2),
+                   (b - a).norm(), (a + b) * 0.5};
 }
 
 /// Variance of the line perpendicular to it, at a point on it: sigma^2 / n (1 + 12 d^2 / l^2), with d from
 /// the middle.
 double varianceAt(const WallPiece& wall, const TPoint2D& point) {
   const double d = (point - wall.middle).norm() / wall.length;
-  return wall.variance / static_cast<double>(wall.count) * (1 + 12 * d * d);
+  return wall.variance / static_cast<double>(wall.inner.size()) * (1 + 12 * d * d);
 }
 
 double angleVariance(const WallPiece& wall) {
-  return 12 * wall.variance / (static_cast<double>(wall.count) * wall.length * wall.length);
+  return 12 * wall.variance / (static_cast<double>(wall.inner.size()) * wall.length * wall.length);
 }
 
 bool isClear(const WallPiece& wall, double minWall, double maxRms) {
-  return wall.length >= minWall && wall.squares <= static_cast<double>(wall.count) * maxRms * maxRms;
+  return wall.length >= minWall && wall.squares <= static_cast<double>(wall.inner.size()) * maxRms * maxRms;
 }
 
 std::optional<PointFeature> cornerOf(const WallPiece& a, const WallPiece& b, double minWall, double maxRms) {
@@ -207,7 +206,7 @@ std::vector<PointFeature> detectFeatures(const LaserScan& scan, const LineExtrac
       if (const auto wall = wallOf(piece, run)) {
         walls.push_back(*wall);
         squares += wall->squares;
-        freedom += static_cast<double>(wall->count) - 2;
+        freedom += static_cast<double>(wall->inner.size()) - 2;
       }
     for (WallPiece& wall : walls) wall.variance = std::max(wall.variance, atLeast(squares, freedom));
     const double variance = walls.empty() ? lines.fit.maxRms * lines.fit.maxRms : atLeast(squares, freedom);

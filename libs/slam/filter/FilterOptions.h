@@ -32,8 +32,8 @@ struct ParticleFilterOptions : Options {
   mrpt::bayes::CParticleFilter::TParticleResamplingAlgorithm resampling =
       mrpt::bayes::CParticleFilter::prSystematic;
   double essThreshold = 0.5;
-  double updateDistance = 0.3;
-  double updateAngle = mrpt::DEG2RAD(15.0);
+  double updateDistance = 0.3;               ///< m
+  double updateAngle = mrpt::DEG2RAD(15.0);  ///< rad
   int seed = 1;
   int threads = 1;
 
@@ -48,15 +48,15 @@ struct ParticleFilterOptions : Options {
 
 /// Section [improved_proposal].
 struct ImprovedProposalOptions : Options {
-  double updateDistance = 0.1;
-  double updateAngle = mrpt::DEG2RAD(5.0);
+  double updateDistance = 0.1;              ///< m
+  double updateAngle = mrpt::DEG2RAD(5.0);  ///< rad
   int samples = 12;
   double exponent = 0.02;
   double minFit = 0.02;
-  double lineSigma = mrpt::DEG2RAD(0.1);
-  double lineSigmaRho = 0.05;
-  double slipDistance = 0.5;
-  double slipAngle = mrpt::DEG2RAD(30.0);
+  double lineSigma = mrpt::DEG2RAD(0.1);   ///< rad
+  double lineSigmaRho = 0.05;              ///< m
+  double slipDistance = 0.5;               ///< m
+  double slipAngle = mrpt::DEG2RAD(30.0);  ///< rad
   double slipProbability = 0.001;
   void describe(OptionTable& table) override;
 };

@@ -2,7 +2,6 @@
 /// @brief Read access to a running filter, ours or MRPT's, for display and results.
 #pragma once
 
-#include <mrpt/core/Clock.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/system/CTimeLogger.h>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/grid/OccupancyGrid.h"
 #include "slam/lines/DirectionFrames.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopClosure.h"
@@ -56,7 +56,7 @@ struct FilterStep {
   double logLikelihood = 0;
   /// @}
 
-  /// Omits `loop`, `odometry` and `motions`, which the next step replaces.
+  /// Omits what the next step replaces: `loop`, `odometry`, `motions` and `logLikelihood`.
   template <class State>
   void visit(State& state) {
     state(particles, ess, resampled, stdX, stdY, stdPhi, stdAlong, stdAcross, gridWeight, lineWeight,
@@ -92,6 +92,8 @@ class FilterView {
   virtual std::vector<WeightedPose> particlePoses() const = 0;
   /// Returns what a filter in a fixed map knows of the robot's place; empty for a filter that maps.
   virtual std::optional<Place> place() const { return std::nullopt; }
+  /// The map of an earlier run that the filter continues, once its place there is known; else null.
+  virtual const OccupancyGrid* earlierMap() const { return nullptr; }
 
   /// Times (s) of the stages of an update; off by default, negligible cost.
   mrpt::system::CTimeLogger& profiler() { return profiler_; }

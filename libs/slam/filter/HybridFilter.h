@@ -52,6 +52,7 @@ class HybridFilter : public Filter {
   double joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   /// The map of `joinMap`.
   const std::optional<ScanMap>& base() const { return base_; }
+  const OccupancyGrid* earlierMap() const override { return base_ ? &base_->grid : nullptr; }
 
   /// The scans of each update, if they are kept; else empty.
   const std::vector<Scans>& updateScans() const { return updateScans_; }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/PointIndex.h"
 #include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
 #include "slam/filter/Threads.h"
@@ -35,7 +37,9 @@ struct Found {
 
 class Matching {
  public:
-  Matching(const PathScans& scans, const std::vector<size_t>& nodes) : scans_(scans), nodes_(nodes) {}
+  Matching(const PathScans& scans, const std::vector<size_t>& nodes) : scans_(scans), nodes_(nodes) {
+    for (size_t k = 0; k < nodes.size(); ++k) index_.add({pose(k).x, pose(k).y}, static_cast<int>(k));
+  }
 
   Found found(size_t node) const {
     const auto earlier = nearestEarlier(node);
@@ -49,12 +53,13 @@ class Matching {
 
   /// The nearest node of an earlier visit.
   std::optional<size_t> nearestEarlier(size_t node) const {
-    std::optional<size_t> nearest;
-    double least = kNear;
-    for (size_t k = 0; distance(k) <= distance(node) - RevisitCheck::kReturn; ++k)
-      if (const double between = distanceBetween(pose(k), pose(node)); between < least)
-        least = between, nearest = k;
-    return nearest;
+    std::pair<double, size_t> nearest(kNear, 0);
+    index_.near({pose(node).x, pose(node).y}, [&](int k) {
+      const auto earlier = static_cast<size_t>(k);
+      if (distance(earlier) <= distance(node) - RevisitCheck::kReturn)
+        nearest = std::min(nearest, {distanceBetween(pose(earlier), pose(node)), earlier});
+    });
+    return nearest.first < kNear ? std::optional(nearest.second) : std::nullopt;
   }
 
   /// The map that the path made around an earlier node, at least kReturn before another one.
@@ -102,6 +107,7 @@ class Matching {
 
   const PathScans& scans_;
   const std::vector<size_t>& nodes_;
+  PointIndex index_{kNear};
 };
 
 }  // namespace
@@ -117,8 +123,10 @@ std::vector<PoseEdge> returnMatches(const PathScans& scans, const std::vector<si
       return edge && distanceBetween(shift, found[node].shiftElsewhere) < kSame;
     };
     int others = 0, agreeing = 0;
-    for (size_t k = 0; k < nodes.size(); ++k) {
-      if (k == node || std::abs(matching.distance(k) - matching.distance(node)) > kStretch) continue;
+    size_t k = node;
+    while (k > 0 && matching.distance(node) - matching.distance(k - 1) <= kStretch) --k;
+    for (; k < nodes.size() && matching.distance(k) - matching.distance(node) <= kStretch; ++k) {
+      if (k == node) continue;
       const Found& other = found[k];
       others += other.near || other.elsewhere;
       agreeing += agrees(other.elsewhere, other.shiftElsewhere) || agrees(other.near, other.shiftNear);

@@ -22,14 +22,6 @@ constexpr size_t kKeyframes = 20;
 constexpr double kSlowing = 0.5;  // of a robot that sees nothing, per scan
 constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
 
-/// Increases the update steps: a few scans must show walls and free space as clearly as the many scans of the
-/// filter's map.
-GridOptions decisive(GridOptions options) {
-  options.pHit = 0.9;
-  options.pMiss = 0.4;
-  return options;
-}
-
 }  // namespace
 
 ScanOdometry::ScanOdometry(const GridOptions& grid, const ScanMatcherOptions& matcher)

@@ -28,8 +28,6 @@ constexpr double kRival = 3;  // ln of the ratio of posteriors between which a s
 constexpr size_t kHypotheses = 6;
 constexpr double kWholeStep = -9.2;  // ln 1e-4: prior of no motion or the opposite one, relative to a slip
 
-const Prior kAnywhere = [](const TPose2D&) { return LogDensity(); };
-
 /// Share of the beams known to a map that it contradicts; 1 if it knows too few to tell.
 double refutedShare(const BeamShares& shares) {
   const double known = shares.explained + shares.contradicted;
@@ -177,7 +175,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(
       0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
   std::vector<Hypothesis> all{usual};
   for (const TPose2D& place : correlativeSearch(scan.matchedBeams, centre, best.grid, window, kPlaces)) {
-    const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, kAnywhere);
+    const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, noPrior);
     const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
     all.push_back({match, logWeight(match.pose, best, scan) + std::max(modelled, slip), slip > modelled});
   }
@@ -191,7 +189,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& be
   const GlobalSearch search(best.grid, mrpt::math::TPoint2D(best.path.back()));
   const auto searchAt = [&](const std::vector<double>& headings) {
     for (const auto& place : search(scan.matchedBeams, headings, kMapPlaces)) {
-      const ScanMatch match = matcher_.match(scan.matchedBeams, place.pose, best.grid, kAnywhere);
+      const ScanMatch match = matcher_.match(scan.matchedBeams, place.pose, best.grid, noPrior);
       if (fitsAll(match.pose, best)) all.push_back({match, logWeight(match.pose, best, scan), true, true});
     }
   };
@@ -204,7 +202,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchMap(const Particle& be
 
 bool SlipRecovery::fitsAll(TPose2D pose, const Particle& best) const {
   for (auto scan = contradicting_.rbegin(); scan != contradicting_.rbegin() + kCarriedScans; ++scan) {
-    const ScanMatch match = matcher_.match(scan->beams, pose, best.grid, kAnywhere);
+    const ScanMatch match = matcher_.match(scan->beams, pose, best.grid, noPrior);
     const TPose2D offset = match.pose - pose;
     if (match.fit < kPoorFit * usualFit_ || offset.norm() > 0.3 ||
         std::abs(offset.phi) > mrpt::DEG2RAD(10.0) ||

@@ -4,7 +4,6 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include <cmath>
-#include <utility>
 
 #include "slam/grid/GlobalSearch.h"
 
@@ -79,10 +78,10 @@ TPose2D StuckOdometry::matched(const Scans& scans, double timestamp) {
 
 // People who walk past a robot that stands hide the walls, but do not explain more of them elsewhere.
 bool StuckOdometry::isStandingRefuted(const Scans& scans, const TPose2D& moved) const {
-  GridOptions decisive = grid_;  // one scan shows walls and free space
-  decisive.pHit = 0.9, decisive.pMiss = 0.2;
+  GridOptions options = grid_;  // one scan shows walls and free space
+  options.pHit = 0.9, options.pMiss = 0.2;
   OccupancyGrid last(grid_.resolution);
-  last.insert(ScanBeams(toLaserScans(lastScans_, grid_.maxRange)), TPose2D(), decisive);
+  last.insert(ScanBeams(toLaserScans(lastScans_, grid_.maxRange)), TPose2D(), options);
   const ScanBeams beams(toLaserScans(scans, grid_.maxRange));
   return beamShares(beams, moved, last).explained > beamShares(beams, TPose2D(), last).explained + kLeastGain;
 }

@@ -24,7 +24,7 @@ const std::array<uint8_t, 256>& occupied() {
   static const auto table = [] {
     std::array<uint8_t, 256> values;
     for (int value = -128; value < 128; ++value) {
-      const double p = 1 / (1 + std::exp(-OccupancyGrid::kLogOddsScale * value));
+      const double p = OccupancyGrid::probabilityOf(value);
       values[static_cast<uint8_t>(value)] = static_cast<uint8_t>(std::lround(255 * std::max(0.0, 2 * p - 1)));
     }
     return values;

@@ -24,11 +24,6 @@ constexpr double kStepAngle = mrpt::DEG2RAD(2.0), kWindow = mrpt::DEG2RAD(6.0);
 constexpr size_t kMostBeams = 60;
 constexpr double kApart = 0.5, kApartAngle = mrpt::DEG2RAD(10.0);  // of two poses
 
-/// The value of a cell with this occupancy.
-double logOdds(double occupancy) {
-  return std::log(occupancy / (1 - occupancy)) / OccupancyGrid::kLogOddsScale;
-}
-
 /// Limits the search to cells within kReach: a map may be kilometres long.
 CellBox within(const OccupancyGrid& grid, const TPoint2D& around) {
   CellBox box = grid.tiles().bounds();
@@ -70,7 +65,8 @@ BeamShares beamShares(const ScanBeams& scan, const TPose2D& robot, const Occupan
   const GridPose frame(robot, scan, grid.resolution());
   const int near = static_cast<int>(std::lround(0.15 / grid.resolution()));
   const double stop = 0.3 / grid.resolution();  // cells at both ends that prove nothing
-  const double solid = logOdds(0.8), wall = logOdds(kWall), free = logOdds(0.3);
+  const double solid = OccupancyGrid::valueOf(0.8), wall = OccupancyGrid::valueOf(kWall),
+               free = OccupancyGrid::valueOf(0.3);
   TileReader reader(grid.tiles());
   size_t explained = 0, contradicted = 0;
   for (const ScanBeams::Ray& ray : scan.rays) {
@@ -107,7 +103,7 @@ GlobalSearch::GlobalSearch(const OccupancyGrid& grid, const TPoint2D& around) {
   wall_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
   std::vector<char> isFree = wall_;
   TileReader reader(grid.tiles());
-  const double wallValue = logOdds(kWall), freeValue = logOdds(kFree);
+  const double wallValue = OccupancyGrid::valueOf(kWall), freeValue = OccupancyGrid::valueOf(kFree);
   for (int y = box.min.y; y <= box.max.y; ++y)
     for (int x = box.min.x; x <= box.max.x; ++x) {
       const double value = reader.at(x, y);

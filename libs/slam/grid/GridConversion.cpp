@@ -97,7 +97,7 @@ OccupancyGrid fromMrpt(const mrpt::maps::COccupancyGridMap2D& in) {
   for (int y = 0; y < static_cast<int>(in.getSizeY()); ++y) {
     const auto* row = in.getRow(y);
     for (int x = 0; x < static_cast<int>(in.getSizeX()); ++x)
-      if (row[x] != 0) grid.tiles().set({x0 + x, y0 + y}, static_cast<int8_t>(-std::max<int>(row[x], -127)));
+      if (row[x] != 0) grid.tiles().set({x0 + x, y0 + y}, mrptValue(row[x]));
   }
   return grid;
 }

@@ -11,9 +11,7 @@
 namespace hybrid_slam {
 namespace {
 
-int logOdds(double p) {
-  return static_cast<int>(std::lround(std::log(p / (1 - p)) / OccupancyGrid::kLogOddsScale));
-}
+int logOdds(double p) { return static_cast<int>(std::lround(OccupancyGrid::valueOf(p))); }
 
 /// Hits and number of crossing beams of one scan for each cell in the tiles in range. The memory is reused
 /// between calls.
@@ -156,8 +154,17 @@ void GridOptions::describe(OptionTable& t) {
   t.add("p_max", pMax, 0.51, 0.999, "", "maximum occupancy of a cell");
 }
 
-double OccupancyGrid::occupancy(CellIndex cell) const {
-  return 1 / (1 + std::exp(-kLogOddsScale * tiles_.at(cell)));
+GridOptions decisive(GridOptions options) {
+  options.pHit = 0.9;
+  options.pMiss = 0.4;
+  return options;
+}
+
+double OccupancyGrid::occupancy(CellIndex cell) const { return probabilityOf(tiles_.at(cell)); }
+
+mrpt::math::TPoint2D OccupancyGrid::middle() const {
+  const CellBox box = tiles_.bounds();
+  return {0.5 * (box.min.x + box.max.x) * resolution_, 0.5 * (box.min.y + box.max.y) * resolution_};
 }
 
 CellIndex OccupancyGrid::cellOf(double x, double y) const {

@@ -59,7 +59,7 @@ PenetrationModel::PenetrationModel(const GridWeightOptions& options, double reso
     if (value == 0)
       passes = std::exp(-resolution / options.unknownDepth);
     else
-      passes = value < 0 ? 1 : 1 / (1 + std::exp(OccupancyGrid::kLogOddsScale * value));  // 1 - p
+      passes = value < 0 ? 1 : OccupancyGrid::probabilityOf(-value);
   }
   const double sigma = options.sigma / resolution;
   behind_ = std::max(1, static_cast<int>(std::lround(3 * sigma)));

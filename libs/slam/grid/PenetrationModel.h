@@ -17,8 +17,8 @@ struct GridWeightOptions : Options {
   Method method = Method::penetration;
   double exponent = 25;
   int beams = 45;
-  double sigma = 0.08;
-  double unknownDepth = 8;
+  double sigma = 0.08;      ///< m
+  double unknownDepth = 8;  ///< m
   double outlier = 0.1;
   void describe(OptionTable& table) override;
 };

@@ -23,6 +23,8 @@ struct ScanMatcherOptions : Options {
 
 /// Prior on the pose (odometry, line directions), as a function of the pose.
 using Prior = std::function<LogDensity(const mrpt::math::TPose2D&)>;
+/// All poses are equally likely.
+inline LogDensity noPrior(const mrpt::math::TPose2D&) { return {}; }
 
 /// The normal density around `mean` with the given information matrix (inverse covariance), up to a constant.
 LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& mean,

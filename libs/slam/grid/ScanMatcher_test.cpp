@@ -14,8 +14,6 @@ using mrpt::math::TPose2D;
 
 constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
-const Prior kNoPrior = [](const TPose2D&) { return LogDensity(); };
-
 const OccupancyGrid& room() {
   static const OccupancyGrid grid = test::gridOf(kRoom);
   return grid;
@@ -168,7 +166,7 @@ TEST(ScanMatcher, ReturnsFromDisplacedStarts) {
     const double towards = 2 * M_PI * random.uniform(), sign = random.uniform() < 0.5 ? -1 : 1;
     const TPose2D start(truth.x + 0.05 * std::cos(towards), truth.y + 0.05 * std::sin(towards),
                         truth.phi + sign * 10 * random.uniform() * kDegree);
-    const ScanMatch match = matcher().match(scan, start, room(), kNoPrior);
+    const ScanMatch match = matcher().match(scan, start, room(), noPrior);
     expectNear(match.pose, truth, 0.02, 0.5 * kDegree);
     EXPECT_GT(match.fit, 0.5);
     EXPECT_GE(match.logPosterior, matcher().likelihood(scan, room()).value(start));
@@ -185,8 +183,8 @@ TEST(ScanMatcher, TheBestNearPoseIsWhereAMatchReturnsFrom) {
     const TPose2D start = truth + (i % 2 ? TPose2D(off, 0, 0) : TPose2D(0, off, 0));
     const auto found = bestNear(likelihood, start);
     ASSERT_TRUE(found) << i;
-    expectNear(matcher().match(likelihood, *found, kNoPrior).pose, truth, 0.02, 0.5 * kDegree);
-    EXPECT_FALSE(bestNear(likelihood, matcher().match(likelihood, truth, kNoPrior).pose)) << i;
+    expectNear(matcher().match(likelihood, *found, noPrior).pose, truth, 0.02, 0.5 * kDegree);
+    EXPECT_FALSE(bestNear(likelihood, matcher().match(likelihood, truth, noPrior).pose)) << i;
   }
 }
 
@@ -236,7 +234,7 @@ TEST_P(NothingToMatch, GivesBackThePrior) {
     EXPECT_EQ(match.fit, 0);
   }
   // A prior without information does not move the robot either.
-  const ScanMatch still = matcher().match(scan, mean, grid, kNoPrior);
+  const ScanMatch still = matcher().match(scan, mean, grid, noPrior);
   EXPECT_EQ(still.pose, mean);
 }
 

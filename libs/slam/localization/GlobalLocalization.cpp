@@ -52,12 +52,6 @@ bool isSamePlace(const TPose2D& a, const TPose2D& b) { return isWithin(a, b, kSa
 
 }  // namespace
 
-TPoint2D centreOf(const OccupancyGrid& grid) {
-  const CellBox box = grid.tiles().bounds();
-  return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
-          0.5 * (box.min.y + box.max.y) * grid.resolution()};
-}
-
 bool isExplained(const BeamShares& scan) {
   return scan.explained > kExplained && scan.contradicted < kContradicted;
 }
@@ -69,7 +63,7 @@ GlobalLocalization::GlobalLocalization(const GridWeightOptions& gridWeight, cons
       exponent_(gridWeight.exponent * kIndependent),
       matcher_(matcher),
       gridWeight_(gridWeight, grid_.resolution()),
-      search_(grid_, centreOf(grid_)) {
+      search_(grid_, grid_.middle()) {
   std::vector<TPoint2D> places;
   for (double spacing = 2; spacing == 2 || places.size() > kAnywhere; spacing *= 1.5)
     places = search_.freePlaces(spacing);
@@ -134,8 +128,7 @@ void GlobalLocalization::update(const RecentScans& recent, tbb::task_arena& aren
   const auto places = search_(joined, alignedHeadings(recent.lines(), lines_), kPlaces);
   std::vector<Hypothesis> found(places.size());
   parallelFor(arena, 0, places.size(), [&](size_t i) {
-    const ScanMatch match =
-        matcher_.match(joined, places[i].pose, grid_, [](const TPose2D&) { return LogDensity(); });
+    const ScanMatch match = matcher_.match(joined, places[i].pose, grid_, noPrior);
     found[i] = judged(match.pose, recent);
   });
   hypotheses_.insert(hypotheses_.end(), found.begin(), found.end());

@@ -22,9 +22,6 @@ struct ScanEvidence {
   BeamShares shares;
 };
 
-/// Returns the middle of the map (m, map frame).
-mrpt::math::TPoint2D centreOf(const OccupancyGrid& grid);
-
 /// Returns whether most of the beams end at walls of the map and few contradict it.
 bool isExplained(const BeamShares& scan);
 

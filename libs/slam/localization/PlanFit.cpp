@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "slam/plan/PointIndex.h"
+#include "base/PointIndex.h"
 
 namespace hybrid_slam {
 namespace {

@@ -132,7 +132,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   lines_ = linesOf(walls_, 1, directionWindow_);
   for (const double scale : kScales) {
     const OccupancyGrid grid = gridOf(walls_, scale, true);
-    plans_.push_back({scale, GlobalSearch(grid, centreOf(grid))});
+    plans_.push_back({scale, GlobalSearch(grid, grid.middle())});
   }
 }
 

@@ -19,9 +19,7 @@ constexpr size_t kStride = 2;
 
 RecentScans::RecentScans(const GridOptions& grid, const MotionModelOptions& motion,
                          const ScanMatcherOptions& matcher, double minFit, size_t most)
-    : grid_(grid), motion_(motion), minFit_(minFit), most_(most), matcher_(matcher) {
-  grid_.pHit = 0.9, grid_.pMiss = 0.4;  // a few scans must show walls clearly
-}
+    : grid_(decisive(grid)), motion_(motion), minFit_(minFit), most_(most), matcher_(matcher) {}
 
 bool RecentScans::add(const TPose2D& odometry, const PreparedScan& scan) {
   since_ = since_ + odometry;

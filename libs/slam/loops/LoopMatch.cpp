@@ -50,7 +50,7 @@ const ScanMatcher& matcher() {
 
 LoopMatch matched(const TPose2D& start, const ScanBeams& some, const LocalMap& newer, const LocalMap& older) {
   LoopMatch result;
-  result.pose = matcher().match(some, start, older.grid, [](const TPose2D&) { return LogDensity(); }).pose;
+  result.pose = matcher().match(some, start, older.grid, noPrior).pose;
   result.agreement = agreementOf(newer, older, result.pose);
   return result;
 }

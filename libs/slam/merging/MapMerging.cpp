@@ -19,15 +19,9 @@ constexpr double kExplained = 0.7, kContradicted = 0.1;  // shares of the beams 
 /// Refines the placement on the maps at their own resolution.
 TPose2D precise(const TPose2D& frame, const OccupancyGrid& newer, const OccupancyGrid& older,
                 const ScanMatcherOptions& options) {
-  const MapPatch whole = wholeMap(newer, {middleOf(newer).x, middleOf(newer).y, 0});
-  ScanBeams walls = whole.map.ends;
-  const size_t every = (walls.rays.size() + kMostWalls - 1) / kMostWalls;
-  walls.rays.clear();
-  for (size_t i = 0; i < whole.map.ends.rays.size(); i += every) walls.rays.push_back(whole.map.ends.rays[i]);
-  const TPose2D middle =
-      ScanMatcher(options)
-          .match(walls, frame + whole.place, older, [](const TPose2D&) { return LogDensity(); })
-          .pose;
+  const MapPatch whole = wholeMap(newer, {newer.middle().x, newer.middle().y, 0});
+  const ScanBeams walls = whole.map.ends.thinned(kMostWalls);
+  const TPose2D middle = ScanMatcher(options).match(walls, frame + whole.place, older, noPrior).pose;
   return middle + (TPose2D() - whole.place);
 }
 

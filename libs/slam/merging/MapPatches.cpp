@@ -55,18 +55,12 @@ MapPatch cut(const OccupancyGrid& grid, const CellBox& box, const CellIndex& ori
 
 }  // namespace
 
-TPoint2D middleOf(const OccupancyGrid& grid) {
-  const CellBox box = grid.tiles().bounds();
-  return {0.5 * (box.min.x + box.max.x) * grid.resolution(),
-          0.5 * (box.min.y + box.max.y) * grid.resolution()};
-}
-
 MapPatch wholeMap(const OccupancyGrid& grid, const TPose2D& place) {
   return cut(grid, grid.tiles().bounds(), grid.cellOf(place.x, place.y));
 }
 
 std::vector<MapPatch> patchesOf(const OccupancyGrid& grid) {
-  const GlobalSearch map(grid, middleOf(grid));
+  const GlobalSearch map(grid, grid.middle());
   std::vector<TPoint2D> places = map.freePlaces(kSpacing);
   for (double spacing = kSpacing; places.size() > kMost;) places = map.freePlaces(spacing *= 1.2);
   const int reach = static_cast<int>(0.5 * kSide / grid.resolution());

@@ -22,7 +22,4 @@ MapPatch wholeMap(const OccupancyGrid& grid, const mrpt::math::TPose2D& place);
 /// wall.
 std::vector<MapPatch> patchesOf(const OccupancyGrid& grid);
 
-/// The middle of the bounding box of the mapped tiles (m, map frame).
-mrpt::math::TPoint2D middleOf(const OccupancyGrid& grid);
-
 }  // namespace hybrid_slam

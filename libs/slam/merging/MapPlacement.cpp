@@ -49,9 +49,9 @@ class Placer {
  public:
   Placer(const OccupancyGrid& newer, const OccupancyGrid& older, int threads)
       : older_(wholeMap(older, {})),
-        newer_(wholeMap(newer, {middleOf(newer).x, middleOf(newer).y, 0})),
+        newer_(wholeMap(newer, {newer.middle().x, newer.middle().y, 0})),
         patches_(patchesOf(newer)),
-        search_(older, middleOf(older)),
+        search_(older, older.middle()),
         arena_(arenaThreads(threads)) {}
 
   /// @param headings  of the newer map's frame in the older's; empty: all

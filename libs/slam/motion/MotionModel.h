@@ -62,8 +62,8 @@ mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const Moti
 mrpt::math::TPose2D sampleMotion(const mrpt::math::TPose2D& odometry, const MotionModelOptions& options,
                                  const std::array<double, 3>& normals);
 
-/// Normal approximation of `sampleMotion`: mean pose after the step and its covariance (x, y, phi), in the
-/// frame of `start`.
+/// Normal approximation of `sampleMotion`: mean pose after the step and its covariance (x, y, phi; m, rad),
+/// in the frame in which `start` is given.
 struct MotionDistribution {
   mrpt::math::TPose2D mean;
   Eigen::Matrix3d covariance;

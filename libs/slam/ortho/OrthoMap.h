@@ -31,7 +31,6 @@ class OrthoMap {
   const std::optional<double>& direction() const { return direction_; }
   std::vector<DatabaseLine> lines() const;  ///< map frame
   int matched() const { return matched_; }  ///< lines of the last scan that belong to walls of the map
-  size_t bytes() const { return state_.bytes() + lines_.size() * sizeof(OrthoLine); }
 
  private:
   /// Returns the lines that may be parallel to an axis, given the heading and its uncertainty.

@@ -25,7 +25,6 @@ class OrthoState {
   Eigen::Matrix3d poseCovariance() const { return covariance_.topLeftCorner<3, 3>(); }
   size_t lines() const { return static_cast<size_t>(mean_.size()) - kPose; }
   double offset(size_t line) const { return mean_[index(line)]; }
-  size_t bytes() const { return sizeof(double) * static_cast<size_t>(mean_.size() + covariance_.size()); }
 
   /// The place of a line in the state vector.
   static Eigen::Index index(size_t line) { return static_cast<Eigen::Index>(kPose + line); }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "slam/plan/PointIndex.h"
+#include "base/PointIndex.h"
 
 namespace hybrid_slam {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "slam/plan/PointIndex.h"
+#include "base/PointIndex.h"
 
 namespace hybrid_slam {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/PointIndex.h"
 #include "slam/plan/GridProbe.h"
-#include "slam/plan/PointIndex.h"
 
 namespace hybrid_slam {
 namespace {

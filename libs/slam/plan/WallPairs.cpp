@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "slam/plan/PointIndex.h"
+#include "base/PointIndex.h"
 
 namespace hybrid_slam {
 namespace {

@@ -17,7 +17,8 @@ struct Variant {
 
 /// Parses `[METHOD/]NAME:ITEM[,ITEM...]`, an item being SECTION.KEY=VALUE or `@FILE` for another INI file.
 /// @throws InputError for a wrong format, a name unusable for a folder, and settings controlled by the
-///         comparison: [run] (except particles_every), and particles, seed and threads of [particle_filter]
+///         comparison: [run] (except particles_every and refine), and particles, seed and threads of
+///         [particle_filter]
 Variant parseVariant(const std::string& text);
 /// The same check for a setting common to all runs.
 void checkSetting(const std::string& setting, const std::string& where);

@@ -20,6 +20,8 @@ RunSetup setupOf(const CommonSetup& common, const Group& group, int seed) {
   set("particle_filter.particles", particles);
   set("particle_filter.seed", std::to_string(seed));
   set("particle_filter.threads", "1");
+  // A repeated run has another number of particles, and maybe the next run's seed.
+  if (group.particles == 0) set("run.retry_particles", "0");
   // MRPT's filter reads its own section, if there is one, with its own key for the number of particles.
   if (group.method == "stock" && setup.configuration().source.sectionExists(run::kStockSection))
     if (group.particles > 0) set(std::string(run::kStockSection) + ".sampleSize", particles);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/plan/PointIndex.h"
+#include "base/PointIndex.h"
 #include "study/evaluation/PlanComparison.h"
 
 namespace hybrid_slam::evaluation {
