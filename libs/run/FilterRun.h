@@ -176,9 +176,10 @@ class FilterRun {
   void saveIfDue();
   /// Writes the row of steps.csv and updates the counters.
   void record(double timestamp, Clock::time_point stepStart);
-  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it; unless they need
-  /// too much memory.
-  void refineResult(Result& result, LogAgain& log);
+  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it.
+  /// @return why not, if the scans need too much memory; else empty
+  std::string refineResult(Result& result, LogAgain& log);
+  std::string refineOrSayWhyNot(Result& result, const std::string& file, const readings::RawlogSummary& log);
 
   Configuration& configuration_;
   Clock::time_point start_;

@@ -74,7 +74,7 @@ bool hasChanged(const std::string& file, const readings::RawlogSummary& log) {
 
 }  // namespace
 
-void FilterRun::refineResult(Result& result, LogAgain& log) {
+std::string FilterRun::refineResult(Result& result, LogAgain& log) {
   std::vector<PosedScans> scans;
   double bytes = 0;
   for (const Use use : uses_) {
@@ -84,11 +84,10 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     bytes += memoryOf(reading.scans);
     const double expected = bytes * static_cast<double>(scans_) / static_cast<double>(scans.size());
     if (expected <= refinementBytes_) continue;
-    notes_.push_back("map not refined: the scans need " + fixedText(expected / 1e9, 1) + " GB, over " +
-                     fixedText(refinementBytes_ / 1e9, 1) + " GB");
-    return;
+    return "the scans need " + fixedText(expected / 1e9, 1) + " GB, over " +
+           fixedText(refinementBytes_ / 1e9, 1) + " GB";
   }
-  if (scans.empty()) return;
+  if (scans.empty()) return {};
   const std::optional<ScanMap>& base = hybrid_->base();
   if (configuration_.filter.closesLoops() && !base) {
     std::vector<Scans> ofUpdates;
@@ -135,6 +134,27 @@ void FilterRun::refineResult(Result& result, LogAgain& log) {
     loop.place = result.path[loop.later];
     notes_.push_back(loopNote(loop, updateTimes_, true));
   }
+  return {};
+}
+
+/// The result stays as it is if it cannot be refined.
+std::string FilterRun::refineOrSayWhyNot(Result& result, const std::string& file,
+                                         const readings::RawlogSummary& log) {
+  if (hasChanged(file, log)) return "the log has changed";
+  if (log.scans < uses_.size()) return "the recording ends before the run";
+  try {
+    LogAgain again(file, configuration_.input, log);
+    Result refined = result;
+    const std::string why = refineResult(refined, again);
+    if (why.empty()) result = std::move(refined);
+    return why;
+  } catch (const UnreadableLog& e) {
+    return e.what();
+  } catch (const InputError& e) {  // the map is too large
+    return messageOf(e);
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  }
 }
 
 /// @throws std::bad_alloc if there was no memory for it
@@ -161,30 +181,12 @@ std::string FilterRun::finish(const std::string& file, const readings::RawlogSum
   }
   result.path.resize(std::min(result.path.size(), updateTimes_.size()));  // without an update that failed
   result.trajectory = recorder_.trajectory(result.path);
-  if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
-    if (hasChanged(file, log)) {
-      notes_.emplace_back("map not refined: the log has changed");
-    } else if (log.scans < uses_.size()) {
-      notes_.emplace_back("map not refined: the recording ends before the run");
-    } else if (!hasRoom) {
-      notes_.emplace_back("map not refined: out of memory");
-    } else {
-      try {
-        LogAgain again(file, configuration_.input, log);
-        Result refined = result;
-        refineResult(refined, again);
-        result = std::move(refined);
-      } catch (const UnreadableLog& e) {
-        notes_.push_back(std::string("map not refined: ") + e.what());
-      } catch (const InputError& e) {  // the map is too large
-        notes_.push_back("map not refined: " + messageOf(e));
-        refinementLoops_.clear();
-      } catch (const std::bad_alloc&) {
-        notes_.emplace_back("map not refined: out of memory");
-        refinementLoops_.clear();
-      }
+  if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0)
+    if (const std::string why = hasRoom ? refineOrSayWhyNot(result, file, log) : "out of memory";
+        !why.empty()) {
+      notes_.push_back("map not refined: " + why);
+      refinementLoops_.clear();
     }
-  }
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(result.trajectory, out); });
   if (localizer_) {
     verdict_ = verdictOfLocalization();
