@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/Errors.h"
 #include "base/LaserScan.h"
@@ -18,6 +19,7 @@ constexpr double kUsualRange = 20, kLongestRange = 80;       // m
 constexpr double kNoLimit = 200;                             // m; upper bound of grid.max_range
 constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
 constexpr double kCentimetre = 0.01;                         // m
+constexpr double kSparsePoints = 0.1;                        // m between neighbours on a wall
 
 /// Returns the value (m) that a laser logs for no return; 0 if it marks these beams as invalid. Some lasers
 /// log one value, or several close together, for all of them, with few returns just below.
@@ -60,6 +62,17 @@ LogSetting maxRange(std::vector<float> ranges, double limit) {
   if (limit <= useful) return setting(limit, "the log's limit for the laser");
   return setting(useful, std::string(useful > kUsualRange ? "" : "the default: ") +
                              "95 % of the returns are within " + fixedText(most, 1) + " m");
+}
+
+/// @param spacings  m, of each of the ranges: to the return of the beam before, 0 without one
+std::vector<LogSetting> cellSize(const std::vector<float>& ranges, const std::vector<float>& spacings) {
+  const double code = noReturn(ranges);
+  std::vector<float> onWalls;
+  for (size_t i = 0; i < ranges.size(); ++i)
+    if (spacings[i] > 0 && (code == 0 || ranges[i] < code)) onWalls.push_back(spacings[i]);
+  const double spacing = onWalls.empty() ? 0 : lowerQuantile(std::move(onWalls), 0.5);
+  if (spacing <= kSparsePoints) return {};
+  return {{"grid", "resolution", "0.1", "neighbouring beams end " + fixedText(spacing, 2) + " m apart"}};
 }
 
 LogSetting directionNoise(const std::vector<float>& ranges) {
@@ -120,7 +133,7 @@ std::vector<readings::Reading> firstReadings(const std::string& file, readings::
 LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,
                             const readings::RawlogSummary& log) {
   std::map<std::string, std::string> lasers;
-  std::vector<float> ranges, steps;
+  std::vector<float> ranges, spacings, steps;
   double limit = 0;  // m
   const std::vector<readings::Reading> first = firstReadings(file, input, log);
   for (const readings::Reading& reading : first) {
@@ -130,8 +143,13 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
       const LaserScan scan = toLaserScan(*observation, kNoLimit);
       if (lasers.count(observation->sensorLabel) == 0) lasers[observation->sensorLabel] = describe(scan);
       limit = std::max(limit, scan.maxRange);
-      for (const Beam& beam : scan.beams)
-        if (beam.valid) ranges.push_back(static_cast<float>(beam.range));
+      const Beam* last = nullptr;
+      for (const Beam& beam : scan.beams) {
+        if (!beam.valid) continue;
+        ranges.push_back(static_cast<float>(beam.range));
+        spacings.push_back(last ? static_cast<float>(beam.range * std::abs(beam.angle - last->angle)) : 0);
+        last = &beam;
+      }
     }
   }
   for (const std::string& label : log.lasers)
@@ -146,7 +164,8 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
                                              fixedText(1000 * sweep->second, 1) + " ms"
                                        : ""));
   }
-  found.settings = updates(steps);
+  found.settings = cellSize(ranges, spacings);
+  for (const LogSetting& setting : updates(std::move(steps))) found.settings.push_back(setting);
   if (!log.hasMotion)
     found.settings.push_back({"input", "require_odometry", "false",
                               std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
@@ -157,8 +176,9 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
 
 std::vector<std::string> applyLogSettings(const LogSettings& log, Configuration& configuration) {
   std::vector<std::string> lines = log.lasers;
+  const bool hasMap = !configuration.run.continueFrom.empty() || !configuration.run.localizeIn.empty();
   for (const auto& [section, key, value, reason] : log.settings)
-    if (configuration.setDefault(section, key, value))
+    if (!(hasMap && key == "resolution") && configuration.setDefault(section, key, value))
       lines.push_back(section + "." + key + " = " + value + ": " + reason);
   if (!log.hasOdometry && configuration.input.requireOdometry)
     throw InputError("no odometry", "section [input], key `require_odometry`",

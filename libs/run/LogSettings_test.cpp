@@ -73,6 +73,33 @@ TEST_F(LogSettingsTest, MaximumRange) {
       << "no returns";
 }
 
+TEST_F(LogSettingsTest, SparsePointsNeedLargerCells) {
+  const auto cell = [this](const Change& change) { return valueOf("grid.resolution", change); };
+  EXPECT_EQ(cell(asItIs), "none") << "0.05 m apart";
+  EXPECT_EQ(cell(laser(80, 6)), "0.1") << "a hall of 60 m by 36 m";
+  const auto everyFourthBeam = [](CObservation2DRangeScan& scan) {
+    for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, i % 4 == 0);
+  };
+  EXPECT_EQ(cell(everyFourthBeam), "0.1");
+  EXPECT_EQ(cell(laser(3.5, 1, 81)), "none") << "most beams have no return";
+  EXPECT_EQ(cell([](auto& scan) { scan.setScanRangeValidity(0, false); }), "none");
+  EXPECT_EQ(cell([](auto& scan) {
+              for (size_t i = 1; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
+            }),
+            "none")
+      << "a single return has no neighbour";
+}
+
+TEST_F(LogSettingsTest, AnEarlierMapHasItsOwnCells) {
+  const LogSettings log = read(laser(80, 6));
+  Configuration alone("", {}), continued("", {}), localized("", {});
+  continued.run.continueFrom = localized.run.localizeIn = "map.yaml";
+  for (Configuration* c : {&alone, &continued, &localized}) {
+    applyLogSettings(log, *c);
+    EXPECT_EQ(c->filter.grid.resolution, c == &alone ? 0.1 : 0.05);
+  }
+}
+
 TEST_F(LogSettingsTest, NoiseOfDirections) {
   const auto inStepsOf = [](double step) {
     return [step](CObservation2DRangeScan& scan) {

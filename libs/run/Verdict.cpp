@@ -157,8 +157,8 @@ Verdict verdictOf(const Evidence& evidence) {
                               " odometry readings are impossible or jump, in " +
                               counted(evidence.scans, "scan(s)"));
   if (evidence.beams < kFewBeams)
-    find(Level::doubtful, "scans have too few beams of up to 8 m to judge the map: " +
-                              fixedText(evidence.beams, 0) + " on average");
+    find(Level::doubtful,
+         "scans have too few beams to judge the map: " + fixedText(evidence.beams, 0) + " on average");
   if (!evidence.notCompared.empty())
     find(Level::doubtful, "not all scans were compared with the map: " + evidence.notCompared);
   const bool isOdometryUseless =

@@ -44,7 +44,7 @@ struct Evidence {
   size_t slips = 0, updates = 0;   ///< updates whose odometry was rejected, and all
   size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps
   size_t scans = 0;                ///< of the log
-  double beams = NAN;              ///< mean number of beams of up to 8 m in a scan, at most 90; NaN: no scan
+  double beams = NAN;              ///< mean number of beams compared in a scan, at most 90; NaN: no scan
   std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were
 };
 

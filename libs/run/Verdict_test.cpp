@@ -44,7 +44,7 @@ TEST(Verdict, FewBeamsCannotConfirmAMap) {
   EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
   evidence.beams = 12;
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: scans have too few beams of up to 8 m to judge the map: 12 on average");
+            "verdict: doubtful: scans have too few beams to judge the map: 12 on average");
 }
 
 TEST(Verdict, SaysThatNoPlaceWasSeenTwice) {

@@ -249,7 +249,9 @@ std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) con
   const std::vector<double> distances = lengthsAlong(poses);
   for (size_t i = 0; i < poses.size(); ++i) {
     ScanBeams beams{keyframes_[i].beams};
-    const auto isFar = [](const ScanBeams::Ray& ray) { return ray.range > RevisitCheck::kRange; };
+    const auto isFar = [this](const ScanBeams::Ray& ray) {
+      return ray.range > RevisitCheck::rangeOf(grid_.maxRange);
+    };
     beams.rays.erase(std::remove_if(beams.rays.begin(), beams.rays.end(), isFar), beams.rays.end());
     check.add(poses[i], beams, distances[i], i);
   }

@@ -109,7 +109,7 @@ double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans
 ScanBeams beamsToCompare(const LaserScans& scans) { return ScanBeams(scans).thinned(kBeams); }
 
 ScanBeams beamsToCompare(const Scans& scans, double maxRange) {
-  return beamsToCompare(toLaserScans(scans, std::min(RevisitCheck::kRange, maxRange)));
+  return beamsToCompare(toLaserScans(scans, RevisitCheck::rangeOf(maxRange)));
 }
 
 }  // namespace hybrid_slam

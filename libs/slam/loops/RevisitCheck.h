@@ -2,6 +2,7 @@
 /// @brief Checks whether scans contradict the map made earlier along the same path.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <vector>
 
@@ -44,7 +45,8 @@ class RevisitCheck {
 
   static constexpr double kReturn = 20;       ///< m of path after which a scan returns
   static constexpr double kResolution = 0.1;  ///< m
-  static constexpr double kRange = 8;         ///< m, of the longest beam to compare
+  /// The longest beam to compare, m: 8 m in buildings, more where the map uses beams of over 20 m.
+  static double rangeOf(double maxRange) { return std::min(maxRange, std::max(8.0, 0.4 * maxRange)); }
 
  private:
   struct Waiting {
@@ -80,7 +82,7 @@ double contradictionOf(const std::vector<mrpt::math::TPose2D>& path, const std::
 
 /// Selects at most 90 beams.
 ScanBeams beamsToCompare(const LaserScans& scans);
-/// Selects at most 90 beams of up to 8 m that the map uses.
+/// Selects at most 90 beams of up to `RevisitCheck::rangeOf(maxRange)`.
 /// @param maxRange  m, of the beams that the map uses: longer ones may have no return
 ScanBeams beamsToCompare(const Scans& scans, double maxRange);
 

@@ -76,7 +76,7 @@ ScanBeams beamsToWall(const TPose2D& pose, double wall) {
   beams.origins = {{0, 0}};
   for (int degree = -90; degree <= 90; ++degree) {
     const double angle = degree * kDegree, height = std::sin(pose.phi + angle);
-    if (height * RevisitCheck::kRange > wall - pose.y)
+    if (height * RevisitCheck::rangeOf(20) > wall - pose.y)
       beams.rays.push_back({std::cos(angle), std::sin(angle), (wall - pose.y) / height, 0});
   }
   return beams;
