@@ -106,7 +106,7 @@ def source_of(root, word):
     elif test:
         files = [*root.glob(f"libs/**/{test[1]}/*_test.cpp"), *root.glob(f"tests/{test[1]}*_test.cpp")]
     else:
-        files = [*root.glob(f"apps/{word}/*.cpp"), *root.glob("apps/*.h")] if (root / "apps" / word).is_dir() else []
+        files = [*root.glob(f"apps/{word}/*.*"), *root.glob("apps/*.h")] if (root / "apps" / word).is_dir() else []
     return "\n".join(file.read_text() for file in files if file.is_file()) or None
 
 

@@ -1,23 +1,26 @@
 #!/usr/bin/env bash
-# The default command on random office buildings whose crossings look alike (scripts/make-office.py): the table of
-# doc/accuracy.md.
-#   scripts/offices.sh [OUT]     OUT defaults to out/offices
-# BUILDINGS=12 of them from FIRST=228 on (227 was used for tuning), VARIANTS "default no-lines" (and no-closing), JOBS
-# at a time (all cores). Resumes after an interruption. Takes half an hour of one core.
+# The default command on large random worlds: tables of doc/accuracy.md.
+#   scripts/large-worlds.sh office|campus [OUT]     OUT defaults to out/office or out/campus
+# An office is a building whose crossings look alike (scripts/make-office.py), a campus is outdoors
+# (scripts/make-campus.py). WORLDS=12 of them from FIRST=228 on (office: 227, campus: eight others were used for tuning),
+# VARIANTS "default no-lines" (also no-closing, and small-cells of 0.05 m), JOBS at a time (all cores). Resumes after an
+# interruption. Takes half an hour of one core.
 source "$(dirname "$0")/lib.sh"
-out=${1:-out/offices}
+world=${1:?office or campus}
+out=${2:-out/$world}
 bin=build/release/bin
 install_packages "${packages[@]}"
 build release simul-floorplan hybrid-slam slam-eval
 mkdir -p "$out"
 
-# run BUILDING VARIANT: a row: ATE (m), verdict, whether a second run was needed, CPU time (s).
+# run NUMBER VARIANT: a row: ATE (m), verdict, whether a second run was needed, CPU time (s).
 run() {
-  local log=$out/office-$1 result=$out/office-$1-$2 options=()
+  local log=$out/$world-$1 result=$out/$world-$1-$2 options=()
   [[ ! -f $result.row ]] || return 0
   case $2 in
     no-lines) options=(-m general) ;;
     no-closing) options=(--set loop_closing.enabled=false) ;;
+    small-cells) options=(--set grid.resolution=0.05) ;;
   esac
   local TIMEFORMAT=%U seconds
   seconds=$({ time "$bin/hybrid-slam" "$log.rawlog" -q --overwrite -o "$result" "${options[@]}" >"$result.out" \
@@ -33,19 +36,19 @@ END
   mv "$result.part" "$result.row"
 }
 export -f run
-export out bin
+export out bin world
 read -ra variants <<<"${VARIANTS:-default no-lines}"
-for ((building = ${FIRST:-228}; building < ${FIRST:-228} + ${BUILDINGS:-12}; ++building)); do
-  log=$out/office-$building
+for ((number = ${FIRST:-228}; number < ${FIRST:-228} + ${WORLDS:-12}; ++number)); do
+  log=$out/$world-$number
   [[ -f $log.rawlog ]] ||
-    { scripts/make-office.py "$building" "$out" && "$bin/simul-floorplan" -q "$log.ini" -o "$log.rawlog"; }
-  for variant in "${variants[@]}"; do echo "$building $variant"; done
+    { "scripts/make-$world.py" "$number" "$out" && "$bin/simul-floorplan" -q "$log.ini" -o "$log.rawlog"; }
+  for variant in "${variants[@]}"; do echo "$number $variant"; done
 done | xargs -P "${JOBS:-$(nproc)}" -L 1 bash -ec 'run "$@"' run
 
-python3 - "$out" "${variants[@]}" <<'END'
+python3 - "$world" "$out" "${variants[@]}" <<'END'
 import collections, glob, statistics, sys
-out, *variants = sys.argv[1:]
-print("<!-- made by: scripts/offices.sh -->")
+world, out, *variants = sys.argv[1:]
+print(f"<!-- made by: scripts/large-worlds.sh {world} -->")
 print("| | error, median (worst), m | lost | verdicts | second runs | time (s) |")
 print("|---|---|---|---|---|---|")
 for variant in variants:
