@@ -80,6 +80,28 @@ TEST(VerdictCheck, AnEarlierMapIsComparedIfItsCellsAreSmallEnough) {
   }
 }
 
+/// The room, 6 times as large; the path is right, or its mirror image.
+Evidence inALargeHall(double maxRange, double mirror) {
+  VerdictCheck check(maxRange);
+  for (size_t i = 0; i < 240; ++i) {
+    const TPose2D pose = test::poseOnLap(i, 80);
+    const auto scan = test::scan(0, pose);
+    for (size_t beam = 0; beam < scan->getScanSize(); ++beam)
+      scan->setScanRange(beam, 6 * scan->getScanRange(beam));
+    check.add({6 * pose.x, mirror * 6 * pose.y, mirror * pose.phi}, {scan});
+  }
+  return check.evidence();
+}
+
+TEST(VerdictCheck, LongerBeamsAreComparedWhereTheMapUsesThem) {
+  EXPECT_LT(inALargeHall(20, 1).beams, 30) << "of up to 8 m";
+  const Evidence right = inALargeHall(80, 1);
+  EXPECT_GT(right.beams, 60) << "of up to 32 m";
+  EXPECT_GT(right.returning.size(), 100u);
+  EXPECT_EQ(verdictOf(right).level, Verdict::Level::consistent) << verdictOf(right).line();
+  EXPECT_EQ(verdictOf(inALargeHall(80, -1)).level, Verdict::Level::lost);
+}
+
 /// A filter whose robot drives a lap, in the map of an earlier run.
 struct Lap : FilterView {
   TPose2D frame;  ///< of the lap in that map

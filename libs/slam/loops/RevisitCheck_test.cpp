@@ -70,6 +70,13 @@ TEST(RevisitCheck, ComparesWithAMapOfAnEarlierRun) {
   EXPECT_TRUE(unknown.revisits().empty()) << "the scans themselves are not in the map";
 }
 
+TEST(RevisitCheck, ComparesLongerBeamsOnlyWhereTheMapUsesThem) {
+  EXPECT_EQ(RevisitCheck::rangeOf(5.6), 5.6);
+  EXPECT_EQ(RevisitCheck::rangeOf(8), 8);
+  EXPECT_EQ(RevisitCheck::rangeOf(20), 8);
+  EXPECT_EQ(RevisitCheck::rangeOf(80), 32);
+}
+
 /// The beams, one per degree, that see a wall along y = `wall` within 8 m.
 ScanBeams beamsToWall(const TPose2D& pose, double wall) {
   ScanBeams beams;
