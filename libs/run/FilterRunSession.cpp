@@ -63,8 +63,6 @@ void FilterRun::visit(State& state) {
   if constexpr (State::kIsReading)
     if (state.isAtEnd()) return;  // a session of a version that did not replace stuck odometry
   if (stuckOdometry_) state(stuckScans_, firstStuck_, *stuckOdometry_);
-  if constexpr (State::kIsReading)
-    if (state.isAtEnd()) return;  // a session of a version that did not store this
   wasPlaceUnknown_ = search_ || planSearch_;
   state(wasPlaceUnknown_);
 }

@@ -185,7 +185,7 @@ TEST(Replay, ADriveOfTenKilometresEndsWithResults) {
   const std::string log = test::writeGzipped(folder.path("long.rawlog"), straightDrive(10000));
   Configuration c("", {"run.rawlog=" + log, "run.output=" + folder.path("out"), "particle_filter.particles=2",
                        "particle_filter.proposal=standard", "motion_model.turn_var_d=0",
-                       "motion_model.turn_mean_std=0", "input.max_odometry_gap=20"});
+                       "motion_model.turn_mean_std=0", "input.max_odometry_gap=20", "grid.resolution=0.05"});
   const std::atomic<bool> stop{false};
   const ReplayOutcome outcome = replay(c, true, stop);
   EXPECT_THAT(outcome.warnings, testing::Contains(testing::HasSubstr("cells of 0.45 m instead of 0.05 m")));
