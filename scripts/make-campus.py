@@ -11,10 +11,7 @@ import random
 import sys
 
 from planar import compose
-
-
-def row(word, *numbers):
-    return " ".join([word] + [f"{n:.4f}" for n in numbers])
+from random_world import row, write
 
 
 def front(draw, a, b):
@@ -82,7 +79,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     seed, folder = sys.argv[1:]
-    draw, name = random.Random(int(seed)), f"{folder}/campus-{seed}"
+    draw = random.Random(int(seed))
     columns, rows = draw.choice([3, 4]), draw.choice([2, 3])
     xs, ys = [-60, 0], [-60, 0]
     for _ in range(columns):
@@ -95,30 +92,7 @@ def main():
     plan = [building(draw, left, low, right, high) for left, right in zip(xs, xs[1:]) for low, high in zip(ys, ys[1:])
             if draw.random() < 0.8]
     way = walk(draw, crossings, columns, rows)
-    with open(name + ".plan", "w") as f:
-        f.write("\n".join(plan + trees(draw, way)) + "\n")
-    with open(name + ".route", "w") as f:
-        f.write("\n".join([row("start", *way[0], 0), "speed 0.8", "turn_speed 40"] +
-                          [row("go", *place) for place in way[1:]]) + "\n")
-    with open(name + ".ini", "w") as f:
-        f.write(f"""[simulation]
-plan = campus-{seed}.plan
-route = campus-{seed}.route
-seed = {seed}
-
-[laser]
-sensor = LMS-200
-resolution_deg = 1
-rate = {draw.choice([1, 2, 4])}
-mixed_pixels = true
-
-[odometry]
-mean_d_d = {draw.uniform(0.97, 1.03):.3f}
-mean_t_d_deg = {draw.uniform(-0.4, 0.4):.2f}
-mean_t_t = {draw.uniform(0.96, 1.04):.3f}
-sigma_d_d = {draw.choice([0.02, 0.05])}
-sigma_t_d_deg = {draw.choice([0.5, 1, 2])}
-""")
+    write(draw, folder, f"campus-{seed}", plan + trees(draw, way), way)
 
 
 main()

@@ -10,9 +10,7 @@ import math
 import random
 import sys
 
-
-def row(word, *numbers):
-    return " ".join([word] + [f"{n:.4f}" for n in numbers])
+from random_world import row, write
 
 
 def furnished(draw, x0, y0, x1, y1, outward):
@@ -87,37 +85,13 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     seed, folder = sys.argv[1:]
-    draw, name = random.Random(int(seed)), f"{folder}/office-{seed}"
+    draw = random.Random(int(seed))
     xs, ys, plan = building(draw)
     places = [(xs[i], ys[j]) for i, j in walk(draw, len(xs) - 1, len(ys) - 1)]
     seconds = sum(math.dist(a, b) for a, b in zip(places, places[1:])) / 0.7
     slips = [f"{draw.uniform(60, seconds):.0f} {draw.choice([-90, -40, -20, 20, 40, 90])} {draw.choice([0, 0.1])}"
              for _ in range(draw.choice([0, 2]))]
-    with open(name + ".plan", "w") as f:
-        f.write("\n".join(plan) + "\n")
-    with open(name + ".route", "w") as f:
-        start = row("start", *places[0], draw.choice([0, 15]))
-        f.write("\n".join([start, "speed 0.7", "turn_speed 40"] + [row("go", *place) for place in places[1:]]) + "\n")
-    with open(name + ".ini", "w") as f:
-        f.write(f"""[simulation]
-plan = office-{seed}.plan
-route = office-{seed}.route
-seed = {seed}
-
-[laser]
-sensor = LMS-200
-resolution_deg = 1
-rate = {draw.choice([1, 2, 4])}
-mixed_pixels = true
-
-[odometry]
-mean_d_d = {draw.uniform(0.97, 1.03):.3f}
-mean_t_d_deg = {draw.uniform(-0.4, 0.4):.2f}
-mean_t_t = {draw.uniform(0.96, 1.04):.3f}
-sigma_d_d = {draw.choice([0.02, 0.05])}
-sigma_t_d_deg = {draw.choice([0.5, 1, 2])}
-slips = {", ".join(slips)}
-""")
+    write(draw, folder, f"office-{seed}", plan, places, heading=draw.choice([0, 15]), speed=0.7, slips=slips)
 
 
 main()

@@ -31,8 +31,8 @@ struct LogSettings {
 ///   limit or the value that it logs for no return. Walls in buildings are near, and far returns are widely
 ///   spaced.
 /// - `grid.resolution`: 0.1 m where the returns of neighbouring beams are over 0.1 m apart, as outdoors or
-/// with
-///   few beams: in smaller cells, scans would seldom hit the same cell of a wall. Not with an earlier map.
+///   with few beams: in smaller cells, scans would seldom hit the same cell of a wall. Not with an earlier
+///   map, which has its own.
 /// - `line_weight.sigma_deg`: 0.5 where ranges are logged in steps of 1 cm, else 0.4.
 /// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot if scans are
 ///   sparse and overlap little; else 0.1 m and 5 deg.
