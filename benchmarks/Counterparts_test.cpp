@@ -8,7 +8,6 @@
 namespace hybrid_slam::bench {
 namespace {
 
-using test::kDegree;
 using test::uniform;
 
 struct Noise {

@@ -2,8 +2,6 @@
 /// @brief For the tests: maps of walls, a particle with such a map, and scans of the walls.
 #pragma once
 
-#include <mrpt/math/wrap2pi.h>
-
 #include "slam/filter/Particle.h"
 #include "slam/filter/PreparedScan.h"
 #include "slam/grid/BeamSelection.h"
@@ -48,10 +46,6 @@ inline Particle particleAt(const Walls& walls, const TPose2D& start) {
   particle.grid = map.grid;
   particle.lines = CowPtr<LineDatabase>(map.lines);
   return particle;
-}
-
-inline Eigen::Vector3d offset(const TPose2D& pose, const TPose2D& from) {
-  return {pose.x - from.x, pose.y - from.y, mrpt::math::wrapToPi(pose.phi - from.phi)};
 }
 
 }  // namespace hybrid_slam::test

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/TPose2D.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::test {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Result of a log: its summary, and each scan's odometry pose relative to the first.
 struct Replayed {

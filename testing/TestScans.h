@@ -2,7 +2,6 @@
 /// @brief For the tests: scans of hand-made walls, random poses.
 #pragma once
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/Degree.h"
 #include "base/LaserScan.h"
 #include "base/RandomStream.h"
 
@@ -19,7 +19,6 @@ namespace hybrid_slam::test {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 using Walls = std::vector<std::pair<TPoint2D, TPoint2D>>;
 
 /// Closed polygon.

@@ -6,7 +6,14 @@ namespace hybrid_slam::bags {
 namespace {
 
 constexpr size_t kMagicBytes = 8;
-enum Record : uint8_t { kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15 };
+enum McapRecord : uint8_t {
+  kMcapFooter = 2,
+  kMcapSchema = 3,
+  kMcapChannel = 4,
+  kMcapMessage = 5,
+  kMcapChunk = 6,
+  kMcapDataEnd = 15
+};
 
 std::string name(ByteCursor& in) { return std::string(in.block().substr(0, kMostNameBytes)); }
 
@@ -21,18 +28,18 @@ std::optional<StoredMessage> McapFile::nextRecord() {
   ByteCursor in(head);
   const auto kind = in.number<uint8_t>();
   const auto size = in.number<uint64_t>();
-  isAtEnd_ = kind == kDataEnd || kind == kFooter;
+  isAtEnd_ = kind == kMcapDataEnd || kind == kMcapFooter;
   if (isAtEnd_) {
     const uint32_t stored =
-        kind == kDataEnd ? ByteCursor(stream_.take(sizeof(uint32_t))).number<uint32_t>() : 0;
+        kind == kMcapDataEnd ? ByteCursor(stream_.take(sizeof(uint32_t))).number<uint32_t>() : 0;
     if (stored != 0 && stored != checksum) throw BrokenBytes("damaged: a wrong checksum of the whole");
     return std::nullopt;
   }
-  if (kind != kSchema && kind != kChannel && kind != kMessage && kind != kChunk) {
+  if (kind != kMcapSchema && kind != kMcapChannel && kind != kMcapMessage && kind != kMcapChunk) {
     stream_.skip(size);
     return std::nullopt;
   }
-  takeRecord(size, kind == kChunk);
+  takeRecord(size, kind == kMcapChunk);
   return take(kind, record_);
 }
 
@@ -40,19 +47,19 @@ std::optional<StoredMessage> McapFile::nextInChunk() {
   const auto kind = inChunk_.number<uint8_t>();
   const auto size = inChunk_.number<uint64_t>();
   const std::string_view record = inChunk_.take(size);
-  return kind == kChunk ? std::nullopt : take(kind, record);
+  return kind == kMcapChunk ? std::nullopt : take(kind, record);
 }
 
 std::optional<StoredMessage> McapFile::take(uint8_t kind, std::string_view record) {
   ByteCursor in(record);
-  if (kind == kSchema) {
+  if (kind == kMcapSchema) {
     const auto id = in.number<uint16_t>();
     schemas_[id] = name(in);
-  } else if (kind == kChannel) {
+  } else if (kind == kMcapChannel) {
     noteChannel(record);
-  } else if (kind == kChunk) {
+  } else if (kind == kMcapChunk) {
     readChunk(record);
-  } else if (kind == kMessage) {
+  } else if (kind == kMcapMessage) {
     const auto channel = channels_.find(in.number<uint16_t>());
     if (channel == channels_.end()) throw BrokenBytes("a message without a channel");
     in.number<uint32_t>();  // sequence number

@@ -4,13 +4,13 @@ namespace hybrid_slam::bags {
 namespace {
 
 constexpr size_t kMostHeaderBytes = 1 << 20;
-enum Record : uint8_t {
-  kMessage = 2,
+enum BagRecord : uint8_t {
+  kBagMessage = 2,
   kBagHeader = 3,
-  kIndex = 4,
-  kChunk = 5,
-  kChunkInfo = 6,
-  kConnection = 7
+  kBagIndex = 4,
+  kBagChunk = 5,
+  kBagChunkInfo = 6,
+  kBagConnection = 7
 };
 
 /// The value of a field `name=value`; empty if there is none.
@@ -51,22 +51,22 @@ std::optional<StoredMessage> Ros1Bag::nextRecord() {
   const auto kind = numberIn<uint8_t>(header, "op");
   if (kind == kBagHeader && !field(header, "encryptor").empty()) throw BrokenBytes("encrypted");
   const auto size = length(UINT32_MAX, "");
-  if (kind == kChunkInfo) {  // of the index at the end: all messages come before
+  if (kind == kBagChunkInfo) {  // of the index at the end: all messages come before
     isAtEnd_ = true;
     return std::nullopt;
   }
-  if (kind == kIndex) {  // bags of 2010 state a wrong length
+  if (kind == kBagIndex) {  // bags of 2010 state a wrong length
     constexpr uint64_t kEntryBytes = 12;
     stream_.skip(kEntryBytes * numberIn<uint32_t>(header, "count"));
     return std::nullopt;
   }
-  if (kind != kMessage && kind != kChunk && kind != kConnection) {
+  if (kind != kBagMessage && kind != kBagChunk && kind != kBagConnection) {
     stream_.skip(size);
     return std::nullopt;
   }
-  takeRecord(size, kind == kChunk);
-  if (kind == kMessage) return messageOf(header, record_);
-  if (kind == kChunk)
+  takeRecord(size, kind == kBagChunk);
+  if (kind == kBagMessage) return messageOf(header, record_);
+  if (kind == kBagChunk)
     readChunk(header, record_);
   else
     noteConnection(header, record_);
@@ -76,8 +76,8 @@ std::optional<StoredMessage> Ros1Bag::nextRecord() {
 std::optional<StoredMessage> Ros1Bag::nextInChunk() {
   const std::string_view header = inChunk_.block(), data = inChunk_.block();
   const auto kind = numberIn<uint8_t>(header, "op");
-  if (kind == kMessage) return messageOf(header, data);
-  if (kind == kConnection) noteConnection(header, data);
+  if (kind == kBagMessage) return messageOf(header, data);
+  if (kind == kBagConnection) noteConnection(header, data);
   return std::nullopt;
 }
 

@@ -1,18 +1,16 @@
 #include "base/LaserScan.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <cmath>
 #include <limits>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 
 namespace hybrid_slam {
 namespace {
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 /// Beams at -90, 0, +90 deg with ranges 1, 2, 3 m.
 mrpt::obs::CObservation2DRangeScan threeBeams() {

@@ -1,20 +1,18 @@
 #include "base/Options.h"
 
 #include <mrpt/config/CConfigFileBase.h>
-#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "base/Numbers.h"
 
 namespace hybrid_slam {
 namespace {
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::string rangeText(double low, double high) { return numberText(low) + ".." + numberText(high); }
 

@@ -9,22 +9,15 @@
 #include "base/Errors.h"
 #include "files/TemporaryFolder.h"
 #include "testing/CompressedBytes.h"
+#include "testing/IncompressibleText.h"
 
 namespace hybrid_slam::files {
 namespace {
 
 using test::compressed;
+using test::incompressibleText;
 using test::kCompressions;
 using testing::AnyOf;
-
-/// Text that does not compress well.
-std::string noise(size_t length) {
-  std::string text;
-  for (uint64_t state = 1; text.size() < length;
-       state = state * 6364136223846793005ULL + 1442695040888963407ULL)
-    text += std::to_string(state) + "\n";
-  return text;
-}
 
 struct Outcome {
   std::string content, defect;
@@ -41,7 +34,7 @@ Outcome read(const std::string& path) {
 
 TEST(CompressedFile, PlainBytesAreThemselves) {
   const TemporaryFolder folder;
-  for (const std::string& text : {std::string(), std::string("BZh9 is a text"), noise(200000)}) {
+  for (const std::string& text : {std::string(), std::string("BZh9 is a text"), incompressibleText(200000)}) {
     const Outcome outcome = read(folder.write("plain", text));
     EXPECT_EQ(outcome.content, text);
     EXPECT_EQ(outcome.defect, "");
@@ -50,7 +43,7 @@ TEST(CompressedFile, PlainBytesAreThemselves) {
 
 TEST(CompressedFile, ContentDecidesWhichCompression) {
   const TemporaryFolder folder;
-  const std::string text = noise(300000);
+  const std::string text = incompressibleText(300000);
   for (const Compression compression : kCompressions) {
     const std::string path = folder.write("any.txt", compressed(compression, text));
     EXPECT_EQ(read(path).content, text) << nameOf(compression);
@@ -76,7 +69,7 @@ TEST(CompressedFile, StreamsOneAfterAnotherAreOneContent) {
 
 TEST(CompressedFile, AFileThatIsShortenedWhileItIsReadIsDefective) {
   const TemporaryFolder folder;
-  const std::string text = noise(300000);
+  const std::string text = incompressibleText(300000);
   const std::string path = folder.write("plain", text);
   CompressedFile file(path, "");
   std::string block(text.size(), ' ');
@@ -98,7 +91,7 @@ TEST(CompressedFile, AFileThatIsShortenedWhileItIsReadIsDefective) {
 
 TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {
   const TemporaryFolder folder;
-  const std::string text = noise(300000);
+  const std::string text = incompressibleText(300000);
   for (const Compression compression : kCompressions) {
     const std::string bytes = compressed(compression, text);
     for (const size_t kept : {size_t{12}, bytes.size() / 2, bytes.size() - 1}) {
@@ -112,7 +105,7 @@ TEST(CompressedFile, EveryCutIsFoundAfterWhatCanBeRead) {
 TEST(CompressedFile, DamageIsFound) {
   const TemporaryFolder folder;
   for (const Compression compression : kCompressions) {
-    std::string bytes = compressed(compression, noise(100000));
+    std::string bytes = compressed(compression, incompressibleText(100000));
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
     const std::string name = nameOf(compression);
     EXPECT_THAT(read(folder.write("damaged", bytes)).defect,
@@ -121,7 +114,7 @@ TEST(CompressedFile, DamageIsFound) {
 }
 
 TEST(CompressedFile, ContentInMemoryMustHaveTheSizeThatIsClaimed) {
-  const std::string text = noise(3000000);
+  const std::string text = incompressibleText(3000000);
   for (const Compression compression : kCompressions) {
     const std::string bytes = compressed(compression, text);
     EXPECT_EQ(decoded(compression, bytes, text.size()), text) << nameOf(compression);

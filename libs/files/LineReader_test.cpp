@@ -8,6 +8,7 @@
 
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
+#include "testing/IncompressibleText.h"
 
 namespace hybrid_slam::files {
 namespace {
@@ -43,17 +44,6 @@ std::string errorOf(const std::string& path) {
     LineReader lines(path);
     readAll(lines);
   });
-}
-
-/// Lines that do not compress, so that half of the file holds about half of the content.
-std::string noise(size_t lines) {
-  std::string text;
-  uint64_t state = 1;
-  for (size_t i = 0; i < lines; ++i) {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    text += std::to_string(state) + "\n";
-  }
-  return text;
 }
 
 TEST(LineReader, ReadsPlainAndGzippedLinesWithTheirNumbers) {
@@ -110,7 +100,7 @@ TEST(LineReader, UnreadableFilesGiveTheReason) {
 
 TEST(LineReader, TruncatedGzipIsAnErrorForEveryCut) {
   const TemporaryFolder folder;
-  writeGzip(folder.path("whole"), noise(20000));
+  writeGzip(folder.path("whole"), test::incompressibleText(400000));
   std::ifstream in(folder.path("whole"), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   EXPECT_EQ(errorOf(folder.path("whole")), "no error");
@@ -121,7 +111,7 @@ TEST(LineReader, TruncatedGzipIsAnErrorForEveryCut) {
 
 TEST(LineReader, DamagedGzipIsAnError) {
   const TemporaryFolder folder;
-  writeGzip(folder.path("whole"), noise(20000));
+  writeGzip(folder.path("whole"), test::incompressibleText(400000));
   std::ifstream in(folder.path("whole"), std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), {});
   bytes[bytes.size() - 6] = static_cast<char>(bytes[bytes.size() - 6] ^ 1);  // the checksum

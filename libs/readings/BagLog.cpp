@@ -12,9 +12,7 @@ namespace {
 
 constexpr double kWindow = 1;                                 // s
 constexpr size_t kMostHeld = 5000, kMostHeldBeams = 1 << 22;  // objects and beams
-constexpr double kLatestTime = 1e11;                          // s, as in text logs
 constexpr double kLongRange = 100;                            // m, where a scan does not state its own
-constexpr double kAnyRange = 1e4;                             // m
 
 mrpt::math::TPose2D seenFromAbove(const bags::FramePose& pose) {
   const mrpt::poses::CPose3D p = poseOf(pose);
@@ -30,7 +28,7 @@ BagLog::BagLog(const std::string& file, BagPlan plan, const LogConversionOptions
       plan_(std::move(plan)),
       options_(options),
       report_(std::move(report)),
-      objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep) {
+      objects_(options.maxRange.value_or(LogObjects::kAnyRange), options.actionObservation, options.sweep) {
   objects_.summary.format = bag_->format();
   objects_.summary.unit = "message";
 }

@@ -1,13 +1,12 @@
 #include "readings/BeamAngles.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <cmath>
+
+#include "base/Degree.h"
 
 namespace hybrid_slam::readings {
 
 std::optional<double> angularStepFor(size_t beams) {
-  constexpr double kDegree = mrpt::DEG2RAD(1.0);
   switch (beams) {
     case 100:
     case 101:

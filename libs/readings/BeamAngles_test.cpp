@@ -1,12 +1,11 @@
 #include "readings/BeamAngles.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
+
+#include "base/Degree.h"
 
 namespace hybrid_slam::readings {
 namespace {
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 struct Fan {
   size_t beams;

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/core/Clock.h>
-#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -16,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "files/TemporaryFolder.h"
@@ -34,8 +34,6 @@ using mrpt::obs::CSensoryFrame;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::string odom(const std::string& pose, const std::string& time) {
   return "ODOM " + pose + " 0 0 0 " + time + " host 0\n";

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/Numbers.h"
+#include "readings/LogParser.h"
 
 namespace hybrid_slam::readings {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\f\v";
-/// Largest time (s). MRPT's timestamps are 64-bit counts of 100 ns since 1601 and end at 9e11 s.
-constexpr double kLatestTime = 1e11;
 
 }  // namespace
 

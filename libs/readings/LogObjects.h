@@ -58,6 +58,8 @@ mrpt::obs::CObservationOdometry::Ptr odometryAt(mrpt::Clock::time_point time,
 /// are.
 class LogObjects {
  public:
+  static constexpr double kAnyRange = 1e4;  ///< m, for logs whose scans state their own limit
+
   /// @param maxRange           m; readings at or beyond this are no returns
   /// @param actionObservation  (action, sensory frame) pairs instead of one observation per record
   /// @param sweep              scan times in place of those of the records

@@ -10,12 +10,12 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kShortest = 0.5;    // m: shorter steps never count as jumps
-constexpr double kAcceleration = 5;  // times the highest speed so far
-constexpr double kLeastTime = 0.1;   // s: readings may arrive in bursts, with nearly equal times
-constexpr double kUnknownTime = 1;   // s: assumed between readings without time
-constexpr double kWindow = 0.5;      // s: over which the robot's speed is measured
-constexpr double kSimilar = 0.5;     // of the previous speed, between steps of one motion
+constexpr double kShortest = 0.5;     // m: shorter steps never count as jumps
+constexpr double kAcceleration = 5;   // times the highest speed so far
+constexpr double kLeastTime = 0.1;    // s: readings may arrive in bursts, with nearly equal times
+constexpr double kUnknownTime = 1;    // s: assumed between readings without time
+constexpr double kSpeedWindow = 0.5;  // s: over which the robot's speed is measured
+constexpr double kSimilar = 0.5;      // of the previous speed, between steps of one motion
 
 }  // namespace
 
@@ -34,7 +34,7 @@ bool OdometryJumps::isJump(const TPose2D& reading, std::optional<double> time) {
   }
   if (isTooFast) fastest_ = velocity.norm();
   moved_ += step, elapsed_ += std::max(passed, 0.0);
-  if (elapsed_ >= kWindow) {
+  if (elapsed_ >= kSpeedWindow) {
     fastest_ = std::max(fastest_, moved_.norm() / elapsed_);
     moved_ = {0, 0}, elapsed_ = 0;
   }

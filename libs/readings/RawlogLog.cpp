@@ -17,7 +17,6 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
-constexpr double kAnyRange = 1e4;  // m
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 bool hasOdometryReadings(const std::string& file) {
@@ -42,7 +41,7 @@ void limitRange(CObservation2DRangeScan& scan, double range) {
 }  // namespace
 
 RawlogLog::RawlogLog(const std::string& file, const LogConversionOptions& options)
-    : objects_(options.maxRange.value_or(kAnyRange), options.actionObservation, options.sweep),
+    : objects_(options.maxRange.value_or(LogObjects::kAnyRange), options.actionObservation, options.sweep),
       file_(file),
       options_(options),
       reader_(file),

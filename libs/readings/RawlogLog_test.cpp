@@ -43,7 +43,7 @@ LogConversionOptions pairs() {
   return options;
 }
 
-struct Converted {
+struct ConvertedRawlog {
   LogSummary summary;
   Log log;
 
@@ -69,9 +69,9 @@ LogSummary convert(const std::string& input, const std::string& output, const Lo
                     [](size_t number, const std::string& why) { ADD_FAILURE() << number << ": " << why; });
 }
 
-Converted converted(const Log& log, const LogConversionOptions& options = {}) {
+ConvertedRawlog converted(const Log& log, const LogConversionOptions& options = {}) {
   const files::TemporaryFolder folder;
-  Converted out;
+  ConvertedRawlog out;
   out.summary = convert(test::writePlain(folder.path("in.rawlog"), log), folder.path("out.rawlog"), options);
   mrpt::obs::CRawlog rawlog;
   EXPECT_TRUE(rawlog.loadFromRawLogFile(folder.path("out.rawlog"))) << "MRPT reads it";
@@ -105,7 +105,7 @@ Log observations() {
 
 TEST(RawlogLog, ObservationsBecomePairs) {
   const Log log = observations();
-  const Converted out = converted(log, pairs());
+  const ConvertedRawlog out = converted(log, pairs());
   ASSERT_EQ(out.log.size(), 24u);
   for (size_t i = 0; i < 12; ++i) {
     const auto seen = out.scanOfFrame(2 * i + 1);
@@ -131,7 +131,7 @@ TEST(RawlogLog, ObservationsBecomePairs) {
 TEST(RawlogLog, PairsBecomeObservations) {
   const Log log{action({0, 0, 0}),        frame({scan(10, {}, 3)}), action({1, 0, 0.5}),
                 frame({scan(11, {}, 4)}), action({1, 0, 0}),        frame({scan(12, {}, 5)})};
-  const Converted out = converted(log);
+  const ConvertedRawlog out = converted(log);
   ASSERT_EQ(out.log.size(), 6u);
   for (size_t i = 0; i < 3; ++i) {
     const auto odometry = out.at<CObservationOdometry>(2 * i);
@@ -154,13 +154,13 @@ TEST(RawlogLog, PairsBecomeObservations) {
 
 TEST(RawlogLog, OfTheFormThatIsAskedForItStaysAsItIs) {
   const Log single = observations();
-  const Converted same = converted(single);
+  const ConvertedRawlog same = converted(single);
   EXPECT_EQ(same.log.size(), single.size());
   expectSameReadings(single, same.log);
 
   const Log two{action({0, 0, 0}), frame({scan(10, {}, 3, "front"), scan(10, {}, 4, "rear")}),
                 action({1, 0, 0}), frame({scan(11, {}, 3, "front"), scan(11, {}, 4, "rear")})};
-  const Converted out = converted(two, pairs());
+  const ConvertedRawlog out = converted(two, pairs());
   ASSERT_EQ(out.log.size(), 4u) << "the scans of both lasers stay in one frame";
   out.expectIncrement(2, {1, 0, 0});
   EXPECT_EQ(out.at<CSensoryFrame>(3)->size(), 2u);
@@ -180,7 +180,7 @@ TEST(RawlogLog, OdometryReadingsBesideActionsAreUsedAlone) {
     return one;
   };
   const Log log{action({0, 0, 0}), both(10, 5), action({1, 0, 0}), both(10.5, 7)};
-  const Converted out = converted(log);
+  const ConvertedRawlog out = converted(log);
   ASSERT_EQ(out.log.size(), 4u);
   ASSERT_TRUE(out.at<CObservationOdometry>(3));
   EXPECT_EQ(out.at<CObservationOdometry>(3)->odometry.x(), 7);
@@ -190,7 +190,7 @@ TEST(RawlogLog, OdometryReadingsBesideActionsAreUsedAlone) {
 TEST(RawlogLog, ActionsWithoutOdometryAndTimesThatAreMissingAreKept) {
   const Log log{mrpt::obs::CActionCollection::Create(), frame({scan(test::kNoTime)}), action({1, 0, 0}),
                 frame({scan(test::kNoTime)})};
-  const Converted out = converted(log);
+  const ConvertedRawlog out = converted(log);
   ASSERT_EQ(out.log.size(), 3u) << "no odometry before the first increment";
   ASSERT_TRUE(out.at<CObservationOdometry>(1));
   EXPECT_EQ(out.at<CObservationOdometry>(1)->timestamp, INVALID_TIMESTAMP);
@@ -205,7 +205,7 @@ TEST(RawlogLog, OdometryThatIsNotANumberIsSkipped) {
   EXPECT_THAT(converted(log).summary.otherRecords,
               ElementsAre(Pair("odometry readings that are not numbers", 1u)));
   EXPECT_EQ(converted(log).log.size(), 4u);
-  const Converted out = converted(log, pairs());
+  const ConvertedRawlog out = converted(log, pairs());
   out.expectIncrement(2, {1, 0, 0});
 }
 
@@ -215,7 +215,7 @@ TEST(RawlogLog, OtherObservationsAreLeftOutOfPairsThatAreMade) {
   Log log = observations();
   log.insert(log.begin(), comment);
   EXPECT_EQ(converted(log).log.size(), 25u);
-  const Converted out = converted(log, pairs());
+  const ConvertedRawlog out = converted(log, pairs());
   EXPECT_EQ(out.log.size(), 24u);
   EXPECT_THAT(out.summary.otherRecords, ElementsAre(Pair("CObservationComment", 1u)));
   const Log withAComment{action({0, 0, 0}), frame({scan(10)})};
@@ -235,7 +235,7 @@ TEST(RawlogLog, ScanTimesAreKeptOrSetInBothForms) {
     for (LogConversionOptions options : {LogConversionOptions(), pairs()}) {
       EXPECT_THAT(sweepsOf(converted(log, options).log), ElementsAre(Pair("LASER", 0.025)));
       options.sweep.seconds = 0.05;
-      const Converted set = converted(log, options);
+      const ConvertedRawlog set = converted(log, options);
       EXPECT_THAT(sweepsOf(set.log), ElementsAre(Pair("LASER", 0.05)));
       EXPECT_EQ(set.summary.wrongSweeps, 0u);
       options.sweep.seconds = 0;
@@ -248,7 +248,7 @@ TEST(RawlogLog, AMaximumRangeMakesNoReturns) {
   for (const Log& log : {single, converted(single, pairs()).log}) {
     LogConversionOptions options;
     options.maxRange = 4;
-    const Converted out = converted(log, options);
+    const ConvertedRawlog out = converted(log, options);
     const auto seen = out.at<CObservation2DRangeScan>(1);
     EXPECT_EQ(seen->maxRange, 4);
     size_t valid = 0;

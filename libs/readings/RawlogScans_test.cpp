@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "files/TemporaryFolder.h"
 #include "testing/ReplayedLog.h"
@@ -13,13 +12,12 @@ namespace hybrid_slam::readings {
 namespace {
 
 using test::areNear;
+using test::kNaN;
 using test::Replayed;
 using test::replayed;
 using test::scan;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Two lasers in sensory frames: by default both are used, otherwise the named ones.
 TEST(RawlogSource, ReadingsHaveTheScansOfAllLasers) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "files/TemporaryFolder.h"
 #include "readings/LogWarnings.h"
@@ -15,12 +14,11 @@ namespace hybrid_slam::readings {
 namespace {
 
 using test::areNear;
+using test::kNaN;
 using test::Replayed;
 using test::replayed;
 using test::scan;
 using testing::ElementsAre;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(RawlogSource, ActionObservationPairsSumUpTheOdometry) {
   const test::Log log{test::action({1, 0, 0}), test::frame({scan(10)}),        test::action({1, 0, M_PI / 2}),

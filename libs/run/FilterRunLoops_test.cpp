@@ -95,7 +95,7 @@ class FilterRunLoops : public testing::Test {
 
   const files::TemporaryFolder folder;
   const std::string log =
-      test::writeGzipped(folder.path("log.rawlog"), logOf(test::ringDrive(0.03 * test::kDegree)));
+      test::writeGzipped(folder.path("log.rawlog"), logOf(test::ringDrive(0.03 * kDegree)));
 };
 
 /// Returns what the lines on closed loops say.

@@ -127,7 +127,7 @@ TEST_F(FoundPlace, ARunWithoutOneIsNotResumed) {
   }
 }
 
-Eigen::Matrix3d covarianceOf(const std::vector<double>& row) {
+Eigen::Matrix3d covarianceOfRow(const std::vector<double>& row) {
   Eigen::Matrix3d covariance;
   covariance << row[1], row[2], row[4], row[2], row[3], row[5], row[4], row[5], row[6];
   return covariance;
@@ -145,8 +145,8 @@ TEST_F(FoundPlace, TurnsTheCovariancesOfThePathSoFar) {
   const auto before = files::readNumberTable(alone + "/covariance.csv", columns);
   const auto after = files::readNumberTable(joined + "/covariance.csv", columns);
   for (const size_t row : {2, 4}) {  // the place is found later
-    const Eigen::Matrix3d was = covarianceOf(before[row].values);
-    const Eigen::Matrix3d is = covarianceOf(after[row].values);
+    const Eigen::Matrix3d was = covarianceOfRow(before[row].values);
+    const Eigen::Matrix3d is = covarianceOfRow(after[row].values);
     EXPECT_GT(std::abs(was(0, 0) - was(1, 1)), 0.02 * was.norm()) << "the axes differ";
     EXPECT_TRUE(is.isApprox(rotated(was, turn), 0.02)) << row << ":\n" << was << "\n\n" << is;
   }

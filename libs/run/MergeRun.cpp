@@ -35,18 +35,18 @@ Configuration configurationOf(const MapPartFile& older, const MapPartFile& newer
   return configuration;
 }
 
-double rounded(double value) { return std::round(1e4 * value) / 1e4; }
+double toFourDigits(double value) { return std::round(1e4 * value) / 1e4; }
 
 nlohmann::ordered_json json(const MapPlacement& placement, const TPose2D& frame) {
-  return {{"x_m", rounded(frame.x)},
-          {"y_m", rounded(frame.y)},
-          {"phi_deg", rounded(mrpt::RAD2DEG(mrpt::math::wrapToPi(frame.phi)))},
-          {"fit", rounded(placement.agreement.fit)},
-          {"overlap", rounded(placement.agreement.overlap)},
-          {"compared_walls_m", rounded(placement.compared)},
-          {"second", rounded(placement.second)},
+  return {{"x_m", toFourDigits(frame.x)},
+          {"y_m", toFourDigits(frame.y)},
+          {"phi_deg", toFourDigits(mrpt::RAD2DEG(mrpt::math::wrapToPi(frame.phi)))},
+          {"fit", toFourDigits(placement.agreement.fit)},
+          {"overlap", toFourDigits(placement.agreement.overlap)},
+          {"compared_walls_m", toFourDigits(placement.compared)},
+          {"second", toFourDigits(placement.second)},
           {"patches", placement.patches.size()},
-          {"patch_fit", rounded(placement.patchFit)}};
+          {"patch_fit", toFourDigits(placement.patchFit)}};
 }
 
 std::string figures(const MapPlacement& placement) {

@@ -1,7 +1,6 @@
 #include "run/PathCovariance.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "base/Numbers.h"
 #include "base/PoseDistance.h"
+#include "base/PoseOffset.h"
 #include "base/PoseRotation.h"
 #include "slam/loops/PathDrift.h"
 
@@ -74,8 +74,7 @@ PoseCovariance covarianceOf(const std::vector<WeightedPose>& particles) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const auto& [pose, logWeight] : particles) {
-    const TPose2D& first = particles.front().pose;
-    const Eigen::Vector3d off(pose.x - first.x, pose.y - first.y, mrpt::math::wrapToPi(pose.phi - first.phi));
+    const Eigen::Vector3d off = offsetOf(pose, particles.front().pose);
     const double weight = std::exp(logWeight - highest);
     sum += weight, mean += weight * off, squares += weight * off * off.transpose();
   }

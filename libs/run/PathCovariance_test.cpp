@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/Degree.h"
+
 namespace hybrid_slam::run {
 namespace {
 
@@ -43,8 +45,6 @@ TEST(PathCovariance, OfParticles) {
   EXPECT_EQ(covarianceOf({}), PoseCovariance::Zero());
   EXPECT_NEAR(covarianceOf({{{0, 0, 0}, 0}, {{1, 0, 0}, -1000}})(0, 0), 0, 1e-12) << "by weight";
 }
-
-constexpr double kDegree = M_PI / 180;
 
 TEST(PathCovariance, GrowsAlongThePath) {
   const auto path = thereAndBack();

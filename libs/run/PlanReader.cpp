@@ -13,35 +13,38 @@ namespace hybrid_slam::run {
 namespace {
 
 using mrpt::math::TPoint2D;
-using Json = nlohmann::json;
 
-constexpr size_t kMostBytes = size_t{16} << 20;
-constexpr char kExpected[] = "expected a floor plan: .geojson, .dxf, or .svg of hybrid-slam";
+constexpr size_t kMostPlanBytes = size_t{16} << 20;
+constexpr char kExpectedPlan[] = "expected a floor plan: .geojson, .dxf, or .svg of hybrid-slam";
 
 // GeoJSON
 
-TPoint2D pointOf(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
+TPoint2D pointOf(const nlohmann::json& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
 
-void addString(const Json& points, PlanLines& lines) {
+void addString(const nlohmann::json& points, PlanLines& lines) {
   for (size_t i = 1; i < points.size(); ++i) lines.add(pointOf(points.at(i - 1)), pointOf(points.at(i)));
 }
 
-void addGeometry(const Json& geometry, PlanLines& lines) {
+void addGeometry(const nlohmann::json& geometry, PlanLines& lines) {
   const std::string type = geometry.at("type");
   if (type == "LineString") addString(geometry.at("coordinates"), lines);
   if (type == "MultiLineString" || type == "Polygon")
-    for (const Json& part : geometry.at("coordinates")) addString(part, lines);
+    for (const nlohmann::json& part : geometry.at("coordinates")) addString(part, lines);
 }
 
 void readGeoJson(const std::string& text, PlanLines& lines) {
   // Anything nested deeper is not GeoJSON, and would overflow the stack.
-  const Json json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-    if (depth > 20) throw std::runtime_error("nested too deeply");
-    return true;
-  });
-  for (const Json& feature : json.at("features")) {
-    const Json& properties = feature.contains("properties") ? feature["properties"] : Json();
-    if (properties.is_object() && properties.value("kind", Json("wall")) == Json("opening")) continue;
+  const nlohmann::json json =
+      nlohmann::json::parse(text, [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        if (depth > 20) throw std::runtime_error("nested too deeply");
+        return true;
+      });
+  for (const nlohmann::json& feature : json.at("features")) {
+    const nlohmann::json& properties =
+        feature.contains("properties") ? feature["properties"] : nlohmann::json();
+    if (properties.is_object() &&
+        properties.value("kind", nlohmann::json("wall")) == nlohmann::json("opening"))
+      continue;
     if (feature.at("geometry").is_object()) addGeometry(feature["geometry"], lines);
   }
 }
@@ -85,20 +88,20 @@ std::vector<PlanLine> planOf(const std::string& text, const std::string& file) {
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& e) {
-    throw InputError("not a floor plan: " + std::string(e.what()), file, kExpected);
+    throw InputError("not a floor plan: " + std::string(e.what()), file, kExpectedPlan);
   }
-  if (lines.all().empty()) throw InputError("floor plan without walls", file, kExpected);
+  if (lines.all().empty()) throw InputError("floor plan without walls", file, kExpectedPlan);
   return lines.all();
 }
 
 std::vector<PlanLine> loadPlan(const std::string& file) {
-  files::expectFile(file, kExpected);
+  files::expectFile(file, kExpectedPlan);
   std::ifstream in(file, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
-  if (!in) throw InputError("cannot read the floor plan", file, kExpected);
+  std::string text(kMostPlanBytes + 1, '\0');
+  if (!in) throw InputError("cannot read the floor plan", file, kExpectedPlan);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<size_t>(in.gcount()));
-  if (text.size() > kMostBytes) throw InputError("floor plan of over 16 MiB", file, kExpected);
+  if (text.size() > kMostPlanBytes) throw InputError("floor plan of over 16 MiB", file, kExpectedPlan);
   return planOf(text, file);
 }
 

@@ -32,9 +32,9 @@ struct Silence {
 
 /// Runs over the log once, from the session if there is one. A repeated run that does not reach the end
 /// writes no results.
-class Pass {
+class LogPass {
  public:
-  Pass(Configuration& configuration, const readings::RawlogSummary& log, bool isRepeated, bool isQuiet)
+  LogPass(Configuration& configuration, const readings::RawlogSummary& log, bool isRepeated, bool isQuiet)
       : configuration_(configuration), log_(log), isRepeated_(isRepeated), progress_(log.scans, isQuiet) {}
 
   ReplayOutcome operator()(FilterRun& run, SessionReader* session, const std::atomic<bool>& stop,
@@ -129,7 +129,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   for (const std::string& line : ofLog)
     if (!isQuiet) std::cout << onOneLine(line) << "\n" << std::flush;
   ReplayOutcome outcome =
-      Pass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
+      LogPass(configuration, log, false, isQuiet)(*run, session ? &*session : nullptr, stop, wantsProfile);
   if (!isRetryDue(outcome, configuration)) return outcome;
   if (!configuration.run.resume.empty() && run->hasEarlierMap()) {
     outcome.warnings.push_back("no second run: the session does not hold the map that the run began with");
@@ -155,7 +155,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
     try {
       FilterRun next(again, start);
       next.expectVerdict(outcome.verdict);
-      outcome = Pass(again, log, true, isQuiet)(next, nullptr, stop, wantsProfile);
+      outcome = LogPass(again, log, true, isQuiet)(next, nullptr, stop, wantsProfile);
     } catch (const WorseMap& e) {
       outcome.warnings.push_back("no results of a " + number + " run: " + e.what());
     } catch (const std::exception& e) {

@@ -1,8 +1,8 @@
 #include "run/TrajectoryRecorder.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <cmath>
+
+#include "base/PoseOffset.h"
 
 namespace hybrid_slam::run {
 
@@ -26,11 +26,8 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
   for (size_t k = 0; k < anchors.size(); ++k) {
     const size_t from = anchors[k], to = k + 1 < anchors.size() ? anchors[k + 1] : scans_.size();
     const auto carried = [&](size_t i) { return path[k] + (scans_[i].odometry - scans_[from].odometry); };
-    TPose2D error;
-    if (to < scans_.size()) {
-      const TPose2D end = carried(to);
-      error = {path[k + 1].x - end.x, path[k + 1].y - end.y, mrpt::math::wrapToPi(path[k + 1].phi - end.phi)};
-    }
+    Eigen::Vector3d error = Eigen::Vector3d::Zero();
+    if (to < scans_.size()) error = offsetOf(path[k + 1], carried(to));
     // A robot that stands makes no errors: share by motion, or by scans if the odometry says that none moved
     // it.
     std::vector<double> travelled(1, 0);
@@ -42,10 +39,7 @@ files::Trajectory TrajectoryRecorder::trajectory(const std::vector<TPose2D>& pat
       const double share = travelled.back() > 0
                                ? travelled[i - from] / travelled.back()
                                : static_cast<double>(i - from) / static_cast<double>(to - from);
-      TPose2D pose = carried(i);
-      pose.x += share * error.x, pose.y += share * error.y;
-      pose.phi = mrpt::math::wrapToPi(pose.phi + share * error.phi);
-      out[i].pose = pose;
+      out[i].pose = displaced(carried(i), share * error);
     }
   }
   return out;

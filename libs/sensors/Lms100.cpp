@@ -15,8 +15,8 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose3D;
 
-constexpr double kConnectTimeout = 3, kAnswerTimeout = 2, kAskAgain = 0.3;  // s
-constexpr float kNoise = 0.012F;                                            // m, one sigma (data sheet)
+constexpr double kLaserConnectTimeout = 3, kLaserAnswerTimeout = 2, kAskAgain = 0.3;  // s
+constexpr float kNoise = 0.012F;  // m, one sigma (data sheet)
 const char* const kMeasuring = "sRA STlms 7";
 
 bool startsWith(const std::string& text, const std::string& head) {
@@ -71,8 +71,8 @@ void Lms100::initialize() {
   decoder_ = {};
   isSending_ = false;
   lastAsked_ = {};
-  socket_ =
-      live::TcpSocket::connectTo(options_.address, static_cast<uint16_t>(options_.port), kConnectTimeout);
+  socket_ = live::TcpSocket::connectTo(options_.address, static_cast<uint16_t>(options_.port),
+                                       kLaserConnectTimeout);
   if (!startsWith(ask("sMN SetAccessMode 03 F4724744", "sAN SetAccessMode"), "sAN SetAccessMode 1"))
     throw std::runtime_error("the laser refuses the login");
   ask("sWN LMDscandatacfg 01 00 0 1 0 00 00 0 0 0 0 +1", "sWA LMDscandatacfg");
@@ -109,7 +109,7 @@ void Lms100::doProcess() {
 
 /// Sends a telegram and waits for its answer; skips others, such as scans.
 std::string Lms100::ask(const std::string& telegram, const std::string& answer) {
-  socket_.send(live::cola::encode(telegram), kAnswerTimeout);
+  socket_.send(live::cola::encode(telegram), kLaserAnswerTimeout);
   const auto start = Clock::now();
   do {
     while (const auto received = decoder_.next()) {
@@ -117,7 +117,7 @@ std::string Lms100::ask(const std::string& telegram, const std::string& answer) 
       if (startsWith(*received, "sFA")) throw std::runtime_error("the laser refuses `" + telegram + "`");
     }
     decoder_.feed(socket_.receive(0.05));
-  } while (secondsSince(start) < kAnswerTimeout);
+  } while (secondsSince(start) < kLaserAnswerTimeout);
   throw std::runtime_error("no answer to `" + telegram + "`: not an LMS-1xx");
 }
 

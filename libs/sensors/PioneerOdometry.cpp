@@ -12,7 +12,7 @@ IMPLEMENTS_GENERIC_SENSOR(PioneerOdometry, hybrid_slam::sensors)
 namespace hybrid_slam::sensors {
 namespace {
 
-constexpr double kConnectTimeout = 3, kAnswerTimeout = 0.5, kSilence = 3, kPulseInterval = 1;  // s
+constexpr double kRobotConnectTimeout = 3, kRobotAnswerTimeout = 0.5, kSilence = 3, kPulseInterval = 1;  // s
 constexpr int kAttempts = 5;
 
 }  // namespace
@@ -60,8 +60,8 @@ void PioneerOdometry::initialize() {
 
 void PioneerOdometry::connect() {
   if (options_.serialPort.empty()) {
-    socket_ =
-        live::TcpSocket::connectTo(options_.host, static_cast<uint16_t>(options_.tcpPort), kConnectTimeout);
+    socket_ = live::TcpSocket::connectTo(options_.host, static_cast<uint16_t>(options_.tcpPort),
+                                         kRobotConnectTimeout);
     return;
   }
   serial_ = std::make_unique<mrpt::comms::CSerialPort>(options_.serialPort);
@@ -84,7 +84,7 @@ void PioneerOdometry::shakeHands() {
 }
 
 bool PioneerOdometry::isAnswered(uint8_t step) {
-  for (const auto start = Clock::now(); secondsSince(start) < kAnswerTimeout;) {
+  for (const auto start = Clock::now(); secondsSince(start) < kRobotAnswerTimeout;) {
     decoder_.feed(receive(0.05));
     while (const auto payload = decoder_.next())
       if (payload->front() == step && !live::arcos::decodeSip(*payload)) return true;
@@ -130,7 +130,7 @@ std::string PioneerOdometry::receive(double timeout) {
 }
 
 void PioneerOdometry::send(const std::string& bytes) {
-  if (socket_.isOpen()) return socket_.send(bytes, kAnswerTimeout);
+  if (socket_.isOpen()) return socket_.send(bytes, kRobotAnswerTimeout);
   if (serial_->Write(bytes.data(), bytes.size()) != bytes.size())
     throw std::runtime_error("serial port lost");
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/PoseOffset.h"
 #include "slam/filter/HybridFilter.h"
 #include "testing/MappedRoom.h"
 #include "testing/RingDrive.h"
@@ -52,7 +53,7 @@ class CarriedRobot {
   size_t near(const TPose2D& place) const {
     const auto& poses = filter_.lastStep().poses;
     return static_cast<size_t>(std::count_if(poses.begin(), poses.end(), [&](const WeightedPose& particle) {
-      const Eigen::Vector3d off = offset(particle.pose, place);
+      const Eigen::Vector3d off = offsetOf(particle.pose, place);
       return off.head<2>().norm() < 0.3 && std::abs(off.z()) < 10 * kDegree;
     }));
   }
@@ -85,7 +86,7 @@ FilterConfiguration configuration(bool useLines) {
 }
 
 void expectNear(const TPose2D& pose, const TPose2D& truth) {
-  const Eigen::Vector3d off = offset(pose, truth);
+  const Eigen::Vector3d off = offsetOf(pose, truth);
   EXPECT_LT(off.head<2>().norm(), 0.1) << pose.asString();
   EXPECT_LT(std::abs(off.z()), 1 * kDegree) << pose.asString();
 }

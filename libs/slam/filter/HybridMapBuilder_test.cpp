@@ -67,7 +67,7 @@ TEST(HybridMapBuilder, TheFirstScanIsInsertedWhereTheOdometrySays) {
 TEST(HybridMapBuilder, UpdatesWhenTheRobotHasMovedFarEnough) {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.updateDistance = 0.5;
-  c.filter.updateAngle = 90 * test::kDegree;
+  c.filter.updateAngle = 90 * kDegree;
   HybridMapBuilder builder(c);
   RandomStream random(1, 0, 0);
   std::vector<size_t> updates;

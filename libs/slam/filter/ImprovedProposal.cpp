@@ -1,19 +1,15 @@
 #include "slam/filter/ImprovedProposal.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "base/PoseOffset.h"
 
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
 
 namespace {
-
-TPose2D displaced(const TPose2D& pose, const Eigen::Vector3d& by) {
-  return {pose.x + by.x(), pose.y + by.y(), mrpt::math::wrapToPi(pose.phi + by.z())};
-}
 
 Eigen::Vector3d standardNormal(RandomStream& random) {
   const double x = random.gaussian(), y = random.gaussian();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/PoseOffset.h"
 #include "slam/filter/LineLikelihood.h"
 #include "testing/MappedRoom.h"
 
@@ -15,11 +16,11 @@ const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
 const TPose2D kMore(0.01, -0.008, 0.01);
 const StepMotion kMotion{kOdometry, kOdometry, false};
 
-FilterConfiguration configuration(bool useLines) {
+FilterConfiguration matchedRoom(bool useLines) {
   FilterConfiguration c = test::roomConfiguration();
   c.useLines = useLines;
   c.matcher.sigma = 2;  // broad enough to integrate over a lattice of poses
-  c.improved.lineSigma = 3 * test::kDegree;
+  c.improved.lineSigma = 3 * kDegree;
   c.improved.minFit = 0;
   return c;
 }
@@ -83,7 +84,7 @@ Moments proposed(const FilterConfiguration& c, const Particle& particle, const P
     EXPECT_EQ(p.isMatched, p.fit >= c.improved.minFit);
     const double weight = std::exp(p.logWeight);
     all.mass += weight / streams, squares += weight * weight / streams;
-    const Eigen::Vector3d off = test::offset(p.pose, centre);
+    const Eigen::Vector3d off = offsetOf(p.pose, centre);
     all.mean += off / streams;
     all.covariance += off * off.transpose() / streams;
   }
@@ -95,7 +96,7 @@ Moments proposed(const FilterConfiguration& c, const Particle& particle, const P
 class ImprovedProposals : public testing::TestWithParam<bool> {};
 
 TEST_P(ImprovedProposals, TheWeightIsTheIntegralOfTheTarget) {
-  const FilterConfiguration c = configuration(GetParam());
+  const FilterConfiguration c = matchedRoom(GetParam());
   for (const TPose2D& start : {kStart, TPose2D(-0.5, 0.1, -2), TPose2D(0.4, 0.33, 0.53)}) {
     const Particle particle = test::particleAt(test::room(), start);
     const PreparedScan scan = scanAfterwards(test::room(), start);
@@ -108,7 +109,7 @@ TEST_P(ImprovedProposals, TheWeightIsTheIntegralOfTheTarget) {
 
 /// Poses of the motion model give the same integral, so both kinds of particles are comparable.
 TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
-  FilterConfiguration c = configuration(GetParam());
+  FilterConfiguration c = matchedRoom(GetParam());
   c.improved.minFit = 1;
   const Particle particle = test::particleAt(test::room(), kStart);
   const PreparedScan scan = scanAfterwards(test::room(), kStart);
@@ -122,7 +123,7 @@ TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
 }
 
 TEST_P(ImprovedProposals, ThePosesAreThoseOfTheTarget) {
-  FilterConfiguration c = configuration(GetParam());
+  FilterConfiguration c = matchedRoom(GetParam());
   c.improved.samples = 100;
   constexpr int kStreams = 1000;
   const Particle particle = test::particleAt(test::room(), kStart);
@@ -138,7 +139,7 @@ TEST_P(ImprovedProposals, ThePosesAreThoseOfTheTarget) {
 }
 
 TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
-  FilterConfiguration c = configuration(GetParam());
+  FilterConfiguration c = matchedRoom(GetParam());
   c.matcher.sigma = 0.35;              // the default, 0.3, keeps only 0.6 of the spread along the corridor
   c.motion.distance.varianceD = 0.04;  // 5 cm
   const TPose2D start(-0.3, 0.1, 0);
@@ -151,7 +152,7 @@ TEST_P(ImprovedProposals, ACorridorKeepsTheSpreadAlongIt) {
 }
 
 TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
-  FilterConfiguration c = configuration(GetParam());
+  FilterConfiguration c = matchedRoom(GetParam());
   c.improved.minFit = 0.01;
   Particle particle = test::particleAt(test::room(), kStart);
   PreparedScan scan = scanAfterwards(test::room(), kStart);
@@ -171,7 +172,7 @@ TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero(), variance = Eigen::Vector3d::Zero();
   for (int i = 0; i < kDraws; ++i) {
     const Eigen::Vector3d off =
-        test::offset(proposalOf(c).propose(particle, kMotion, scan, random).pose, motion.mean);
+        offsetOf(proposalOf(c).propose(particle, kMotion, scan, random).pose, motion.mean);
     mean += off / kDraws;
     variance += off.cwiseAbs2() / kDraws;
   }
@@ -182,7 +183,7 @@ TEST_P(ImprovedProposals, AnEmptyScanOrMapLeavesTheMotionModel) {
 }
 
 TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
-  FilterConfiguration c = configuration(GetParam());
+  FilterConfiguration c = matchedRoom(GetParam());
   for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn})
     term->varianceD = term->varianceT = term->meanStd = 0;
   c.motion.minStdXY = c.motion.minStdPhi = 0;
@@ -190,14 +191,14 @@ TEST_P(ImprovedProposals, AMotionModelWithoutNoiseIsFollowed) {
   RandomStream random(6, 0, 0);
   const Proposed p = proposalOf(c).propose(particle, kMotion, scanAfterwards(test::room(), kStart), random);
   EXPECT_TRUE(std::isfinite(p.logWeight));
-  EXPECT_LT(test::offset(p.pose, kStart + kOdometry).norm(), 1e-3);
+  EXPECT_LT(offsetOf(p.pose, kStart + kOdometry).norm(), 1e-3);
 }
 
 /// At the odometry's pose no line is near its wall; at the search result all are.
 TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
   FilterConfiguration c;
   c.improved.minFit = 0;
-  const StepMotion slipped{kOdometry, kOdometry + TPose2D(0, 0, 30 * test::kDegree), true};
+  const StepMotion slipped{kOdometry, kOdometry + TPose2D(0, 0, 30 * kDegree), true};
   const TPose2D truth = kStart + slipped.start;
   const std::vector<LineSegment> walls = {makeSegment({2, -3}, {2, 3}), makeSegment({-4, 3}, {2, 3})};
   Particle particle;  // no grid and no beams: only the lines constrain the pose
@@ -213,7 +214,7 @@ TEST(ImprovedProposal, AfterASlipLinesKeepTheDistanceToTheirWalls) {
   double square = 0;
   for (int i = 0; i < kDraws; ++i) {
     const Proposed p = proposalOf(c).propose(particle, slipped, scan, random);
-    square += test::offset(p.pose, truth).head<2>().squaredNorm() / kDraws;
+    square += offsetOf(p.pose, truth).head<2>().squaredNorm() / kDraws;
   }
   // Each wall has half of the weight: 2 sigma for both directions together, and a margin for the tails.
   EXPECT_LT(std::sqrt(square), 2.5 * c.improved.lineSigmaRho);

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-const TPose2D kStart(0.4, 0.3, 0.5);
+const TPose2D kLineStart(0.4, 0.3, 0.5);
 
 LineLikelihoodOptions optionsOf(const FilterConfiguration& c) {
   return {c.lineWeight, c.association, c.database.minCount, c.improved};
@@ -73,18 +73,18 @@ TEST(LineLikelihood, NoLinesAreNeutral) {
 }
 
 TEST(LineLikelihood, TheGradientMatchesTheValue) {
-  const Particle particle = test::particleAt(test::room(), kStart);
-  const PreparedScan scan = scanAt(kStart);
+  const Particle particle = test::particleAt(test::room(), kLineStart);
+  const PreparedScan scan = scanAt(kLineStart);
   FilterConfiguration c;
-  c.improved.lineSigma = 3 * test::kDegree;
+  c.improved.lineSigma = 3 * kDegree;
   RandomStream random(7, 0, 0);
   for (const int minCount : {1, 1000}) {  // all walls are known, or none
     c.database.minCount = minCount;
-    const LineLikelihood lines(scan.lines, kStart, *particle.lines, optionsOf(c));
+    const LineLikelihood lines(scan.lines, kLineStart, *particle.lines, optionsOf(c));
     int sloped = 0;
     for (int i = 0; i < 200; ++i) {
-      const TPose2D pose(kStart.x + 0.03 * random.gaussian(), kStart.y + 0.03 * random.gaussian(),
-                         kStart.phi + 0.02 * random.gaussian());
+      const TPose2D pose(kLineStart.x + 0.03 * random.gaussian(), kLineStart.y + 0.03 * random.gaussian(),
+                         kLineStart.phi + 0.02 * random.gaussian());
       const LogDensity density = lines(pose);
       constexpr double kStep = 1e-6;
       const double dx =
@@ -103,14 +103,14 @@ TEST(LineLikelihood, TheGradientMatchesTheValue) {
 }
 
 TEST(LineLogDensity, IsTheLogarithmOfTheWeightWithItsGradient) {
-  const Particle particle = test::particleAt(test::room(), kStart);
-  const PreparedScan scan = scanAt(kStart);
+  const Particle particle = test::particleAt(test::room(), kLineStart);
+  const PreparedScan scan = scanAt(kLineStart);
   ASSERT_TRUE(particle.lines->dominatingDirection());
   RandomStream random(7, 0, 0);
   LineWeightOptions options;
   int sloped = 0;
   for (int i = 0; i < 500; ++i) {
-    const double heading = kStart.phi + 0.06 * random.gaussian();
+    const double heading = kLineStart.phi + 0.06 * random.gaussian();
     const auto ln = [&](double at) {
       return std::log(lineWeight(scan.lines, at, *particle.lines, options).value);
     };
@@ -128,13 +128,13 @@ TEST(LineLogDensity, IsTheLogarithmOfTheWeightWithItsGradient) {
 }
 
 TEST(LineLogDensity, EqNinesStepsHaveNoSlope) {
-  const Particle particle = test::particleAt(test::room(), kStart);
-  const PreparedScan scan = scanAt(kStart);
+  const Particle particle = test::particleAt(test::room(), kLineStart);
+  const PreparedScan scan = scanAt(kLineStart);
   LineWeightOptions options;
   options.method = LineWeightOptions::Method::paper;
-  const LogDensity density = lineLogDensity(scan.lines, kStart.phi + 0.2, *particle.lines, options);
+  const LogDensity density = lineLogDensity(scan.lines, kLineStart.phi + 0.2, *particle.lines, options);
   EXPECT_EQ(density.value,
-            std::log(lineWeight(scan.lines, kStart.phi + 0.2, *particle.lines, options).value));
+            std::log(lineWeight(scan.lines, kLineStart.phi + 0.2, *particle.lines, options).value));
   EXPECT_EQ(density.gradient, Eigen::Vector3d::Zero());
   EXPECT_EQ(density.information, Eigen::Matrix3d::Zero());
 }

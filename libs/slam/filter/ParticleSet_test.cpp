@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-PreparedScan prepared(const TPose2D& robot, uint64_t seed) {
+PreparedScan preparedAt(const TPose2D& robot, uint64_t seed) {
   RandomStream random(seed, 0, 0);
   const LaserScans scan{test::scanOf(test::room(), robot, {}, 181, M_PI, 0.01, random)};
   return {scan, ScanBeams(scan), ScanBeams(scan), ScanBeams(scan), {}};
@@ -51,7 +51,7 @@ TEST(ParticleSet, ResetGivesEqualParticlesThatShareEverything) {
 TEST(ParticleSet, ParticlesOnOnePathKeepOneMap) {
   ParticleSet particles(fourParticles());
   particles.reset({});
-  const PreparedScan scan = prepared({}, 1);
+  const PreparedScan scan = preparedAt({}, 1);
   particles.beginStep();
   particles.appendPose({0.1, 0, 0});
   particles.updateMaps(scan);
@@ -67,7 +67,7 @@ TEST(ParticleSet, ParticlesOnOnePathKeepOneMap) {
 TEST(ParticleSet, CopiesKeepOneMapAndOthersTheirOwn) {
   ParticleSet particles(fourParticles());
   particles.reset({});
-  const PreparedScan first = prepared({}, 1), second = prepared({}, 2);
+  const PreparedScan first = preparedAt({}, 1), second = preparedAt({}, 2);
   particles.beginStep();
   particles.updateMaps(first);
   for (size_t i = 0; i < 4; ++i) particles.m_particles[i].d->path.push({0.1 * static_cast<double>(i), 0, 0});
@@ -114,7 +114,7 @@ TEST(ParticleSet, TheStepHasItsMotionsAndTheLikelihoodOfTheScan) {
     c.filter.essThreshold = threshold;
     ParticleSet particles(c);
     particles.reset({1, 0, 0.5});
-    const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
+    const PreparedScan first = preparedAt({1, 0, 0.5}, 1), second = preparedAt({1.2, 0.1, 0.5}, 2);
     particles.beginStep();
     particles.updateMaps(first);
     const auto map = particles.m_particles[0].d->grid;
@@ -149,7 +149,7 @@ TEST(ParticleSet, TheImprovedProposalsWeightsAreTempered) {
     c.improved.exponent = exponent;
     ParticleSet particles(c);
     particles.reset({1, 0, 0.5});
-    const PreparedScan first = prepared({1, 0, 0.5}, 1), second = prepared({1.2, 0.1, 0.5}, 2);
+    const PreparedScan first = preparedAt({1, 0, 0.5}, 1), second = preparedAt({1.2, 0.1, 0.5}, 2);
     particles.beginStep();
     particles.updateMaps(first);
     particles.beginStep();
@@ -170,7 +170,7 @@ TEST(ParticleSet, TheImprovedProposalsWeightsAreTempered) {
 TEST(ParticleSet, ANewStartKeepsTheMapsAndForgetsThePaths) {
   ParticleSet particles(fourParticles());
   particles.reset({});
-  const PreparedScan scan = prepared({}, 1);
+  const PreparedScan scan = preparedAt({}, 1);
   particles.beginStep();
   particles.updateMaps(scan);
   const auto* tile = tileOf(particles, 0);

@@ -1,10 +1,9 @@
 #include "slam/filter/PathRelaxation.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/Degree.h"
 #include "slam/filter/PathScans.h"
 #include "slam/filter/ReturnMatches.h"
 #include "slam/loops/PathCorrection.h"
@@ -18,7 +17,6 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kNodeDistance = 0.5, kNodeAngle = 15 * kDegree;
 constexpr double kLatest = RevisitCheck::kReturn;  // m of path: a map of the latest scans
 constexpr double kLongMotion = 20;                 // m of path

@@ -18,7 +18,7 @@ std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
     truth.push_back(step.truth);
     const TPose2D off = scans.empty() ? TPose2D()
                                       : TPose2D(0.02 * random.gaussian(), 0.02 * random.gaussian(),
-                                                0.3 * test::kDegree * random.gaussian());
+                                                0.3 * kDegree * random.gaussian());
     scans.push_back({{std::make_shared<mrpt::obs::CObservation2DRangeScan>(step.scan)},
                      {step.truth.x + off.x, step.truth.y + off.y, step.truth.phi + off.phi},
                      scans.size() % 2 == 0});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPoorFit = 0.8;         // of the usual fit: search below this
 constexpr double kForgetting = 0.1;      // weight of the newest scan in the usual fit
-constexpr size_t kPlaces = 8;            // starting points of the local optimisation
+constexpr size_t kSlipPlaces = 8;        // starting points of the local optimisation
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
@@ -174,7 +174,7 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(
       std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
       0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
   std::vector<Hypothesis> all{usual};
-  for (const TPose2D& place : correlativeSearch(scan.matchedBeams, centre, best.grid, window, kPlaces)) {
+  for (const TPose2D& place : correlativeSearch(scan.matchedBeams, centre, best.grid, window, kSlipPlaces)) {
     const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, noPrior);
     const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
     all.push_back({match, logWeight(match.pose, best, scan) + std::max(modelled, slip), slip > modelled});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/PoseOffset.h"
 #include "testing/MappedRoom.h"
 
 namespace hybrid_slam {
@@ -11,7 +12,7 @@ namespace {
 
 using namespace test;
 
-const TPose2D kStart(0.4, 0.3, 0.5), kOdometry(0.25, 0.01, 0.05);
+const TPose2D kSlipStart(0.4, 0.3, 0.5), kSlipOdometry(0.25, 0.01, 0.05);
 
 SlipRecovery slipRecovery(const ImprovedProposalOptions& options = {}) {
   return {options, MotionModelOptions(), ScanMatcherOptions(), GridWeightOptions(), GridOptions()};
@@ -25,29 +26,29 @@ SlipRecovery used(Particle& particle, const test::Walls& walls, double off = 0.0
   RandomStream random(3, 0, 0);
   for (int i = 0; i < 5; ++i) {
     const StepMotion motion =
-        recovery.motionsOf(particle, kOdometry, test::prepared(walls, end + kOdometry, random)).front();
+        recovery.motionsOf(particle, kSlipOdometry, test::prepared(walls, end + kSlipOdometry, random))
+            .front();
     EXPECT_FALSE(motion.hasSlipped);
-    EXPECT_LT(test::offset(motion.start, kOdometry).head<2>().norm(), off);
-    EXPECT_LT(std::abs(test::offset(motion.start, kOdometry).z()), 0.3 * test::kDegree);
+    EXPECT_LT(offsetOf(motion.start, kSlipOdometry).head<2>().norm(), off);
+    EXPECT_LT(std::abs(offsetOf(motion.start, kSlipOdometry).z()), 0.3 * kDegree);
   }
   return recovery;
 }
 
 TEST(SlipRecovery, FindsTheMotionAfterASlip) {
-  for (const TPose2D& slip : {TPose2D(0, 0, 30 * test::kDegree), TPose2D(0, 0, -30 * test::kDegree),
-                              TPose2D(0, 0, 80 * test::kDegree), TPose2D(0, 0, 170 * test::kDegree),
-                              TPose2D(0.5, 0, 0), TPose2D(-0.4, 0.3, 20 * test::kDegree)}) {
-    Particle particle = test::particleAt(test::room(), kStart);
+  for (const TPose2D& slip :
+       {TPose2D(0, 0, 30 * kDegree), TPose2D(0, 0, -30 * kDegree), TPose2D(0, 0, 80 * kDegree),
+        TPose2D(0, 0, 170 * kDegree), TPose2D(0.5, 0, 0), TPose2D(-0.4, 0.3, 20 * kDegree)}) {
+    Particle particle = test::particleAt(test::room(), kSlipStart);
     SlipRecovery recovery = used(particle, test::room());
     RandomStream random(4, 0, 0);
-    const TPose2D truth = kStart + (kOdometry + slip);
+    const TPose2D truth = kSlipStart + (kSlipOdometry + slip);
     const StepMotion motion =
-        recovery.motionsOf(particle, kOdometry, test::prepared(test::room(), truth, random)).front();
+        recovery.motionsOf(particle, kSlipOdometry, test::prepared(test::room(), truth, random)).front();
     EXPECT_TRUE(motion.hasSlipped) << slip.asString();
-    EXPECT_EQ(motion.odometry, kOdometry);
-    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.03) << slip.asString();
-    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 0.5 * test::kDegree)
-        << slip.asString();
+    EXPECT_EQ(motion.odometry, kSlipOdometry);
+    EXPECT_LT(offsetOf(kSlipStart + motion.start, truth).head<2>().norm(), 0.03) << slip.asString();
+    EXPECT_LT(std::abs(offsetOf(kSlipStart + motion.start, truth).z()), 0.5 * kDegree) << slip.asString();
   }
 }
 
@@ -55,15 +56,15 @@ TEST(SlipRecovery, FindsTheMotionAfterASlip) {
 TEST(SlipRecovery, FindsARobotThatStoodStillOrMovedBackward) {
   const TPose2D odometry(1.2, 0.1, 0.2);
   for (const double share : {0, -1}) {
-    Particle particle = test::particleAt(test::room(), kStart);
+    Particle particle = test::particleAt(test::room(), kSlipStart);
     SlipRecovery recovery = used(particle, test::room());
     RandomStream random(9, 0, 0);
-    const TPose2D truth = kStart + TPose2D(share * odometry.x, share * odometry.y, odometry.phi);
+    const TPose2D truth = kSlipStart + TPose2D(share * odometry.x, share * odometry.y, odometry.phi);
     const StepMotion motion =
         recovery.motionsOf(particle, odometry, test::prepared(test::room(), truth, random)).front();
     EXPECT_TRUE(motion.hasSlipped) << share;
-    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.03) << share;
-    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 0.5 * test::kDegree) << share;
+    EXPECT_LT(offsetOf(kSlipStart + motion.start, truth).head<2>().norm(), 0.03) << share;
+    EXPECT_LT(std::abs(offsetOf(kSlipStart + motion.start, truth).z()), 0.5 * kDegree) << share;
   }
 }
 
@@ -71,10 +72,10 @@ TEST(SlipRecovery, FindsARobotThatStoodStillOrMovedBackward) {
 TEST(SlipRecovery, FewBeamsRarelyOverruleTheOdometry) {
   int slips = 0;
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    Particle particle = test::particleAt(test::room(), kStart);
+    Particle particle = test::particleAt(test::room(), kSlipStart);
     SlipRecovery recovery = used(particle, test::room());
     RandomStream random(100 + seed, 0, 0);
-    PreparedScan scan = test::prepared(test::room(), kStart + kOdometry, random);
+    PreparedScan scan = test::prepared(test::room(), kSlipStart + kSlipOdometry, random);
     for (ScanBeams* const beams : {&scan.matchedBeams, &scan.weighedBeams}) {
       auto& rays = beams->rays;
       const size_t every = rays.size() / 4;
@@ -82,7 +83,7 @@ TEST(SlipRecovery, FewBeamsRarelyOverruleTheOdometry) {
       rays.resize(4);
       for (size_t i = 0; i < 3; ++i) rays[i].range *= 0.95;
     }
-    slips += recovery.motionsOf(particle, kOdometry, scan).front().hasSlipped;
+    slips += recovery.motionsOf(particle, kSlipOdometry, scan).front().hasSlipped;
   }
   EXPECT_LE(slips, 4);
 }
@@ -91,23 +92,23 @@ TEST(SlipRecovery, FewBeamsRarelyOverruleTheOdometry) {
 /// the robot. That is no evidence against the slip.
 TEST(SlipRecovery, ASlipIsFoundWhereTheNewestScansKnowLittle) {
   for (const double turn : {30, 80, 170}) {
-    Particle particle = test::particleAt(test::room(), kStart);
+    Particle particle = test::particleAt(test::room(), kSlipStart);
     SlipRecovery recovery = used(particle, test::room());
     RandomStream random(11, 0, 0);
-    PreparedScan before = test::prepared(test::room(), kStart, random);
+    PreparedScan before = test::prepared(test::room(), kSlipStart, random);
     auto& person = before.matchedBeams.rays;
     person.resize(person.size() / 10);
     for (int i = 0; i < 5; ++i) {
       recovery.motionsOf(particle, {}, before);
-      particle.path.push(kStart);
+      particle.path.push(kSlipStart);
     }
-    const TPose2D truth = kStart + TPose2D(0, 0, turn * test::kDegree);
+    const TPose2D truth = kSlipStart + TPose2D(0, 0, turn * kDegree);
     PreparedScan scan = test::prepared(test::room(), truth, random);
     std::copy(person.begin(), person.end(), scan.matchedBeams.rays.begin());
     const StepMotion motion = recovery.motionsOf(particle, {}, scan).front();
     EXPECT_TRUE(motion.hasSlipped) << turn;
-    EXPECT_LT(test::offset(kStart + motion.start, truth).head<2>().norm(), 0.05) << turn;
-    EXPECT_LT(std::abs(test::offset(kStart + motion.start, truth).z()), 1 * test::kDegree) << turn;
+    EXPECT_LT(offsetOf(kSlipStart + motion.start, truth).head<2>().norm(), 0.05) << turn;
+    EXPECT_LT(std::abs(offsetOf(kSlipStart + motion.start, truth).z()), 1 * kDegree) << turn;
   }
 }
 
@@ -119,7 +120,7 @@ struct Found {
 /// Returns the hypotheses for a robot that was carried and turns on the spot. The particle follows the first.
 Found carried(const test::Walls& walls, TPose2D robot, bool useLines) {
   const TPose2D turn(0, 0, 0.3);
-  Particle particle = test::particleAt(walls, kStart);
+  Particle particle = test::particleAt(walls, kSlipStart);
   SlipRecovery recovery = used(particle, walls);
   RandomStream random(8, 0, 0);
   Found found;
@@ -129,8 +130,8 @@ Found carried(const test::Walls& walls, TPose2D robot, bool useLines) {
     if (!useLines) scan.lines.clear();
     const auto motions = recovery.motionsOf(particle, turn, scan);
     for (const StepMotion& motion : motions) {
-      const auto off = test::offset(particle.path.back() + motion.start, robot);
-      found.isTrue |= off.head<2>().norm() < 0.05 && std::abs(off.z()) < 1 * test::kDegree;
+      const auto off = offsetOf(particle.path.back() + motion.start, robot);
+      found.isTrue |= off.head<2>().norm() < 0.05 && std::abs(off.z()) < 1 * kDegree;
     }
     found.most = std::max(found.most, motions.size());
     particle.path.push(particle.path.back() + motions[0].start);
@@ -155,25 +156,27 @@ TEST(SlipRecovery, KeepsHypothesesThatAScanCannotDecide) {
 TEST(SlipRecovery, CanBeSwitchedOff) {
   ImprovedProposalOptions options;
   options.slipDistance = 0;
-  Particle particle = test::particleAt(test::room(), kStart);
+  Particle particle = test::particleAt(test::room(), kSlipStart);
   SlipRecovery recovery = slipRecovery(options);
   RandomStream random(5, 0, 0);
-  const auto motion =
-      recovery
-          .motionsOf(particle, kOdometry, test::prepared(test::room(), kStart + TPose2D(0, 0, 0.5), random))
-          .front();
+  const auto motion = recovery
+                          .motionsOf(particle, kSlipOdometry,
+                                     test::prepared(test::room(), kSlipStart + TPose2D(0, 0, 0.5), random))
+                          .front();
   EXPECT_FALSE(motion.hasSlipped);
-  EXPECT_EQ(motion.start, kOdometry);
+  EXPECT_EQ(motion.start, kSlipOdometry);
 }
 
 TEST(SlipRecovery, AScanOfAnUnknownPlaceIsNotASlip) {
-  Particle particle = test::particleAt(test::room(), kStart);
+  Particle particle = test::particleAt(test::room(), kSlipStart);
   SlipRecovery recovery = used(particle, test::room());
   RandomStream random(6, 0, 0);
   // The robot is carried through a door: nothing here has been mapped.
   const test::Walls elsewhere = test::polygon({{-30, -20}, {20, -20}, {20, 25}, {-30, 25}});
   const StepMotion motion =
-      recovery.motionsOf(particle, kOdometry, test::prepared(elsewhere, kStart + kOdometry, random)).front();
+      recovery
+          .motionsOf(particle, kSlipOdometry, test::prepared(elsewhere, kSlipStart + kSlipOdometry, random))
+          .front();
   EXPECT_FALSE(motion.hasSlipped);
 }
 
@@ -191,7 +194,7 @@ TEST(SlipRecovery, ACorridorSeenForTheFirstTimeIsNotASlip) {
   // 1.1 cm each.
   SlipRecovery recovery = used(particle, kCorridor, 0.033);
   const test::Walls open{{{-1000, -1.2}, {1000, -1.2}}, {{-1000, 1.2}, {1.5, 1.2}}};
-  for (const TPose2D& odometry : {kOdometry, TPose2D(1.2, 0.01, 0.05), TPose2D(2.5, 0, 0.1)}) {
+  for (const TPose2D& odometry : {kSlipOdometry, TPose2D(1.2, 0.01, 0.05), TPose2D(2.5, 0, 0.1)}) {
     SlipRecovery here = recovery;
     EXPECT_FALSE(
         here.motionsOf(particle, odometry, test::prepared(open, start + odometry, random)).front().hasSlipped)
@@ -248,23 +251,24 @@ TEST(SlipRecovery, AReturnAfterDriftIsNotACarriedRobot) {
     particle.path.push(particle.path.back() + motion.start);
     particle.grid.insert(scan.beams, particle.path.back(), GridOptions());
   }
-  EXPECT_LT(test::offset(particle.path.back(), robot).head<2>().norm(), 1.2);
+  EXPECT_LT(offsetOf(particle.path.back(), robot).head<2>().norm(), 1.2);
 }
 
 TEST(MotionAfter, IsTheMotionModelOrAsWideAsTheWindow) {
   FilterConfiguration c;
   for (MotionTerm* term : {&c.motion.distance, &c.motion.drift, &c.motion.turn}) term->meanStd = 0;
   Particle particle;
-  particle.path.push(kStart);
-  const MotionDistribution model = motionDistribution(kStart, kOdometry, c.motion);
-  const MotionDistribution usual = motionAfter(particle, {kOdometry, kOdometry, false}, c.motion, c.improved);
+  particle.path.push(kSlipStart);
+  const MotionDistribution model = motionDistribution(kSlipStart, kSlipOdometry, c.motion);
+  const MotionDistribution usual =
+      motionAfter(particle, {kSlipOdometry, kSlipOdometry, false}, c.motion, c.improved);
   EXPECT_EQ(usual.mean, model.mean);
   EXPECT_LT((usual.covariance - model.covariance).norm(), 1e-7);
   const MotionDistribution slipped =
-      motionAfter(particle, {kOdometry, {0.5, 0, 0}, true}, c.motion, c.improved);
-  EXPECT_EQ(slipped.mean, kStart + TPose2D(0.5, 0, 0));
+      motionAfter(particle, {kSlipOdometry, {0.5, 0, 0}, true}, c.motion, c.improved);
+  EXPECT_EQ(slipped.mean, kSlipStart + TPose2D(0.5, 0, 0));
   EXPECT_NEAR(slipped.covariance(0, 0) - model.covariance(0, 0), 0.25, 1e-6);
-  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * test::kDegree, 2), 1e-6);
+  EXPECT_NEAR(slipped.covariance(2, 2) - model.covariance(2, 2), std::pow(30 * kDegree, 2), 1e-6);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ FilterConfiguration configuration() {
   FilterConfiguration c = test::roomConfiguration();
   c.filter.particles = 5;
   c.filter.updateDistance = 0.4;
-  c.filter.updateAngle = 25 * test::kDegree;
+  c.filter.updateAngle = 25 * kDegree;
   c.grid.resolution = 0.1;
   return c;
 }
@@ -55,8 +55,8 @@ TEST(StockMapBuilder, TakesOurSettings) {
   EXPECT_NEAR(options.PF_options.BETA, 0.75, 1e-6);
   EXPECT_NEAR(options.insertionLinDistance, 0.4, 1e-6);
   EXPECT_NEAR(options.localizeLinDistance, 0.4, 1e-6);
-  EXPECT_NEAR(options.insertionAngDistance, 25 * test::kDegree, 1e-6);
-  EXPECT_NEAR(options.localizeAngDistance, 25 * test::kDegree, 1e-6);
+  EXPECT_NEAR(options.insertionAngDistance, 25 * kDegree, 1e-6);
+  EXPECT_NEAR(options.localizeAngDistance, 25 * kDegree, 1e-6);
 }
 
 /// MRPT takes them as they are, and crashes or fills the memory.

@@ -16,7 +16,8 @@ namespace {
 constexpr double kStill = 1e-6;     // m and rad; encoders that stand repeat their values
 constexpr double kLeastTime = 0.5;  // s
 constexpr double kLeastMove = 0.15, kLeastTurn = mrpt::DEG2RAD(4.0);  // of a robot that drives, by its scans
-constexpr double kSame = 0.05, kSameTurn = mrpt::DEG2RAD(2.0), kSameShare = 0.3;  // of two motions that agree
+constexpr double kSameMove = 0.05, kSameTurn = mrpt::DEG2RAD(2.0),
+                 kSameShare = 0.3;  // of two motions that agree
 constexpr double kLeastGain = 0.1;  // of the share of explained beams
 constexpr size_t kDistrusted = 20;  // after as many changes the odometry is used again in any case
 
@@ -25,7 +26,7 @@ bool stands(const TPose2D& odometry) {
 }
 
 bool agree(const TPose2D& odometry, const TPose2D& scans) {
-  return (odometry - scans).norm() < kSame + kSameShare * scans.norm() &&
+  return (odometry - scans).norm() < kSameMove + kSameShare * scans.norm() &&
          std::abs(mrpt::math::wrapToPi(odometry.phi - scans.phi)) <
              kSameTurn + kSameShare * std::abs(scans.phi);
 }

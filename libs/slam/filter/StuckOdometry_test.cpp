@@ -23,8 +23,8 @@ TPose2D moved(size_t step) { return step == 0 ? TPose2D() : truth(step) - truth(
 double timeOf(size_t step) { return 0.2 * static_cast<double>(step); }
 
 /// The motions of a lap with this odometry, step by step.
-struct Lap {
-  explicit Lap(const std::function<TPose2D(size_t)>& odometry, StuckOdometry stuck = make()) {
+struct StuckLap {
+  explicit StuckLap(const std::function<TPose2D(size_t)>& odometry, StuckOdometry stuck = make()) {
     for (size_t i = 0; i < kSteps; ++i) {
       motions.push_back(stuck.motionTo(odometry(i), {test::scan(timeOf(i), truth(i))}, timeOf(i)));
       stuckScans += stuck.isStuck();
@@ -49,13 +49,13 @@ struct Lap {
 bool isStuckAt(size_t step) { return 20 <= step && step < 50; }
 
 TEST(StuckOdometry, GoodOdometryIsReturnedUnchanged) {
-  const Lap lap(moved);
+  const StuckLap lap(moved);
   for (size_t i = 0; i < kSteps; ++i) EXPECT_EQ(lap.motions[i], moved(i));
   EXPECT_EQ(lap.stuckScans, 0u);
 }
 
 TEST(StuckOdometry, TheScansGiveTheMotionUntilTheOdometryAgrees) {
-  const Lap lap([](size_t i) { return isStuckAt(i) ? TPose2D() : moved(i); });
+  const StuckLap lap([](size_t i) { return isStuckAt(i) ? TPose2D() : moved(i); });
   lap.expectTrue(24);
   for (size_t i = 0; i < 20; ++i) EXPECT_EQ(lap.motions[i], moved(i));
   for (size_t i = 51; i < kSteps; ++i) EXPECT_EQ(lap.motions[i], moved(i)) << "trusted again";
@@ -64,7 +64,7 @@ TEST(StuckOdometry, TheScansGiveTheMotionUntilTheOdometryAgrees) {
 
 // The connection is restored, and the odometry has counted on.
 TEST(StuckOdometry, TheMissedMotionIsNotCountedTwice) {
-  Lap([](size_t i) {
+  StuckLap([](size_t i) {
     return isStuckAt(i) ? TPose2D() : i == 50 ? truth(50) - truth(19) : moved(i);
   }).expectTrue(24);
 }
@@ -73,7 +73,7 @@ TEST(StuckOdometry, TheMissedMotionIsNotCountedTwice) {
 TEST(StuckOdometry, WithFewScansTheRobotIsExpectedToDriveOn) {
   for (const bool isStopped : {false, true}) {
     SCOPED_TRACE(isStopped);
-    StuckOdometry stuck = Lap::make();
+    StuckOdometry stuck = StuckLap::make();
     const auto at = [isStopped](size_t i) {
       return test::poseOnLap(isStopped ? std::min<size_t>(i, 3) : i, 12);
     };
@@ -91,12 +91,12 @@ TEST(StuckOdometry, WithFewScansTheRobotIsExpectedToDriveOn) {
 }
 
 TEST(StuckOdometry, OdometryThatIsStuckForEverIsReplacedForEver) {
-  Lap([](size_t) { return TPose2D(); }).expectTrue(4);
+  StuckLap([](size_t) { return TPose2D(); }).expectTrue(4);
 }
 
 TEST(StuckOdometry, OdometryThatNeverAgreesIsUsedAgainAtLast) {
   const auto wrong = [](size_t i) { return TPose2D(-moved(i).x, 0, -moved(i).phi); };
-  const Lap lap([&](size_t i) { return isStuckAt(i) ? TPose2D() : wrong(i); });
+  const StuckLap lap([&](size_t i) { return isStuckAt(i) ? TPose2D() : wrong(i); });
   EXPECT_NE(lap.motions[60], wrong(60));
   for (size_t i = 70; i < kSteps; ++i) EXPECT_EQ(lap.motions[i], wrong(i));
 }
@@ -114,7 +114,7 @@ double rangeTo(const TPoint2D& person, const TPose2D& robot, double angle) {
 /// Range noise of 2 cm, and four people who walk through the room at 1 m/s past the robot, for a minute.
 TEST(StuckOdometry, ARobotThatStandsAmongPeopleIsLeftAlone) {
   for (uint64_t run = 0; run < 20; ++run) {
-    StuckOdometry stuck = Lap::make();
+    StuckOdometry stuck = StuckLap::make();
     RandomStream random(5, run, 0);
     const TPose2D robot = truth(static_cast<size_t>(4 * run));
     std::array<TPose2D, 4> people;
@@ -141,9 +141,9 @@ TEST(StuckOdometry, ARobotThatStandsAmongPeopleIsLeftAlone) {
 
 TEST(StuckOdometry, ASessionGoesOnFromAnyStep) {
   const auto odometry = [](size_t i) { return isStuckAt(i) ? TPose2D() : moved(i); };
-  const Lap whole(odometry);
+  const StuckLap whole(odometry);
   for (const size_t cut : {1u, 21u, 22u, 35u, 50u, 51u}) {
-    StuckOdometry first = Lap::make(), second = Lap::make();
+    StuckOdometry first = StuckLap::make(), second = StuckLap::make();
     for (size_t i = 0; i < cut; ++i)
       first.motionTo(odometry(i), {test::scan(timeOf(i), truth(i))}, timeOf(i));
     std::string bytes;

@@ -155,7 +155,7 @@ TEST(Tracking, TheImprovedProposalMatchesFromTheSecondScanOn) {
 /// The odometry reports 30 deg too much in the middle of a side of the square.
 std::vector<test::DriveStep> driveWithSlip() {
   auto steps = test::drive(8);
-  steps[30].odometry.phi += 30 * test::kDegree;
+  steps[30].odometry.phi += 30 * kDegree;
   return steps;
 }
 
@@ -236,7 +236,7 @@ TEST(Tracking, MrptsLikelihoodsWorkInSeveralThreads) {
 /// to absorb in every step.
 TEST(Tracking, TheStandardProposalLearnsASystematicError) {
   std::vector<test::DriveStep> steps = test::drive(6);
-  for (test::DriveStep& step : steps) step.odometry.phi -= 6 * test::kDegree * step.odometry.x;
+  for (test::DriveStep& step : steps) step.odometry.phi -= 6 * kDegree * step.odometry.x;
   double learnt = 0, notLearnt = 0;
   for (int seed = 1; seed <= 4; ++seed) {
     FilterConfiguration c = test::roomConfiguration();

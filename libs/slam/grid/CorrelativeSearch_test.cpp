@@ -1,12 +1,12 @@
 #include "slam/grid/CorrelativeSearch.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/Degree.h"
 #include "testing/TestRoomGrid.h"
 
 namespace hybrid_slam {
@@ -15,7 +15,6 @@ namespace {
 using namespace test;
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 const SearchWindow kWindow{0.5, 30 * kDegree};
 
 double away(const TPose2D& a, const TPose2D& b) { return std::hypot(a.x - b.x, a.y - b.y); }

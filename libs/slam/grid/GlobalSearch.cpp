@@ -18,10 +18,10 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kWall = 0.6, kFree = 0.4;  // occupancy
-constexpr double kStep = 0.2;               // m
+constexpr double kGlobalStep = 0.2;         // m
 constexpr double kReach = 500;              // m
-constexpr double kStepAngle = mrpt::DEG2RAD(2.0), kWindow = mrpt::DEG2RAD(6.0);
-constexpr size_t kMostBeams = 60;
+constexpr double kGlobalStepAngle = mrpt::DEG2RAD(2.0), kWindow = mrpt::DEG2RAD(6.0);
+constexpr size_t kGlobalBeams = 60;
 constexpr double kApart = 0.5, kApartAngle = mrpt::DEG2RAD(10.0);  // of two poses
 
 /// Limits the search to cells within kReach: a map may be kilometres long.
@@ -51,10 +51,10 @@ int sumAbove(int least, const std::vector<CellIndex>& ends, const Value& value) 
 std::vector<double> lattice(const std::vector<double>& headings) {
   std::vector<double> all;
   if (headings.empty())
-    for (int k = 0; k < static_cast<int>(std::lround(2 * M_PI / kStepAngle)); ++k)
-      all.push_back(k * kStepAngle);
+    for (int k = 0; k < static_cast<int>(std::lround(2 * M_PI / kGlobalStepAngle)); ++k)
+      all.push_back(k * kGlobalStepAngle);
   for (const double heading : headings)
-    for (double offset = -kWindow; offset < kWindow + kStepAngle / 2; offset += kStepAngle)
+    for (double offset = -kWindow; offset < kWindow + kGlobalStepAngle / 2; offset += kGlobalStepAngle)
       all.push_back(heading + offset);
   return all;
 }
@@ -91,7 +91,7 @@ BeamShares beamShares(const ScanBeams& scan, const TPose2D& robot, const Occupan
 }
 
 GlobalSearch::GlobalSearch(const OccupancyGrid& grid, const TPoint2D& around) {
-  const int scale = std::max(1, static_cast<int>(kStep / grid.resolution()));
+  const int scale = std::max(1, static_cast<int>(kGlobalStep / grid.resolution()));
   const auto coarse = [scale](int cell) {
     return static_cast<int>(std::floor(static_cast<double>(cell) / scale));
   };
@@ -132,7 +132,7 @@ std::vector<GlobalSearch::Place> GlobalSearch::operator()(const ScanBeams& scan,
                                                           const std::vector<double>& headings, size_t count,
                                                           double leastScore) const {
   if (scan.rays.empty()) return {};
-  const size_t every = (scan.rays.size() + kMostBeams - 1) / kMostBeams;
+  const size_t every = (scan.rays.size() + kGlobalBeams - 1) / kGlobalBeams;
   std::vector<Place> places;
   for (const double heading : lattice(headings)) {
     // Beam ends in coarse cells from the robot, which stands in the middle of one.

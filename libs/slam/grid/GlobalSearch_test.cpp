@@ -13,10 +13,10 @@ namespace {
 using namespace test;
 
 /// A room in which no two places look alike.
-const Walls kRoom = polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {3, 6}, {3, 5}, {1, 5}, {1, 6}, {-3, 6}});
+const Walls kSearchedRoom = polygon({{-3, -2.5}, {8, -2.5}, {8, 6}, {3, 6}, {3, 5}, {1, 5}, {1, 6}, {-3, 6}});
 
 LaserScan scanAt(const TPose2D& robot, RandomStream& random) {
-  return scanOf(kRoom, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
+  return scanOf(kSearchedRoom, robot, {0.2, 0, 0}, 181, M_PI, 0.01, random);
 }
 
 OccupancyGrid mappedRoom() {

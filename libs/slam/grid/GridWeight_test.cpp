@@ -1,10 +1,10 @@
 #include "slam/grid/GridWeight.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include "base/Degree.h"
 #include "base/RandomStream.h"
 
 namespace hybrid_slam {
@@ -14,7 +14,6 @@ using mrpt::math::TPose2D;
 using mrpt::obs::CObservation2DRangeScan;
 using Method = GridWeightOptions::Method;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kWidth = 8, kHeight = 6;  // of a room with its middle at the origin, m
 
 /// Distance to the room's walls from a point inside.
@@ -26,7 +25,7 @@ double castRay(double x, double y, double heading) {
 }
 
 /// A scan of 181 beams over 180 deg with 1 cm of noise.
-CObservation2DRangeScan scanAt(const TPose2D& robot, RandomStream& random) {
+CObservation2DRangeScan mrptScanAt(const TPose2D& robot, RandomStream& random) {
   CObservation2DRangeScan scan;
   scan.aperture = static_cast<float>(M_PI);
   scan.maxRange = 80;
@@ -46,7 +45,7 @@ OccupancyGrid roomGrid() {
   OccupancyGrid grid(0.05);
   for (int i = 0; i < 40; ++i) {
     const TPose2D robot(4 * random.uniform() - 2, 3 * random.uniform() - 1.5, 2 * M_PI * random.uniform());
-    grid.insert(ScanBeams(toLaserScan(scanAt(robot, random), 20)), robot, GridOptions());
+    grid.insert(ScanBeams(toLaserScan(mrptScanAt(robot, random), 20)), robot, GridOptions());
   }
   return grid;
 }
@@ -76,7 +75,7 @@ class GridWeightMethods : public testing::TestWithParam<NamedMethod> {
 TEST_P(GridWeightMethods, PrefersTheTruePose) {
   RandomStream random(2, 0, 0);
   for (const TPose2D& truth : {TPose2D(0, 0, 0), TPose2D(1, -0.7, 2), TPose2D(-1.5, 0.4, -1)}) {
-    const CObservation2DRangeScan scan = scanAt(truth, random);
+    const CObservation2DRangeScan scan = mrptScanAt(truth, random);
     const double right = weight(scan, truth);
     EXPECT_TRUE(std::isfinite(right));
     EXPECT_LE(right, 0);
@@ -88,14 +87,14 @@ TEST_P(GridWeightMethods, PrefersTheTruePose) {
 
 TEST_P(GridWeightMethods, AnEmptyScanIsNeutral) {
   RandomStream random(3, 0, 0);
-  CObservation2DRangeScan scan = scanAt({0, 0, 0}, random);
+  CObservation2DRangeScan scan = mrptScanAt({0, 0, 0}, random);
   for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
   EXPECT_EQ(weight(scan, {0, 0, 0}), 0);
 }
 
 TEST_P(GridWeightMethods, InvalidReadingsAreIgnored) {
   RandomStream random(4, 0, 0);
-  const CObservation2DRangeScan whole = scanAt({0.5, 0.5, 1}, random);
+  const CObservation2DRangeScan whole = mrptScanAt({0.5, 0.5, 1}, random);
   CObservation2DRangeScan marked = whole, unmarked = whole;
   for (size_t i = 5; i < 181; i += 10) marked.setScanRangeValidity(i, false);
   const float bad[] = {
@@ -108,7 +107,7 @@ TEST_P(GridWeightMethods, InvalidReadingsAreIgnored) {
 TEST_P(GridWeightMethods, TheMountingDoesNotMatter) {
   RandomStream random(5, 0, 0);
   const TPose2D robot(0.5, 0.5, 1);
-  const CObservation2DRangeScan upright = scanAt(robot, random);
+  const CObservation2DRangeScan upright = mrptScanAt(robot, random);
   CObservation2DRangeScan turned = upright, tilted = upright;
   turned.sensorPose = mrpt::poses::CPose3D(0.2, 0, 0.3, 0, 0, M_PI);
   turned.rightToLeft = false;
@@ -119,7 +118,7 @@ TEST_P(GridWeightMethods, TheMountingDoesNotMatter) {
 
 TEST_P(GridWeightMethods, AScanOffTheMapIsFinite) {
   RandomStream random(6, 0, 0);
-  const CObservation2DRangeScan scan = scanAt({0, 0, 0}, random);
+  const CObservation2DRangeScan scan = mrptScanAt({0, 0, 0}, random);
   EXPECT_TRUE(std::isfinite(weight(scan, {1000, 1000, 0})));
   EXPECT_LE(weight(scan, {1000, 1000, 0}), 0);
 }
@@ -128,7 +127,7 @@ TEST_P(GridWeightMethods, AScanOffTheMapIsFinite) {
 TEST_P(GridWeightMethods, ASelectionWithoutTheLongestBeam) {
   RandomStream random(7, 0, 0);
   const TPose2D robot(0.5, 0.5, 1);
-  const CObservation2DRangeScan scan = scanAt(robot, random);
+  const CObservation2DRangeScan scan = mrptScanAt(robot, random);
   LaserScan all = toLaserScan(scan, 80);
   for (const size_t i : {20u, 90u, 160u}) all.beams[i].range = 60;
   LaserScan selected = all;

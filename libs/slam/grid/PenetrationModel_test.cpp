@@ -213,7 +213,7 @@ TEST(PenetrationModel, RandomGridsAgreeWithTheFormulaAndStayWithinZeroAndOne) {
   }
 }
 
-ScanBeams beams(const std::vector<std::pair<double, double>>& readings) {
+ScanBeams beamsOf(const std::vector<std::pair<double, double>>& readings) {
   LaserScan scan;
   for (const auto& [angle, range] : readings) scan.beams.push_back({angle, range, true});
   return ScanBeams(scan);
@@ -234,15 +234,15 @@ TEST(PenetrationModel, AScanIsTheMeanOfItsBeamsWithTheirShareOfOutliers) {
     return std::log(0.8 * std::exp(-0.5 * sigmas * sigmas) + 0.2);
   };
   const double right = withOutliers(0.25), off = withOutliers(2.25), wrong = std::log(0.2);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.024}}), robot, grid), right, 1e-12);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 4.824}}), robot, grid), off, 1e-9);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{M_PI, 5}}), robot, grid), wrong, 1e-12);
-  EXPECT_NEAR(model.meanLogLikelihood(beams({{0, 5.024}, {0, 4.824}, {M_PI, 5}}), robot, grid),
+  EXPECT_NEAR(model.meanLogLikelihood(beamsOf({{0, 5.024}}), robot, grid), right, 1e-12);
+  EXPECT_NEAR(model.meanLogLikelihood(beamsOf({{0, 4.824}}), robot, grid), off, 1e-9);
+  EXPECT_NEAR(model.meanLogLikelihood(beamsOf({{M_PI, 5}}), robot, grid), wrong, 1e-12);
+  EXPECT_NEAR(model.meanLogLikelihood(beamsOf({{0, 5.024}, {0, 4.824}, {M_PI, 5}}), robot, grid),
               (right + off + wrong) / 3, 1e-9);
 }
 
 TEST(PenetrationModel, AnEmptyScanIsNeutral) {
-  EXPECT_EQ(PenetrationModel({}, 0.05).meanLogLikelihood(beams({}), {}, OccupancyGrid(0.05)), 0);
+  EXPECT_EQ(PenetrationModel({}, 0.05).meanLogLikelihood(beamsOf({}), {}, OccupancyGrid(0.05)), 0);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct MapSample {
 };
 
 /// m of a cell, indexed by its value as an unsigned byte.
-const std::array<float, 256>& occupied() {
+const std::array<float, 256>& occupancyOfValues() {
   static const auto table = [] {
     std::array<float, 256> values;
     for (int value = -128; value < 128; ++value) {
@@ -82,7 +82,7 @@ void ScanLikelihood::read(Patch& patch) {
   }
   if (positive == 0) return;
   patch.isEmpty = false;
-  const auto at = [m = &occupied()](int8_t cell) { return (*m)[static_cast<uint8_t>(cell)]; };
+  const auto at = [m = &occupancyOfValues()](int8_t cell) { return (*m)[static_cast<uint8_t>(cell)]; };
   for (size_t row = 0; row < 4; ++row) {
     const int8_t* const cell = first + row * stride;
     patch.m[row] = Float4{at(cell[0]), at(cell[1]), at(cell[2]), at(cell[3])};

@@ -1,22 +1,15 @@
 #include "slam/grid/ScanMatcher.h"
 
 #include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseOffset.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPose2D;
-
-namespace {
-
-TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
-  return {pose.x + step.x(), pose.y + step.y(), mrpt::math::wrapToPi(pose.phi + step.z())};
-}
-
-}  // namespace
 
 void ScanMatcherOptions::describe(OptionTable& t) {
   t.add("sigma", sigma, 0.01, 100, "",
@@ -26,7 +19,7 @@ void ScanMatcherOptions::describe(OptionTable& t) {
 }
 
 LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Eigen::Matrix3d& information) {
-  const Eigen::Vector3d off(pose.x - mean.x, pose.y - mean.y, mrpt::math::wrapToPi(pose.phi - mean.phi));
+  const Eigen::Vector3d off = offsetOf(pose, mean);
   LogDensity density;
   density.gradient = -information * off;
   density.value = 0.5 * off.dot(density.gradient);
@@ -46,8 +39,8 @@ Eigen::Matrix3d scanInformation(ScanLikelihood& likelihood, const TPose2D& pose)
   Eigen::Matrix3d bend;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = reach[k] * Eigen::Vector3d::Unit(k);
-    bend.col(k) =
-        (likelihood.gradient(moved(pose, -step)) - likelihood.gradient(moved(pose, step))) / (2 * reach[k]);
+    bend.col(k) = (likelihood.gradient(displaced(pose, -step)) - likelihood.gradient(displaced(pose, step))) /
+                  (2 * reach[k]);
   }
   // Directions of positive curvature hold no information.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes((bend + bend.transpose()) / 2);
@@ -75,7 +68,7 @@ ScanMatch ScanMatcher::match(ScanLikelihood& likelihood, const TPose2D& start, c
     damped.diagonal().array() += 1e-9;
     const Eigen::Vector3d step = damped.ldlt().solve(here.gradient);
     if (0.5 * step.dot(here.gradient) < kNegligibleGain) break;
-    const TPose2D next = moved(pose, step);
+    const TPose2D next = displaced(pose, step);
     const LogDensity there = posterior(next);
     if (there.value > here.value) {
       pose = next, here = there;

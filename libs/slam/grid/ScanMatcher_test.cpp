@@ -1,9 +1,9 @@
 #include "slam/grid/ScanMatcher.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
 
+#include "base/Degree.h"
+#include "base/PoseOffset.h"
 #include "testing/TestRoomGrid.h"
 
 namespace hybrid_slam {
@@ -11,8 +11,6 @@ namespace {
 
 using namespace test;
 using mrpt::math::TPose2D;
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 const OccupancyGrid& room() {
   static const OccupancyGrid grid = test::gridOf(kRoom);
@@ -42,12 +40,8 @@ TPose2D plus(const TPose2D& pose, const Eigen::Vector3d& step) {
   return {pose.x + step.x(), pose.y + step.y(), pose.phi + step.z()};
 }
 
-Eigen::Vector3d offset(const TPose2D& pose, const TPose2D& from) {
-  return {pose.x - from.x, pose.y - from.y, mrpt::math::wrapToPi(pose.phi - from.phi)};
-}
-
 void expectNear(const TPose2D& pose, const TPose2D& expected, double distance, double angle) {
-  const Eigen::Vector3d off = offset(pose, expected);
+  const Eigen::Vector3d off = offsetOf(pose, expected);
   EXPECT_LT(off.head<2>().norm(), distance) << pose.asString() << " for " << expected.asString();
   EXPECT_LT(std::abs(off.z()), angle) << pose.asString() << " for " << expected.asString();
 }
@@ -148,7 +142,7 @@ TEST(ScanMatcher, AGaussianPriorHasItsDensity) {
     const Eigen::Matrix3d a = Eigen::Matrix3d::NullaryExpr([&] { return random.gaussian(); });
     const Eigen::Matrix3d information = a * a.transpose() + 0.1 * Eigen::Matrix3d::Identity();
     const LogDensity density = gaussianLogDensity(pose, mean, information);
-    const Eigen::Vector3d off = offset(pose, mean);
+    const Eigen::Vector3d off = offsetOf(pose, mean);
     EXPECT_NEAR(density.value, -0.5 * off.dot(information * off), 1e-9);
     EXPECT_EQ(density.information, information);
     if (std::abs(off.z()) > 3) continue;  // the angle wrap opposite to the mean

@@ -1,17 +1,15 @@
 #include "slam/lines/DirectionFrames.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 #include <random>
 
+#include "base/Degree.h"
 #include "slam/lines/LineDatabase.h"
 
 namespace hybrid_slam {
 namespace {
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 std::vector<DatabaseLine> linesAt(const std::vector<double>& degrees, double length = 6) {
   std::vector<DatabaseLine> lines;

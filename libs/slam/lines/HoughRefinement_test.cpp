@@ -57,12 +57,12 @@ TEST(HoughRefinement, SearchesUpToTheWindowsEdge) {
 TEST(HoughRefinement, NeverLeavesTheVotingSpaceByMoreThanItsCells) {
   RandomStream random(3, 0, 0);
   HoughOptions options;
-  options.thetaWindow = 1 * test::kDegree;
+  options.thetaWindow = 1 * kDegree;
   for (int i = 0; i < 100; ++i) {
     // The start is 8 deg off: the true line is outside the window and must not be reached.
     const auto points = test::pointsOnLine(3, 0.5, -0.5, 0.5, 60, 0.01, random);
-    const FittedLine line = refineByHough(test::range(points), {3, 0.5 + 8 * test::kDegree}, options);
-    EXPECT_GT(test::angleBetween(line.theta, 0.5), 1 * test::kDegree);
+    const FittedLine line = refineByHough(test::range(points), {3, 0.5 + 8 * kDegree}, options);
+    EXPECT_GT(test::angleBetween(line.theta, 0.5), 1 * kDegree);
   }
 }
 
@@ -89,7 +89,7 @@ TEST(HoughRefinement, HelpsAgainstOutliersAndIsTheMeasuredDefault) {
                    high = std::atan2(beside + length / 2, distance);
       const double pieceLow = test::uniform(random, low, high - scene.share * (high - low));
       std::vector<TPoint2D> points;
-      for (double angle = low; angle <= high; angle += 0.5 * test::kDegree) {
+      for (double angle = low; angle <= high; angle += 0.5 * kDegree) {
         double r = distance / std::cos(angle) + 0.012 * random.gaussian();
         if (scene.piece && angle >= pieceLow && angle < pieceLow + scene.share * (high - low))
           r -= 0.06 / std::cos(angle);
@@ -98,9 +98,9 @@ TEST(HoughRefinement, HelpsAgainstOutliersAndIsTheMeasuredDefault) {
       }
       const auto fit = fitOrthogonal(test::range(points));
       ASSERT_TRUE(fit);
-      fitErrors.push_back(test::angleBetween(fit->theta, theta) / test::kDegree);
+      fitErrors.push_back(test::angleBetween(fit->theta, theta) / kDegree);
       houghErrors.push_back(test::angleBetween(refineByHough(test::range(points), *fit, {}).theta, theta) /
-                            test::kDegree);
+                            kDegree);
     }
     const Spread fit = test::spread(fitErrors), hough = test::spread(houghErrors);
     std::printf("| %s | %.3f / %.3f | %.3f / %.3f |\n", scene.name, fit.median, fit.rms, hough.median,

@@ -90,7 +90,7 @@ TEST(Merged, ThetaIsAlwaysThatOfEquation8) {
 /// The figure of doc/paper-notes.md: what eq. (7) as printed does to two observations of a wall that differ
 /// by 5 deg and have the same midpoint, 50 m from the map's origin.
 TEST(Merged, PrintedFormDriftsTowardsTheOrigin) {
-  const double half = 2.5 * test::kDegree;
+  const double half = 2.5 * kDegree;
   const LineSegment a =
       segment(50 - 3 * std::sin(half), -3 * std::cos(half), 50 + 3 * std::sin(half), 3 * std::cos(half));
   const LineSegment b =
@@ -247,15 +247,15 @@ TEST_F(Database, LinesThatCancelHaveNoDominatingDirection) {
 /// Calculated by hand: evidence 6 and 12, 0.3 deg apart, window 0.5 deg: the kernel is 1 - 0.36 = 0.64.
 TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
   std::vector<DatabaseLine> lines(3);
-  lines[0].theta = 10 * test::kDegree;
+  lines[0].theta = 10 * kDegree;
   lines[0].length = 6;
-  lines[1].theta = 100.3 * test::kDegree;  // 0.3 deg off perpendicular
+  lines[1].theta = 100.3 * kDegree;  // 0.3 deg off perpendicular
   lines[1].length = 4;
   lines[1].count = 3;
-  lines[2].theta = -79.5 * test::kDegree;  // 0.5 deg from the first: outside its window
+  lines[2].theta = -79.5 * kDegree;  // 0.5 deg from the first: outside its window
   lines[2].length = 100;
-  setDirections(lines, 0.5 * test::kDegree);
-  EXPECT_NEAR(lines[0].direction, (10 + 0.64 * 12 * 0.3 / (6 + 0.64 * 12)) * test::kDegree, 1e-9);
+  setDirections(lines, 0.5 * kDegree);
+  EXPECT_NEAR(lines[0].direction, (10 + 0.64 * 12 * 0.3 / (6 + 0.64 * 12)) * kDegree, 1e-9);
   setDirections(lines, 0);
   for (const DatabaseLine& line : lines)
     EXPECT_NEAR(std::remainder(line.direction - line.theta, M_PI / 2), 0, 1e-12);
@@ -266,8 +266,8 @@ TEST(SetDirections, IsTheWeightedMeanWithinTheWindow) {
 TEST(SetDirections, AreTheSumsOfTheDefinition) {
   RandomStream random(14, 0, 0);
   for (int i = 0; i < 400; ++i) {
-    const double window = i % 10 == 0 ? 0 : test::uniform(random, 0.01, 22.5) * test::kDegree,
-                 spread = test::uniform(random, 0, i % 3 == 0 ? 90 : 2) * test::kDegree,
+    const double window = i % 10 == 0 ? 0 : test::uniform(random, 0.01, 22.5) * kDegree,
+                 spread = test::uniform(random, 0, i % 3 == 0 ? 90 : 2) * kDegree,
                  centre = i % 4 == 0 ? M_PI / 4 : test::uniform(random, -M_PI, M_PI);
     std::vector<DatabaseLine> lines(static_cast<size_t>(test::uniform(random, 0, 60)));
     for (DatabaseLine& line : lines) {
@@ -296,20 +296,19 @@ TEST(SetDirections, TurnWithTheMapAndKeepFramesApart) {
   RandomStream random(9, 0, 0);
   for (int i = 0; i < 300; ++i) {
     std::vector<DatabaseLine> lines(12), turned;
-    const double frame = test::uniform(random, 2, 43) * test::kDegree,
-                 turn = test::uniform(random, -M_PI, M_PI);
+    const double frame = test::uniform(random, 2, 43) * kDegree, turn = test::uniform(random, -M_PI, M_PI);
     for (size_t k = 0; k < lines.size(); ++k) {
-      lines[k].theta = (k % 2 ? frame : 0) + static_cast<double>(k % 4) * M_PI / 2 +
-                       0.1 * test::kDegree * random.gaussian();
+      lines[k].theta =
+          (k % 2 ? frame : 0) + static_cast<double>(k % 4) * M_PI / 2 + 0.1 * kDegree * random.gaussian();
       lines[k].length = test::uniform(random, 1, 9);
     }
     turned = lines;
     for (DatabaseLine& line : turned) line.theta += turn;
-    setDirections(lines, 0.5 * test::kDegree);
-    setDirections(turned, 0.5 * test::kDegree);
+    setDirections(lines, 0.5 * kDegree);
+    setDirections(turned, 0.5 * kDegree);
     for (size_t k = 0; k < lines.size(); ++k) {
       EXPECT_NEAR(std::remainder(turned[k].direction - lines[k].direction - turn, M_PI / 2), 0, 1e-9);
-      EXPECT_NEAR(std::remainder(lines[k].direction - (k % 2 ? frame : 0), M_PI / 2), 0, 0.4 * test::kDegree);
+      EXPECT_NEAR(std::remainder(lines[k].direction - (k % 2 ? frame : 0), M_PI / 2), 0, 0.4 * kDegree);
       EXPECT_LE(std::abs(lines[k].direction), M_PI / 4 + 1e-12);
     }
   }
@@ -323,7 +322,7 @@ TEST_F(Database, ManyObservationsOfARoomConvergeToItsWalls) {
     std::vector<LineSegment> seen;
     for (const LineSegment& w : walls) {
       const TPoint2D m = middle(w);
-      const double turn = 0.5 * test::kDegree * random.gaussian();  // a heading error, about the robot inside
+      const double turn = 0.5 * kDegree * random.gaussian();  // a heading error, about the robot inside
       seen.push_back(transformed(transformed(w, {-44, -33, 0}),
                                  {44 + 0.02 * random.gaussian(), 33 + 0.02 * random.gaussian(), turn}));
       EXPECT_GT(m.x, 0);
@@ -333,7 +332,7 @@ TEST_F(Database, ManyObservationsOfARoomConvergeToItsWalls) {
   ASSERT_EQ(database.lines().size(), 4u);
   for (size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(database.lines()[i].count, 200);
-    EXPECT_NEAR(test::angleBetween(database.lines()[i].theta, walls[i].theta), 0, 0.15 * test::kDegree);
+    EXPECT_NEAR(test::angleBetween(database.lines()[i].theta, walls[i].theta), 0, 0.15 * kDegree);
     EXPECT_NEAR(signedDistance(middle(walls[i]), database.lines()[i].rho, database.lines()[i].theta), 0,
                 0.01);
   }

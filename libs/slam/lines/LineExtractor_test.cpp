@@ -25,7 +25,7 @@ const test::Walls kRoom = test::polygon({{-3, -2}, {5, -2}, {5, 4}, {-3, 4}});
 int wallOf(const LineSegment& line, const test::Walls& walls) {
   for (size_t i = 0; i < walls.size(); ++i) {
     const LineSegment wall = makeSegment(walls[i].first, walls[i].second);
-    if (test::angleBetween(wall.theta, line.theta) < 0.3 * test::kDegree &&
+    if (test::angleBetween(wall.theta, line.theta) < 0.3 * kDegree &&
         std::abs(signedDistance(middle(line), wall.rho, wall.theta)) < 0.01)
       return static_cast<int>(i);
   }
@@ -34,7 +34,7 @@ int wallOf(const LineSegment& line, const test::Walls& walls) {
 
 /// A full turn of a laser at the robot's centre.
 LaserScan roomScan(const TPose2D& robot, double noise, RandomStream& random) {
-  return test::scanOf(kRoom, robot, {}, 720, 359.5 * test::kDegree, noise, random);
+  return test::scanOf(kRoom, robot, {}, 720, 359.5 * kDegree, noise, random);
 }
 
 /// Expects each wall of the room once, whole, and within 0.1 deg and 5 mm.
@@ -47,7 +47,7 @@ void expectTheFourWalls(const std::vector<LineSegment>& lines, const TPose2D& ro
     found.insert(k);
     const auto& ends = kRoom[static_cast<size_t>(k)];
     const LineSegment wall = makeSegment(ends.first, ends.second);
-    EXPECT_LT(test::angleBetween(line.theta, wall.theta), 0.1 * test::kDegree) << k;
+    EXPECT_LT(test::angleBetween(line.theta, wall.theta), 0.1 * kDegree) << k;
     EXPECT_NEAR(signedDistance(middle(line), wall.rho, wall.theta), 0, 0.005) << k;
     EXPECT_NEAR(line.length, wall.length, lengthTolerance) << k;
   }
@@ -101,8 +101,7 @@ TEST_P(EveryExtractor, ADoorDividesAWall) {
   // Two pieces of x = 3 with a door of 1 m between them, and the wall of the next room behind it.
   const test::Walls walls{{{3, -3}, {3, -0.5}}, {{3, 0.5}, {3, 3}}, {{6, -2}, {6, 2}}};
   for (int i = 0; i < 20; ++i) {
-    const auto lines =
-        extractLines(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random), options);
+    const auto lines = extractLines(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.01, random), options);
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_NEAR(lines[0].rho, 3, 0.02);
     EXPECT_NEAR(lines[0].length, 2.5, 0.15);
@@ -121,8 +120,7 @@ TEST_P(EveryExtractor, APillarDividesAWall) {
   test::Walls walls = test::polygon({{4.7, -0.25}, {5, -0.25}, {5, 0.25}, {4.7, 0.25}});
   walls.push_back({{5, -3}, {5, 3}});
   for (int i = 0; i < 20; ++i) {
-    const auto lines =
-        extractLines(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random), options);
+    const auto lines = extractLines(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.01, random), options);
     ASSERT_EQ(lines.size(), 2u);
     for (const LineSegment& line : lines) {
       EXPECT_NEAR(line.rho, 5, 0.02);
@@ -138,8 +136,8 @@ TEST_P(EveryExtractor, FindsNoLinesInPillarsAndClouds) {
   for (int i = 0; i < 20; ++i) {
     std::vector<TPoint2D> corners;
     for (int k = 0; k < 60; ++k)
-      corners.emplace_back(2 + 0.4 * std::cos(6 * k * test::kDegree), 0.4 * std::sin(6 * k * test::kDegree));
-    LaserScan scan = test::scanOf(test::polygon(corners), {}, {}, 541, 270 * test::kDegree, 0.01, random);
+      corners.emplace_back(2 + 0.4 * std::cos(6 * k * kDegree), 0.4 * std::sin(6 * k * kDegree));
+    LaserScan scan = test::scanOf(test::polygon(corners), {}, {}, 541, 270 * kDegree, 0.01, random);
     EXPECT_TRUE(extractLines(scan, options).empty()) << "pillar";
     for (Beam& beam : scan.beams) beam = {beam.angle, 4 + 0.15 * random.gaussian(), true};
     EXPECT_TRUE(extractLines(scan, options).empty()) << "cloud";
@@ -151,7 +149,7 @@ TEST_P(EveryExtractor, SurvivesScansOfOneRange) {
   options.method = GetParam();
   RandomStream random(14, 0, 0);
   for (const double range : {1e-9, 0.05, 1.0, 20.0}) {
-    LaserScan scan = test::scanOf({}, {}, {}, 541, 270 * test::kDegree, 0, random);
+    LaserScan scan = test::scanOf({}, {}, {}, 541, 270 * kDegree, 0, random);
     for (Beam& beam : scan.beams) beam = {beam.angle, range, true};
     for (const LineSegment& line : extractLines(scan, options)) {  // chords of the circle
       EXPECT_LE(line.rho, range);
@@ -177,7 +175,7 @@ TEST_P(EveryExtractor, FindsLinesOnWallsAgainAndAgain) {
       const LineSegment wall = test::randomSegment(random, 8);
       walls.emplace_back(wall.start, wall.end);
     }
-    scans.push_back(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random));
+    scans.push_back(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.01, random));
     lines.push_back(extractLines(scans.back(), options));
     for (const LineSegment& line : lines.back()) {
       EXPECT_GE(line.length, options.segmentation.minLength);
@@ -185,7 +183,7 @@ TEST_P(EveryExtractor, FindsLinesOnWallsAgainAndAgain) {
       double nearest = 1;
       for (const auto& [a, b] : walls) {
         const LineSegment wall = makeSegment(a, b);
-        if (test::angleBetween(wall.theta, line.theta) < 3 * test::kDegree)
+        if (test::angleBetween(wall.theta, line.theta) < 3 * kDegree)
           nearest = std::min(nearest, std::abs(signedDistance(middle(line), wall.rho, wall.theta)));
       }
       if (nearest < 0.03) onWalls += line.length;
@@ -237,20 +235,20 @@ TEST(LineExtractor, ARoomWithNoise) {
 TEST(LineExtractor, AHalfCircleScanSeesTheThreeWallsAheadOfIt) {
   RandomStream random(2, 0, 0);
   const auto lines =
-      extractLines(test::scanOf(kRoom, {-2.9, 1, 0}, {}, 541, 180 * test::kDegree, 0, random), kDefault);
+      extractLines(test::scanOf(kRoom, {-2.9, 1, 0}, {}, 541, 180 * kDegree, 0, random), kDefault);
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_NEAR(lines[0].theta, -90 * test::kDegree, 1e-6);
+  EXPECT_NEAR(lines[0].theta, -90 * kDegree, 1e-6);
   EXPECT_NEAR(lines[0].rho, 3, 1e-6);
   EXPECT_NEAR(lines[1].theta, 0, 1e-6);
   EXPECT_NEAR(lines[1].rho, 7.9, 1e-6);
   EXPECT_NEAR(lines[1].length, 6, 0.1);
-  EXPECT_NEAR(lines[2].theta, 90 * test::kDegree, 1e-6);
+  EXPECT_NEAR(lines[2].theta, 90 * kDegree, 1e-6);
   EXPECT_NEAR(lines[2].rho, 3, 1e-6);
 }
 
 TEST(LineExtractor, CornersSplitUnlessSwitchedOff) {
   RandomStream random(3, 0, 0);
-  const LaserScan scan = test::scanOf(kRoom, {1, 1, 0.4}, {}, 541, 270 * test::kDegree, 0.01, random);
+  const LaserScan scan = test::scanOf(kRoom, {1, 1, 0.4}, {}, 541, 270 * kDegree, 0.01, random);
   EXPECT_GE(extractLines(scan, kDefault).size(), 4u);
   LineExtractionOptions whole;
   whole.segmentation.split = false;
@@ -260,7 +258,7 @@ TEST(LineExtractor, CornersSplitUnlessSwitchedOff) {
 
 TEST(LineExtractor, LinesShorterThanTheMinimumAreDropped) {
   RandomStream random(4, 0, 0);
-  const LaserScan scan = test::scanOf({{{2, -0.5}, {2, 0.5}}}, {}, {}, 541, 270 * test::kDegree, 0, random);
+  const LaserScan scan = test::scanOf({{{2, -0.5}, {2, 0.5}}}, {}, {}, 541, 270 * kDegree, 0, random);
   LineExtractionOptions options;
   options.segmentation.minLength = 0.9;
   EXPECT_EQ(extractLines(scan, options).size(), 1u);
@@ -275,7 +273,7 @@ TEST(LineExtractor, MountingOfTheSensorDoesNotMatter) {
     for (const bool rightToLeft : {true, false})
       for (const double yaw : {0.0, 0.6, -2.0}) {
         mrpt::obs::CObservation2DRangeScan o;
-        o.aperture = static_cast<float>(270 * test::kDegree);
+        o.aperture = static_cast<float>(270 * kDegree);
         o.maxRange = 20;
         o.rightToLeft = rightToLeft;
         o.sensorPose = mrpt::poses::CPose3D(0.4, -0.1, 0.3, yaw, 0, upsideDown ? M_PI : 0);
@@ -304,14 +302,14 @@ TEST(LineExtractor, ThePapersFitLosesTheWallAhead) {
   RandomStream random(5, 0, 0);
   // Two walls apart from each other: ahead (vertical in the sensor frame) and to the left.
   const test::Walls walls{{{4, -2}, {4, 2}}, {{-3, 3}, {1, 3}}};
-  const LaserScan scan = test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.012, random);
+  const LaserScan scan = test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.012, random);
   EXPECT_EQ(extractLines(scan, kDefault).size(), 2u);
   LineExtractionOptions paper;
   paper.segmentation.split = false;
   paper.fit.method = Method::paper;
   const auto lines = extractLines(scan, paper);
   ASSERT_EQ(lines.size(), 1u);  // eq. (5) drops the one along y
-  EXPECT_NEAR(lines[0].theta, 90 * test::kDegree, 0.5 * test::kDegree);
+  EXPECT_NEAR(lines[0].theta, 90 * kDegree, 0.5 * kDegree);
   EXPECT_NEAR(lines[0].rho, 3, 0.02);
 }
 
@@ -330,7 +328,7 @@ TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
     if (!(row >> key) || key != "FLASER" || !(row >> beams)) continue;
     LaserScan scan;
     for (size_t i = 0; i < beams; ++i) {
-      Beam beam{(static_cast<double>(i) - 90) * test::kDegree, 0, false};
+      Beam beam{(static_cast<double>(i) - 90) * kDegree, 0, false};
       row >> beam.range;
       beam.valid = beam.range > 0 && beam.range < 20;
       scan.beams.push_back(beam);
@@ -363,7 +361,7 @@ TEST(LineExtractor, RealLogAgreesOnItsDominatingDirection) {
         const double others = std::atan2(sine - line.length * std::sin(4 * line.theta),
                                          cosine - line.length * std::cos(4 * line.theta)) /
                               4;
-        angles.push_back(std::abs(std::remainder(line.theta - others, M_PI / 2)) / test::kDegree);
+        angles.push_back(std::abs(std::remainder(line.theta - others, M_PI / 2)) / kDegree);
       }
     }
     const double n = static_cast<double>(scans.size()), median = test::spread(angles).median;

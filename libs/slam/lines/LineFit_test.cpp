@@ -166,11 +166,10 @@ TEST(LineFit, OrthogonalIsTheMeasuredDefault) {
   std::printf(
       "| lines | orthogonal, median / rms (deg) | eq. (2)-(4), median / rms (deg) "
       "| kept by eq. (5) <= 0.1 m^2 |\n|---|---|---|---|\n");
-  for (const Class& c :
-       {Class{"any direction, rho 0.5 to 5 m", 0.5, 5, -M_PI, M_PI, 0.99},
-        Class{"vertical within 1 deg, rho 0.5 to 5 m", 0.5, 5, -test::kDegree, test::kDegree, 0.99},
-        Class{"rho 0.1 to 0.5 m", 0.1, 0.5, -M_PI, M_PI, 1.1},
-        Class{"rho below 0.05 m", 0, 0.05, -M_PI, M_PI, 20}}) {
+  for (const Class& c : {Class{"any direction, rho 0.5 to 5 m", 0.5, 5, -M_PI, M_PI, 0.99},
+                         Class{"vertical within 1 deg, rho 0.5 to 5 m", 0.5, 5, -kDegree, kDegree, 0.99},
+                         Class{"rho 0.1 to 0.5 m", 0.1, 0.5, -M_PI, M_PI, 1.1},
+                         Class{"rho below 0.05 m", 0, 0.05, -M_PI, M_PI, 20}}) {
     RandomStream random(6, 0, 0);
     std::vector<double> orthogonalErrors, paperErrors;
     int dropped = 0, orthogonalDropped = 0;
@@ -183,8 +182,8 @@ TEST(LineFit, OrthogonalIsTheMeasuredDefault) {
       const LineCoefficients coefficients = fitCoefficients(test::range(points));
       const auto orthogonal = fitOrthogonal(test::range(points)), paper = toHesse(coefficients);
       ASSERT_TRUE(orthogonal && paper);
-      orthogonalErrors.push_back(test::angleBetween(orthogonal->theta, theta) / test::kDegree);
-      paperErrors.push_back(test::angleBetween(paper->theta, theta) / test::kDegree);
+      orthogonalErrors.push_back(test::angleBetween(orthogonal->theta, theta) / kDegree);
+      paperErrors.push_back(test::angleBetween(paper->theta, theta) / kDegree);
       dropped += verticalError(test::range(points), coefficients) > LineFitOptions().maxError;
       orthogonalDropped += rmsDistance(test::range(points), *orthogonal) > LineFitOptions().maxRms;
     }

@@ -11,11 +11,11 @@ namespace {
 
 using namespace test;
 
-using Method = LineWeightOptions::Method;
+using WeightMethod = LineWeightOptions::Method;
 
 /// A segment of this length and normal direction (only these two count).
 LineSegment line(double thetaDeg, double length) {
-  return transformed(makeSegment(TPoint2D(2, 0), TPoint2D(2, length)), {0, 0, thetaDeg * test::kDegree});
+  return transformed(makeSegment(TPoint2D(2, 0), TPoint2D(2, length)), {0, 0, thetaDeg * kDegree});
 }
 
 LineDatabase databaseOf(const std::vector<LineSegment>& lines) {
@@ -26,16 +26,17 @@ LineDatabase databaseOf(const std::vector<LineSegment>& lines) {
   return database;
 }
 
-LineWeightOptions method(Method m) {
+LineWeightOptions method(WeightMethod m) {
   LineWeightOptions options;
   options.method = m;
   return options;
 }
 
-const std::vector<Method> kMethods{Method::graded, Method::dominatingDirection, Method::paper};
+const std::vector<WeightMethod> kMethods{WeightMethod::graded, WeightMethod::dominatingDirection,
+                                         WeightMethod::paper};
 
 TEST(LineWeight, NeutralWithoutLinesOrDatabase) {
-  for (const Method m : kMethods) {
+  for (const WeightMethod m : kMethods) {
     const LineWeight empty = lineWeight({line(10, 3), line(20, 1)}, 0.3, LineDatabase(), method(m));
     EXPECT_EQ(empty.value, 1);
     EXPECT_EQ(empty.seen, 2);
@@ -47,7 +48,7 @@ TEST(LineWeight, NeutralWithoutLinesOrDatabase) {
 }
 
 TEST(LineWeight, NeutralForLinesWithoutLength) {
-  for (const Method m : kMethods)
+  for (const WeightMethod m : kMethods)
     EXPECT_EQ(lineWeight({line(30, 0)}, 0, databaseOf({line(0, 6)}), method(m)).value, 1);
 }
 
@@ -56,8 +57,8 @@ TEST(LineWeight, PaperByHand) {
   const LineDatabase database = databaseOf({line(20, 6)});
   const std::vector<LineSegment> seen{line(22.9, 1), line(110, 2), line(-72.9, 3), line(24, 2.5),
                                       line(65, 1.5)};
-  auto options = method(Method::paper);
-  options.threshold = 3 * test::kDegree;
+  auto options = method(WeightMethod::paper);
+  options.threshold = 3 * kDegree;
   const LineWeight weight = lineWeight(seen, 0, database, options);
   EXPECT_NEAR(weight.value, 0.6, 1e-12);
   EXPECT_EQ(weight.seen, 5);
@@ -66,17 +67,18 @@ TEST(LineWeight, PaperByHand) {
 
 TEST(LineWeight, PaperMatchesAnyLineOfTheDatabase) {
   const LineDatabase database = databaseOf({line(20, 6), line(50, 6)});
-  EXPECT_NEAR(lineWeight({line(50.2, 2), line(-70.2, 2)}, 0, database, method(Method::paper)).value, 1,
+  EXPECT_NEAR(lineWeight({line(50.2, 2), line(-70.2, 2)}, 0, database, method(WeightMethod::paper)).value, 1,
               1e-12);
-  EXPECT_EQ(lineWeight({line(35, 2)}, 0, database, method(Method::paper)).value, LineWeightOptions().floor);
+  EXPECT_EQ(lineWeight({line(35, 2)}, 0, database, method(WeightMethod::paper)).value,
+            LineWeightOptions().floor);
 }
 
 /// Calculated by hand: 6 m of wall at 20 deg, 2 m at 50 deg, sigma 2 deg; seen are 2 m at 110 deg (on the
 /// first), 3 m at 52 deg (1 sigma off the second) and 1 m at 80 deg (on neither).
 TEST(LineWeight, GradedByHand) {
   const LineDatabase database = databaseOf({line(20, 6), line(50, 2)});
-  auto options = method(Method::graded);
-  options.sigma = 2 * test::kDegree;
+  auto options = method(WeightMethod::graded);
+  options.sigma = 2 * kDegree;
   const LineWeight weight = lineWeight({line(110, 2), line(52, 3), line(80, 1)}, 0, database, options);
   EXPECT_NEAR(weight.value, (2 * 0.75 + 3 * 0.25 * std::exp(-0.5)) / 6, 1e-9);
   EXPECT_EQ(weight.seen, 3);
@@ -97,20 +99,20 @@ TEST(LineWeight, GradedCountsEvidence) {
 TEST(LineWeight, SeveralFramesCoexist) {
   const LineDatabase database = databaseOf({line(0, 6), line(90, 6), line(30, 6), line(120, 6)});
   const std::vector<LineSegment> wing{line(30, 4), line(120, 4)};
-  const auto at = [&](Method m, double error) {
-    return lineWeight(wing, error * test::kDegree, database, method(m)).value;
+  const auto at = [&](WeightMethod m, double error) {
+    return lineWeight(wing, error * kDegree, database, method(m)).value;
   };
-  EXPECT_NEAR(at(Method::graded, 0), 0.5, 1e-9);
-  EXPECT_LT(at(Method::graded, 1), 0.05);
-  EXPECT_EQ(at(Method::dominatingDirection, 0),
+  EXPECT_NEAR(at(WeightMethod::graded, 0), 0.5, 1e-9);
+  EXPECT_LT(at(WeightMethod::graded, 1), 0.05);
+  EXPECT_EQ(at(WeightMethod::dominatingDirection, 0),
             LineWeightOptions().floor);  // it is between the two directions
 }
 
 /// Calculated by hand: residuals 0, 2 deg (1 sigma) and 45 deg.
 TEST(LineWeight, DominatingDirectionByHand) {
   const LineDatabase database = databaseOf({line(20, 6)});
-  auto options = method(Method::dominatingDirection);
-  options.sigma = 2 * test::kDegree;
+  auto options = method(WeightMethod::dominatingDirection);
+  options.sigma = 2 * kDegree;
   const LineWeight weight = lineWeight({line(110, 2), line(22, 3), line(65, 1)}, 0, database, options);
   EXPECT_NEAR(weight.value, (2 + 3 * std::exp(-0.5)) / 6, 1e-9);
   EXPECT_EQ(weight.seen, 3);
@@ -119,20 +121,20 @@ TEST(LineWeight, DominatingDirectionByHand) {
 
 TEST(LineWeight, MatchedIsWithinTwoSigma) {
   const LineDatabase database = databaseOf({line(0, 6)});
-  auto options = method(Method::dominatingDirection);
-  options.sigma = 2 * test::kDegree;
+  auto options = method(WeightMethod::dominatingDirection);
+  options.sigma = 2 * kDegree;
   EXPECT_EQ(lineWeight({line(3.99, 2)}, 0, database, options).matched, 1);
   EXPECT_EQ(lineWeight({line(4.01, 2)}, 0, database, options).matched, 0);
 }
 
 TEST(LineWeight, TheHeadingTurnsTheLinesIntoTheMap) {
   RandomStream random(1, 0, 0);
-  for (const Method m : kMethods)
+  for (const WeightMethod m : kMethods)
     for (int i = 0; i < 300; ++i) {
       const double turn = test::uniform(random, -M_PI, M_PI), heading = test::uniform(random, -9, 9);
-      const LineDatabase database = databaseOf({line(turn / test::kDegree, 6)});
-      EXPECT_NEAR(lineWeight({line((turn - heading) / test::kDegree, 2)}, heading, database, method(m)).value,
-                  1, 1e-9);
+      const LineDatabase database = databaseOf({line(turn / kDegree, 6)});
+      EXPECT_NEAR(lineWeight({line((turn - heading) / kDegree, 2)}, heading, database, method(m)).value, 1,
+                  1e-9);
     }
 }
 
@@ -142,14 +144,14 @@ TEST(LineWeight, EqNineIsConstantWithinItsThreshold) {
   const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};
   double previous = 2;
   for (const double error : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
-    LineWeightOptions paper = method(Method::paper);
-    paper.threshold = 3 * test::kDegree;
-    EXPECT_EQ(lineWeight(seen, error * test::kDegree, database, paper).value, 1);
-    paper.threshold = 0.25 * test::kDegree;
-    EXPECT_EQ(lineWeight(seen, error * test::kDegree, database, paper).value, error < 0.25 ? 1 : paper.floor);
-    LineWeightOptions options = method(Method::graded);
-    options.sigma = 1 * test::kDegree;
-    const double graded = lineWeight(seen, error * test::kDegree, database, options).value;
+    LineWeightOptions paper = method(WeightMethod::paper);
+    paper.threshold = 3 * kDegree;
+    EXPECT_EQ(lineWeight(seen, error * kDegree, database, paper).value, 1);
+    paper.threshold = 0.25 * kDegree;
+    EXPECT_EQ(lineWeight(seen, error * kDegree, database, paper).value, error < 0.25 ? 1 : paper.floor);
+    LineWeightOptions options = method(WeightMethod::graded);
+    options.sigma = 1 * kDegree;
+    const double graded = lineWeight(seen, error * kDegree, database, options).value;
     EXPECT_LT(graded, previous - 1e-3 * error);
     previous = graded;
   }
@@ -163,8 +165,8 @@ TEST(LineWeight, TheSlopeMatchesTheValue) {
     for (int k = 0; k < 1 + i % 5; ++k) known.push_back(test::randomSegment(random, 10));
     for (int k = 0; k < 1 + i % 7; ++k) seen.push_back(test::randomSegment(random, 10));
     const LineDatabase database = databaseOf(known);
-    LineWeightOptions options = method(i % 2 ? Method::graded : Method::dominatingDirection);
-    options.sigma = test::uniform(random, 1, 10) * test::kDegree;
+    LineWeightOptions options = method(i % 2 ? WeightMethod::graded : WeightMethod::dominatingDirection);
+    options.sigma = test::uniform(random, 1, 10) * kDegree;
     options.floor = 1e-6;
     const double heading = test::uniform(random, -M_PI, M_PI), step = 1e-6;
     const auto at = [&](double h) { return lineWeight(seen, h, database, options); };
@@ -184,7 +186,7 @@ TEST(LineWeight, StaysBetweenFloorAndOne) {
     for (int k = 0; k < 1 + i % 5; ++k) known.push_back(test::randomSegment(random, 10));
     for (int k = 0; k < 1 + i % 7; ++k) seen.push_back(test::randomSegment(random, 10));
     const LineDatabase database = databaseOf(known);
-    for (const Method m : kMethods) {
+    for (const WeightMethod m : kMethods) {
       LineWeightOptions options = method(m);
       options.floor = test::uniform(random, 1e-6, 0.5);
       const LineWeight weight = lineWeight(seen, test::uniform(random, -M_PI, M_PI), database, options);
@@ -201,7 +203,7 @@ TEST(LineWeight, StaysBetweenFloorAndOne) {
 LineDatabase buildingWithAWing() {
   const std::vector<LineSegment> part{makeSegment({-3, -2}, {3, -2}), makeSegment({4, -3}, {4, 3})};
   std::vector<LineSegment> walls = part;
-  for (const LineSegment& wall : transformed(part, {50, 0, 30 * test::kDegree})) walls.push_back(wall);
+  for (const LineSegment& wall : transformed(part, {50, 0, 30 * kDegree})) walls.push_back(wall);
   return databaseOf(walls);
 }
 
@@ -209,12 +211,12 @@ LineDatabase buildingWithAWing() {
 TEST(LineWeight, ComparesWithTheWingThatTheRobotIsIn) {
   const LineDatabase building = buildingWithAWing();
   const std::vector<LineSegment> seen{line(0, 4), line(90, 2)};
-  for (const Method m : {Method::graded, Method::frames}) {
+  for (const WeightMethod m : {WeightMethod::graded, WeightMethod::frames}) {
     LineWeightOptions options = method(m);
     const auto at = [&](double x, double headingDeg) {
-      return lineWeight(seen, headingDeg * test::kDegree, *comparedLines(building, {x, 0}, options), options);
+      return lineWeight(seen, headingDeg * kDegree, *comparedLines(building, {x, 0}, options), options);
     };
-    const double d = 0.5 * options.sigma / test::kDegree;
+    const double d = 0.5 * options.sigma / kDegree;
     for (const double heading : {0, 30}) EXPECT_NEAR(at(0, heading).value, 0.5, 1e-9);
     options.radius = 10;
     EXPECT_NEAR(at(0, 0).value, 1, 1e-9);
@@ -244,11 +246,11 @@ TEST(LineWeight, NearIsTheDistanceFromTheSegment) {
 TEST(LineWeight, FramesAreNeutralWithoutASharedDirection) {
   const LineDatabase scattered = databaseOf({line(0, 6), line(17, 6), line(33, 6), line(61, 6)});
   const std::vector<LineSegment> seen{line(45, 4)};
-  const auto value = [&](Method m) {
+  const auto value = [&](WeightMethod m) {
     return lineWeight(seen, 0, *comparedLines(scattered, {0, 0}, method(m)), method(m)).value;
   };
-  EXPECT_EQ(value(Method::frames), 1);
-  EXPECT_EQ(value(Method::graded), LineWeightOptions().floor);
+  EXPECT_EQ(value(WeightMethod::frames), 1);
+  EXPECT_EQ(value(WeightMethod::graded), LineWeightOptions().floor);
 }
 
 TEST(LineWeightOptions, NamesAndRanges) {
@@ -258,10 +260,10 @@ TEST(LineWeightOptions, NamesAndRanges) {
                                "line_weight");
     return options;
   };
-  EXPECT_EQ(load("method = paper").method, Method::paper);
-  EXPECT_EQ(load("method = dominating_direction").method, Method::dominatingDirection);
-  EXPECT_EQ(load("method = graded").method, Method::graded);
-  EXPECT_NEAR(load("sigma_deg = 1").sigma, test::kDegree, 1e-12);
+  EXPECT_EQ(load("method = paper").method, WeightMethod::paper);
+  EXPECT_EQ(load("method = dominating_direction").method, WeightMethod::dominatingDirection);
+  EXPECT_EQ(load("method = graded").method, WeightMethod::graded);
+  EXPECT_NEAR(load("sigma_deg = 1").sigma, kDegree, 1e-12);
   for (const char* line :
        {"method = general", "sigma_deg = 0", "floor = 0", "floor = 1.5", "threshold_deg = 46"})
     EXPECT_THROW(load(line), InputError) << line;

@@ -18,7 +18,7 @@ using namespace test;
 LaserScan scanOfRanges(const std::vector<double>& ranges) {
   LaserScan scan;
   for (size_t i = 0; i < ranges.size(); ++i)
-    scan.beams.push_back({static_cast<double>(i) * test::kDegree, ranges[i], ranges[i] > 0});
+    scan.beams.push_back({static_cast<double>(i) * kDegree, ranges[i], ranges[i] > 0});
   return scan;
 }
 
@@ -109,8 +109,8 @@ TEST(Segmentation, PointsAreTheBeamsEndsInTheSensorFrame) {
   const SegmentedScan segmented(scanOfRanges({2, 2}), pairsOnly());
   const auto runs = segmented.runs();
   ASSERT_EQ(runs.size(), 1u);
-  EXPECT_NEAR(runs[0].back().x, 2 * std::cos(test::kDegree), 1e-12);
-  EXPECT_NEAR(runs[0].back().y, 2 * std::sin(test::kDegree), 1e-12);
+  EXPECT_NEAR(runs[0].back().x, 2 * std::cos(kDegree), 1e-12);
+  EXPECT_NEAR(runs[0].back().y, 2 * std::sin(kDegree), 1e-12);
 }
 
 std::vector<PointRange> pieces(const std::vector<TPoint2D>& points, const SegmentationOptions& options) {

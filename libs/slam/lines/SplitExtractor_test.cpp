@@ -19,7 +19,7 @@ TEST(SplitMerge, JoinsAWallThatANoisyPointHasSplit) {
   RandomStream random(17, 0, 0);
   for (int i = 0; i < 100; ++i)
     for (const double offset : {-0.2, 0.2}) {
-      LaserScan scan = test::scanOf({{{3, -3}, {3, 3}}}, {}, {}, 541, 270 * test::kDegree, 0.01, random);
+      LaserScan scan = test::scanOf({{{3, -3}, {3, 3}}}, {}, {}, 541, 270 * kDegree, 0.01, random);
       scan.beams[270].range += offset;  // straight ahead
       const auto [split, merged] = splitAndMerged(scan);
       ASSERT_EQ(split.size(), 2u);
@@ -28,13 +28,13 @@ TEST(SplitMerge, JoinsAWallThatANoisyPointHasSplit) {
       ASSERT_EQ(merged.size(), 1u);
       EXPECT_NEAR(merged[0].length, 6, 0.15);
       EXPECT_NEAR(merged[0].rho, 3, 0.01);
-      EXPECT_LT(test::angleBetween(merged[0].theta, 0), 0.3 * test::kDegree);
+      EXPECT_LT(test::angleBetween(merged[0].theta, 0), 0.3 * kDegree);
     }
 }
 
 TEST(SplitMerge, FindsAWallWhosePiecesAreTooShort) {
   RandomStream random(18, 0, 0);
-  LaserScan scan = test::scanOf({{{3, -0.8}, {3, 0.8}}}, {}, {}, 541, 270 * test::kDegree, 0.01, random);
+  LaserScan scan = test::scanOf({{{3, -0.8}, {3, 0.8}}}, {}, {}, 541, 270 * kDegree, 0.01, random);
   scan.beams[270].range -= 0.2;
   const auto [split, merged] = splitAndMerged(scan);
   EXPECT_TRUE(split.empty());
@@ -48,8 +48,7 @@ TEST(SplitMerge, KeepsAWallDividedByANarrowPillar) {
   test::Walls walls = test::polygon({{4.7, -0.1}, {5, -0.1}, {5, 0.1}, {4.7, 0.1}});
   walls.push_back({{5, -3}, {5, 3}});
   for (int i = 0; i < 100; ++i) {
-    const auto merged =
-        splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random)).second;
+    const auto merged = splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.01, random)).second;
     ASSERT_EQ(merged.size(), 2u);
     EXPECT_LT(merged[0].length, 3);
     EXPECT_LT(merged[1].length, 3);
@@ -61,8 +60,7 @@ TEST(SplitMerge, LeavesOutAStepAtTheEndOfAWall) {
   RandomStream random(21, 0, 0);
   const test::Walls walls{{{3, -3}, {3, 3}}, {{3.14, 3}, {3.14, 3.6}}};
   for (int i = 0; i < 100; ++i) {
-    const auto merged =
-        splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.003, random)).second;
+    const auto merged = splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.003, random)).second;
     ASSERT_EQ(merged.size(), 1u);
     EXPECT_LT(merged[0].length, 6.05);
     EXPECT_GT(merged[0].length, 5.7);  // splitting cuts off a few points
@@ -75,10 +73,9 @@ TEST(SplitMerge, KeepsAnObtuseCorner) {
   RandomStream random(20, 0, 0);
   const test::Walls walls{{{3, -3}, {3.16, 0}}, {{3.16, 0}, {3, 3}}};
   for (int i = 0; i < 100; ++i) {
-    const auto merged =
-        splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * test::kDegree, 0.01, random)).second;
+    const auto merged = splitAndMerged(test::scanOf(walls, {}, {}, 541, 270 * kDegree, 0.01, random)).second;
     ASSERT_EQ(merged.size(), 2u);
-    EXPECT_GT(test::angleBetween(merged[0].theta, merged[1].theta), 5 * test::kDegree);
+    EXPECT_GT(test::angleBetween(merged[0].theta, merged[1].theta), 5 * kDegree);
   }
 }
 

@@ -16,11 +16,12 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};  // around a given start
-constexpr double kStdXY = 0.05, kStdPhi = mrpt::DEG2RAD(1.0);   // of the particles where tracking begins
+constexpr double kTrackedStdXY = 0.05,
+                 kTrackedStdPhi = mrpt::DEG2RAD(1.0);  // of the particles where tracking begins
 // These thresholds hold for scans at least 0.5 m or 20 deg apart:
 constexpr size_t kLost = 4;  // in succession that do not fit: the place is unknown
-constexpr double kContradicted = 0.3, kExplained = 0.4;  // share of the beams of such a scan
-constexpr size_t kWindow = 8;                            // remembered while the place is known
+constexpr double kTrackedContradicted = 0.3, kTrackedExplained = 0.4;  // share of the beams of such a scan
+constexpr size_t kTrackedWindow = 8;                                   // remembered while the place is known
 constexpr long kDoubtful = 2;  // of these that are not explained: other places may fit
 
 /// Completes the settings with those of the map.
@@ -73,7 +74,8 @@ void Localizer::startTracking(const TPose2D& pose) {
   for (int i = 0; i < particleCount_; ++i) {
     RandomStream random(seed_, path_.size(), static_cast<uint64_t>(i));
     const double x = random.gaussian(), y = random.gaussian(), phi = random.gaussian();
-    poses.push_back({pose.x + kStdXY * x, pose.y + kStdXY * y, pose.phi + kStdPhi * phi});
+    poses.push_back(
+        {pose.x + kTrackedStdXY * x, pose.y + kTrackedStdXY * y, pose.phi + kTrackedStdPhi * phi});
   }
   particles_.place(poses, grid_, lines_);
   isTracking_ = hasTracked_ = true;
@@ -93,11 +95,11 @@ void Localizer::track(const PreparedScan& scan, bool isRemembered) {
 
 // Comparing the places detects a robot that was carried to a similar one.
 void Localizer::check(const BeamShares& shares) {
-  const bool isSupported = shares.contradicted < kContradicted && shares.explained > kExplained;
+  const bool isSupported = shares.contradicted < kTrackedContradicted && shares.explained > kTrackedExplained;
   unsupported_ = isSupported ? 0 : unsupported_ + 1;
   explained_.push_back(isExplained(shares));
-  if (explained_.size() > kWindow) explained_.pop_front();
-  recent_.keep(kWindow);
+  if (explained_.size() > kTrackedWindow) explained_.pop_front();
+  recent_.keep(kTrackedWindow);
   const bool isLost = unsupported_ >= kLost;
   if (isLost) {
     recent_.keep(kLost);

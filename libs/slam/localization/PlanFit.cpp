@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/PointIndex.h"
+#include "base/Segments.h"
 
 namespace hybrid_slam {
 namespace {
@@ -22,11 +23,8 @@ constexpr double kScaleSigma = 0.02;                   // a priori
 constexpr double kMostStretched = 0.1, kFarthest = 1;  // m: beyond, the fit has failed
 constexpr int kIterations = 30;
 
-/// The point of a wall nearest to p.
-TPoint2D nearest(const PlanLine& wall, const TPoint2D& p) {
-  const TPoint2D d = wall.end - wall.start, v = p - wall.start;
-  const double t = (v.x * d.x + v.y * d.y) / std::max(d.x * d.x + d.y * d.y, 1e-12);
-  return wall.start + d * std::clamp(t, 0.0, 1.0);
+TPoint2D nearestOn(const PlanLine& wall, const TPoint2D& p) {
+  return nearestOnSegment(p, wall.start, wall.end);
 }
 
 /// An index of the walls around the points; it omits the rest of a large plan.
@@ -35,7 +33,7 @@ class Walls {
   Walls(const std::vector<PlanLine>& walls, const TPoint2D& centre, double radius)
       : walls_(walls), index_(kReach) {
     for (size_t i = 0; i < walls.size(); ++i)
-      if ((nearest(walls[i], centre) - centre).norm() < radius)
+      if ((nearestOn(walls[i], centre) - centre).norm() < radius)
         addWithin(walls[i], centre, radius, static_cast<int>(i));
   }
   const PlanLine* nearestTo(const TPoint2D& p) const {
@@ -43,7 +41,7 @@ class Walls {
     double least = kReach;
     index_.near(p, [&](int i) {
       const PlanLine& wall = walls_[static_cast<size_t>(i)];
-      const double distance = (nearest(wall, p) - p).norm();
+      const double distance = (nearestOn(wall, p) - p).norm();
       if (distance < least) least = distance, best = &wall;
     });
     return best;
@@ -51,9 +49,9 @@ class Walls {
 
  private:
   void addWithin(const PlanLine& wall, const TPoint2D& centre, double radius, int i) {
-    const TPoint2D d = wall.end - wall.start, middle = nearest(wall, centre);
+    const TPoint2D d = wall.end - wall.start, middle = nearestOn(wall, centre);
     const TPoint2D step = d * (radius / d.norm());
-    index_.add(nearest(wall, middle - step), nearest(wall, middle + step), i);
+    index_.add(nearestOn(wall, middle - step), nearestOn(wall, middle + step), i);
   }
 
   const std::vector<PlanLine>& walls_;
@@ -97,7 +95,7 @@ PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>
       const TPoint2D turned((c * p.x - s * p.y) / scale, (s * p.x + c * p.y) / scale), q = at + turned;
       const PlanLine* wall = near.nearestTo(q);
       if (!wall) continue;
-      const TPoint2D off = q - nearest(*wall, q);
+      const TPoint2D off = q - nearestOn(*wall, q);
       const double u = off.norm() / width;
       if (u >= 1) continue;
       const TPoint2D d = (wall->end - wall->start) * (1 / (wall->end - wall->start).norm()), n(-d.y, d.x);
@@ -117,7 +115,7 @@ PlanFit fitPlan(const std::vector<TPoint2D>& points, const std::vector<PlanLine>
   for (const TPoint2D& p : chosen) {
     const TPoint2D q = drawn.composePoint(p * (1 / scale));
     const PlanLine* wall = near.nearestTo(q);
-    fit.isOnWall.push_back(wall && (q - nearest(*wall, q)).norm() < 3 * kSigma);
+    fit.isOnWall.push_back(wall && (q - nearestOn(*wall, q)).norm() < 3 * kSigma);
   }
   return fit;
 }

@@ -24,18 +24,18 @@ constexpr double kMostCells = 1 << 25;          // memory
 constexpr double kMostSearchedCells = 1 << 23;  // about 2 s for a search
 constexpr double kLeastLength = 1;              // m, of a line of the database
 constexpr int kCount = 3;                       // observations that a line of the plan counts as
-constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};
+constexpr SearchWindow kPlanStartWindow{0.5, mrpt::DEG2RAD(15.0)};
 constexpr size_t kNearStart = 8;                    // places there
 constexpr size_t kLongestSearch = 240;              // scans, 0.5 m or 20 deg apart
-constexpr size_t kWindow = 80;                      // of these that are searched for together
+constexpr size_t kSearchedScans = 80;               // of these that are searched for together
 constexpr size_t kEvery = 4;                        // of these to the next search
 constexpr size_t kFitted = 40;                      // places, best of all scales
 constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place; lowered until there are kFitted
 // The robot is found at a place if, in two searches in succession,
 constexpr double kLeastShare = 0.65;  // of the points lie on walls,
-constexpr double kMargin = 4;         // and more than at any other place, by these standard deviations;
-constexpr double kElsewhere = 1,
-                 kElsewhereAngle = mrpt::DEG2RAD(10.0);  // m, rad: places further apart are two
+constexpr double kPlanMargin = 4;     // and more than at any other place, by these standard deviations;
+constexpr double kPlanElsewhere = 1,
+                 kPlanElsewhereAngle = mrpt::DEG2RAD(10.0);  // m, rad: places further apart are two
 constexpr int8_t kFree = -32, kOccupied = 48;
 
 /// Draws the walls as occupied cells in a free rectangle.
@@ -91,8 +91,8 @@ ScanBeams beamsTo(const std::vector<TPoint2D>& points) {
 
 bool isElsewhere(const PlanFit& a, const PlanFit& b) {
   return std::hypot(a.pose.x / a.scale - b.pose.x / b.scale, a.pose.y / a.scale - b.pose.y / b.scale) >
-             kElsewhere ||
-         std::abs(mrpt::math::wrapToPi(a.pose.phi - b.pose.phi)) > kElsewhereAngle;
+             kPlanElsewhere ||
+         std::abs(mrpt::math::wrapToPi(a.pose.phi - b.pose.phi)) > kPlanElsewhereAngle;
 }
 
 /// Returns by how many standard deviations more points lie on walls at `a` than at `b`: McNemar's test, with
@@ -116,7 +116,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
       start_(start),
       prepare_(configuration),
       recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit,
-              kWindow),
+              kSearchedScans),
       arena_(arenaThreads(configuration.filter.threads)) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
@@ -161,7 +161,7 @@ void PlanSearch::accept(const PlanFit& fit) {
 
 PlanFit PlanSearch::fitAtStart() const {
   const ScanBeams& scan = recent_.scans().back().scan.matchedBeams;
-  std::vector<TPose2D> places = correlativeSearch(scan, *start_, grid_, kStartWindow, kNearStart);
+  std::vector<TPose2D> places = correlativeSearch(scan, *start_, grid_, kPlanStartWindow, kNearStart);
   places.push_back(*start_);
   PlanFit best;
   for (const TPose2D& place : places)
@@ -199,7 +199,7 @@ std::optional<PlanFit> PlanSearch::fitAnywhere() {
     if (!best || place.fit.share() > best->share()) best = &place.fit;
   if (!best || best->share() < kLeastShare) return std::nullopt;
   for (const Candidate& place : places)
-    if (isElsewhere(place.fit, *best) && advantage(*best, place.fit) < kMargin) return std::nullopt;
+    if (isElsewhere(place.fit, *best) && advantage(*best, place.fit) < kPlanMargin) return std::nullopt;
   return *best;
 }
 

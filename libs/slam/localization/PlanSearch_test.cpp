@@ -113,7 +113,7 @@ TEST(PlanSearch, FindsARobotThatStandsAtFirst) {
 TEST(PlanSearch, EndsAfter240ScansThatAreApart) {
   PlanSearch search(configuration(), {{{0, 0}, {1.5, 0}}, {{1.5, 0}, {1.5, 1}}}, {});
   RandomStream random(1, 0, 0);
-  const TPose2D turn(0, 0, 24 * test::kDegree);
+  const TPose2D turn(0, 0, 24 * kDegree);
   TPose2D at(1, 1, 0);
   for (int i = 0; i < 240; ++i, at = at + turn) {
     EXPECT_FALSE(search.isOver()) << i;

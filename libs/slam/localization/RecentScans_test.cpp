@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/PoseOffset.h"
 #include "testing/MappedRoom.h"
 
 namespace hybrid_slam {
@@ -31,7 +32,7 @@ TEST(RecentScans, TakesScansFarEnoughApart) {
   const Driven driven(10);
   EXPECT_EQ(driven.recent.scans().size(), 6);  // every second: 30 deg
   EXPECT_EQ(driven.recent.since(), TPose2D());
-  EXPECT_LT(offset(driven.recent.motion(5, 0), driven.truth[0] - driven.truth[5]).norm(), 0.06);
+  EXPECT_LT(offsetOf(driven.recent.motion(5, 0), driven.truth[0] - driven.truth[5]).norm(), 0.06);
 }
 
 TEST(RecentScans, ForgetsTheOldest) {
@@ -40,13 +41,13 @@ TEST(RecentScans, ForgetsTheOldest) {
   driven.recent.keep(3);
   ASSERT_EQ(driven.recent.scans().size(), 3);
   const auto& truth = driven.truth;
-  EXPECT_LT(offset(driven.recent.motion(0, 2), truth.back() - truth[truth.size() - 3]).norm(), 0.02);
+  EXPECT_LT(offsetOf(driven.recent.motion(0, 2), truth.back() - truth[truth.size() - 3]).norm(), 0.02);
 }
 
 TEST(RecentScans, CorrectTheOdometry) {
   const Driven driven(30, 1.5 * kDegree);
   const size_t last = driven.recent.scans().size() - 1;
-  const auto off = offset(driven.recent.motion(0, last), driven.truth[last] - driven.truth[0]);
+  const auto off = offsetOf(driven.recent.motion(0, last), driven.truth[last] - driven.truth[0]);
   EXPECT_LT(off.head<2>().norm(), 0.1);
   EXPECT_LT(std::abs(off.z()), 5 * kDegree);  // 45 by the odometry
 }

@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr int8_t kWall = 7;  // log-odds, in units of a cell: more than one hit
+constexpr int8_t kLocalWall = 7;  // log-odds, in units of a cell: more than one hit
 
 struct End {
   uint64_t cell;
@@ -92,7 +92,7 @@ LocalMap localMap(const OccupancyGrid& map, const TPoint2D& place, double reach,
   cells.forEachTile([&](int tx, int ty, const Tile& tile) {
     for (int i = 0; i < Tile::kSize * Tile::kSize; ++i) {
       const int x = tx * Tile::kSize + i % Tile::kSize, y = ty * Tile::kSize + i / Tile::kSize;
-      if (tile.cells()[Tile::index(x, y)] < kWall) continue;
+      if (tile.cells()[Tile::index(x, y)] < kLocalWall) continue;
       const auto key = keyOf({x, y});
       ends.push_back({key, ends.size(), TPoint2D((x + 0.5) * resolution, (y + 0.5) * resolution)});
     }

@@ -1,11 +1,11 @@
 #include "slam/loops/LoopCloser.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/Degree.h"
 #include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
 #include "slam/loops/PathCorrection.h"
@@ -16,13 +16,12 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kKeyframeDistance = 0.95, kKeyframeAngle = 30 * kDegree;
-constexpr size_t kBeams = 181;   // kept of an update
-constexpr double kReach = 6;     // m of path to either side of a place: its local map
-constexpr double kLonger = 2.5;  // times the length, where several places fit
-constexpr size_t kPlaces = 3;    // tried in an attempt
-constexpr double kNear = 3;      // m, between two places that show the same
+constexpr size_t kKeptBeams = 181;  // kept of an update
+constexpr double kReach = 6;        // m of path to either side of a place: its local map
+constexpr double kLonger = 2.5;     // times the length, where several places fit
+constexpr size_t kPlaces = 3;       // tried in an attempt
+constexpr double kNearby = 3;       // m, between two places that show the same
 constexpr double kSame = 0.2, kSameAngle = 1.5 * kDegree;  // m, rad: the path closes the loop itself
 constexpr double kAgree = 0.4, kAgreeAngle = 3 * kDegree;  // m, rad: two matches agree
 constexpr double kForget = 15;                             // m of path after which a match is forgotten
@@ -77,7 +76,7 @@ void LoopCloser::add(const TPose2D& motion, const LaserScans& scans, const std::
   const size_t update = updates_++;
   if (!keyframes_.empty() && motion_.norm() < kKeyframeDistance && std::abs(motion_.phi) < kKeyframeAngle)
     return;
-  ScanBeams beams = ScanBeams(scans).thinned(kBeams);
+  ScanBeams beams = ScanBeams(scans).thinned(kKeptBeams);
   beams.rays.shrink_to_fit();
   keyframes_.push_back({update, std::move(beams)});
   variances_.push_back(variance_);
@@ -112,7 +111,7 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
   for (size_t k = 0; k < visit.poses.size(); ++k) {
     if (visit.distances[k] > visit.distances.back() - options_.stretch - options_.minDistance) break;
     const double distance = distanceBetween(visit.poses[k], visit.poses[here]);
-    if (distance < kNear + options_.maxOffset) all.push_back({distance, k});
+    if (distance < kNearby + options_.maxOffset) all.push_back({distance, k});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Place& a, const Place& b) { return a.distance < b.distance; });
@@ -123,7 +122,7 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
     });
     if (!isNew) continue;
     const Eigen::Matrix3d covariance = uncertainty.between(place.keyframe, here, known_);
-    if (place.distance > kNear + 3 * std::sqrt(covariance(0, 0) + covariance(1, 1))) continue;
+    if (place.distance > kNearby + 3 * std::sqrt(covariance(0, 0) + covariance(1, 1))) continue;
     chosen.push_back(place.keyframe);
     if (chosen.size() == kPlaces) break;
   }

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr int kOccupied = 3, kFree = -3;                         // log-odds, in units of a cell
-constexpr size_t kPlaces = 24;                                   // maxima of the search that are refined
+constexpr size_t kRefinedPlaces = 24;                            // maxima of the search that are refined
 constexpr double kElsewhere = 0.6, kElsewhereAngle = M_PI / 36;  // m, rad: another place
 constexpr size_t kMatchedBeams = 180;
 
@@ -84,7 +84,7 @@ std::optional<LoopMatch> searchMatch(const TPose2D& centre, const SearchWindow& 
                                      const LocalMap& older) {
   const ScanBeams some = newer.ends.thinned(kMatchedBeams);
   std::vector<LoopMatch> matches;
-  for (const TPose2D& place : correlativeSearch(some, centre, older.grid, window, kPlaces))
+  for (const TPose2D& place : correlativeSearch(some, centre, older.grid, window, kRefinedPlaces))
     matches.push_back(matched(place, some, newer, older));
   const auto best = std::max_element(matches.begin(), matches.end(), [](const auto& a, const auto& b) {
     return a.agreement.score() < b.agreement.score();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/PoseOffset.h"
 #include "base/PoseRotation.h"
 
 namespace hybrid_slam {
@@ -23,8 +24,7 @@ TPose2D frameOf(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
 }
 
 Eigen::Vector3d residual(const PoseEdge& edge, const std::vector<TPose2D>& poses) {
-  const TPose2D is = poses[edge.to] - frameOf(edge, poses);
-  return {is.x - edge.relative.x, is.y - edge.relative.y, mrpt::math::wrapToPi(is.phi - edge.relative.phi)};
+  return offsetOf(poses[edge.to] - frameOf(edge, poses), edge.relative);
 }
 
 }  // namespace

@@ -1,17 +1,17 @@
 #include "slam/loops/PoseGraph.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "base/Degree.h"
 
 namespace hybrid_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 const Eigen::Matrix3d kMatch = Eigen::Vector3d(400, 400, 1e4).asDiagonal();  // 5 cm, 0.6 deg
 
 /// A circle of 100 motions of 1 m whose headings drift by 0.1 deg each.

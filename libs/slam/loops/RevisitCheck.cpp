@@ -14,8 +14,8 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr size_t kBeams = 90;
-constexpr int kWall = 6, kSolidWall = 12, kFree = -1;  // log-odds, in units of a cell: 1, 2 hits; 1 miss
+constexpr size_t kComparedBeams = 90;
+constexpr int kWall = 6, kSolidWall = 12, kSeenFree = -1;  // log-odds, in units of a cell: 1, 2 hits; 1 miss
 constexpr double kNear = 3, kShort = 4;  // cells at both ends of a beam that may touch its own wall
 constexpr size_t kFewest = 8;            // beams compared
 constexpr double kFewestShare = 0.1;
@@ -39,7 +39,7 @@ Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& ce
     for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells.at(x + i, y + j));
   if (highest >= kWall) return Finding::agrees;
   // A wall seen at a grazing angle has free cells: beams that end further along it pass through them.
-  return highest <= kFree ? Finding::contradicts : Finding::unknown;
+  return highest <= kSeenFree ? Finding::contradicts : Finding::unknown;
 }
 
 /// The revisits of those scans that are also among the others.
@@ -106,7 +106,7 @@ double contradictionOf(const std::vector<TPose2D>& path, const std::vector<Scans
   return contradictionOf(check.revisits());
 }
 
-ScanBeams beamsToCompare(const LaserScans& scans) { return ScanBeams(scans).thinned(kBeams); }
+ScanBeams beamsToCompare(const LaserScans& scans) { return ScanBeams(scans).thinned(kComparedBeams); }
 
 ScanBeams beamsToCompare(const Scans& scans, double maxRange) {
   return beamsToCompare(toLaserScans(scans, RevisitCheck::rangeOf(maxRange)));

@@ -1,12 +1,12 @@
 #include "slam/merging/MapPlacement.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "base/Degree.h"
 #include "base/PoseDistance.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/GlobalSearch.h"
@@ -19,7 +19,6 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kCell = 0.1;                                      // m, at least
 constexpr size_t kPlaces = 24;                                     // of a patch
 constexpr double kMinFit = 0.75, kMinOverlap = 0.5;                // of a patch

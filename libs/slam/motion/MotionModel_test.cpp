@@ -1,21 +1,21 @@
 #include "slam/motion/MotionModel.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
-#include <mrpt/math/wrap2pi.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <vector>
+
+#include "base/Degree.h"
+#include "base/PoseOffset.h"
 
 namespace hybrid_slam {
 namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr int kDraws = 100000;
 // Standard errors of the mean (sigma / sqrt n) and the variance (sigma^2 sqrt(2 / n)) of normal numbers.
-constexpr double kErrors = 5;
+constexpr double kDeviations = 5;
 
 /// D, C and T of each draw, recovered from the pose increments.
 struct Samples {
@@ -40,8 +40,8 @@ void expectNormal(const std::vector<double>& values, double mean, double varianc
   double sum = 0, squares = 0;
   for (const double v : values) sum += v;
   for (const double v : values) squares += std::pow(v - sum / n, 2);
-  EXPECT_NEAR(sum / n, mean, kErrors * std::sqrt(variance / n)) << name;
-  EXPECT_NEAR(squares / (n - 1), variance, kErrors * variance * std::sqrt(2 / n)) << name;
+  EXPECT_NEAR(sum / n, mean, kDeviations * std::sqrt(variance / n)) << name;
+  EXPECT_NEAR(squares / (n - 1), variance, kDeviations * variance * std::sqrt(2 / n)) << name;
 }
 
 /// The formulas of MotionTerm, with d along the odometry's mean heading; its sideways motion is kept.
@@ -122,7 +122,7 @@ TEST(MotionModel, DistanceDriftAndTurnAreDrawnIndependently) {
     }
     return ab / std::sqrt(aa * bb);
   };
-  const double bound = kErrors / std::sqrt(kDraws);
+  const double bound = kDeviations / std::sqrt(kDraws);
   EXPECT_NEAR(correlation(all.distance, all.drift), 0, bound);
   EXPECT_NEAR(correlation(all.distance, all.turn), 0, bound);
   EXPECT_NEAR(correlation(all.drift, all.turn), 0, bound);
@@ -144,19 +144,18 @@ TEST(MotionModel, TheDistributionMatchesTheSamples) {
         Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
         for (int i = 0; i < kDraws; ++i) {
           const TPose2D pose = start + sampleMotion(odometry, options, random);
-          const Eigen::Vector3d off(pose.x - normal.mean.x, pose.y - normal.mean.y,
-                                    mrpt::math::wrapToPi(pose.phi - normal.mean.phi));
+          const Eigen::Vector3d off = offsetOf(pose, normal.mean);
           sum += off, squares += off * off.transpose();
         }
         const Eigen::Vector3d mean = sum / kDraws, sigma = normal.covariance.diagonal().cwiseSqrt();
         const Eigen::Matrix3d covariance = squares / kDraws - mean * mean.transpose();
         const double bend = sigma.z() * sigma.z() / 8 * (odometry.norm() + 5 * sigma.head<2>().norm());
         for (int i = 0; i < 3; ++i) {
-          EXPECT_NEAR(mean[i], 0, kErrors * sigma[i] / std::sqrt(kDraws) + (i < 2 ? bend : 0)) << i;
+          EXPECT_NEAR(mean[i], 0, kDeviations * sigma[i] / std::sqrt(kDraws) + (i < 2 ? bend : 0)) << i;
           for (int j = 0; j < 3; ++j)
-            EXPECT_NEAR(
-                covariance(i, j), normal.covariance(i, j),
-                kErrors * sigma[i] * sigma[j] * std::sqrt(2.0 / kDraws) + 2 * bend * (sigma[i] + sigma[j]))
+            EXPECT_NEAR(covariance(i, j), normal.covariance(i, j),
+                        kDeviations * sigma[i] * sigma[j] * std::sqrt(2.0 / kDraws) +
+                            2 * bend * (sigma[i] + sigma[j]))
                 << i << j;
         }
       }

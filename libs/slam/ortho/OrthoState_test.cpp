@@ -1,16 +1,15 @@
 #include "slam/ortho/OrthoState.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 
 #include <cmath>
+
+#include "base/Degree.h"
 
 namespace hybrid_slam {
 namespace {
 
 using mrpt::math::TPose2D;
-
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 OrthoState moved(const TPose2D& odometry) {
   OrthoState state;

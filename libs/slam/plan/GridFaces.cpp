@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/Segments.h"
 #include "slam/plan/GridProbe.h"
 
 namespace hybrid_slam {
@@ -14,9 +15,9 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kBend = 1;              // cells: farthest border point from its piece
-constexpr double kShortest = 0.12;       // m: shorter pieces are noise
+constexpr double kShortestPiece = 0.12;  // m: shorter pieces are noise
 constexpr double kShortestBorder = 0.4;  // m: of a whole border
-constexpr double kSigma = 0.01;          // m: error of a wall in the grid
+constexpr double kBorderSigma = 0.01;    // m: error of a wall in the grid
 
 // Directions counter-clockwise: a border goes along a side of an occupied cell with that cell on its right.
 constexpr std::array<CellIndex, 4> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -156,22 +157,20 @@ class Borders {
     while (!open.empty()) {
       const auto [first, last] = open.back();
       open.pop_back();
-      const TPoint2D a = middle(first), d = middle(last - 1) - a;
-      const double length = d.norm();
+      const TPoint2D a = middle(first), b = middle(last - 1);
       double farthest = 0;
       size_t at = first;
       for (size_t i = first; i < last; ++i) {
-        const TPoint2D p = middle(i) - a;
+        const TPoint2D p = middle(i);
         // The distance is that from the piece, not from its line: a border returns on the other side of a
         // thin wall.
-        const double t = length > 0 ? (p.x * d.x + p.y * d.y) / (length * length) : 0;
-        const double distance = (p - d * std::clamp(t, 0.0, 1.0)).norm();
+        const double distance = (p - nearestOnSegment(p, a, b)).norm();
         if (distance > farthest) farthest = distance, at = i;
       }
       if (farthest > kBend && at > first && at + 1 < last) {
         open.emplace_back(at, last);
         open.emplace_back(first, at + 1);
-      } else if (length * probe_.cell() > kShortest) {
+      } else if ((b - a).norm() * probe_.cell() > kShortestPiece) {
         fit(first, last);
       }
     }
@@ -211,7 +210,7 @@ class Borders {
     const double length = chord.norm() * cell;
     const double spread = std::sqrt(std::max(0.0, (vxx + vyy - std::hypot(vxx - vyy, 2 * vxy)) / 2)) * cell;
     face.line = lineThrough(TPoint2D(pivot.x + mx, pivot.y + my) * cell, std::remainder(angle, 2 * M_PI),
-                            length, kSigma + spread / 2);
+                            length, kBorderSigma + spread / 2);
     face.start = face.line.point(face.line.along(pivot * cell));
     face.end = face.line.point(face.line.along(middle(last - 1) * cell));
     faces_.push_back(face);

@@ -6,19 +6,18 @@
 #include <numeric>
 
 #include "base/PointIndex.h"
+#include "base/Segments.h"
 
 namespace hybrid_slam {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kShortest = 0.8;  // m
-constexpr double kTouch = 0.12;    // m
+constexpr double kShortestCluster = 0.8;  // m
+constexpr double kTouch = 0.12;           // m
 
 double distance(const TPoint2D& p, const PlanWall& wall) {
-  const TPoint2D d = wall.end - wall.start, q = p - wall.start;
-  const double t = std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
-  return (q - d * t).norm();
+  return (p - nearestOnSegment(p, wall.start, wall.end)).norm();
 }
 
 /// Sets of walls that touch.
@@ -51,7 +50,7 @@ void removeClutter(std::vector<PlanWall>& walls) {
   for (size_t i = 0; i < walls.size(); ++i) length[clusters.of(i)] += walls[i].length();
   std::vector<PlanWall> kept;
   for (size_t i = 0; i < walls.size(); ++i)
-    if (length[clusters.of(i)] >= kShortest) kept.push_back(walls[i]);
+    if (length[clusters.of(i)] >= kShortestCluster) kept.push_back(walls[i]);
   walls = std::move(kept);
 }
 

@@ -18,7 +18,7 @@ constexpr double kMostDifferent = 13.8;            // squared Mahalanobis distan
 constexpr double kFarthest = 0.12;                 // m: lines further apart are two walls, however unsure
 constexpr double kSteepest = mrpt::DEG2RAD(10.0);  // rad
 constexpr double kDoor = 1.5;                      // m beyond each end
-constexpr double kSigma = 0.01;                    // m: error of an observation of a line
+constexpr double kLineSigma = 0.01;                // m: error of an observation of a line
 
 bool isOneLine(const LineEstimate& a, const LineEstimate& b, double cell) {
   const bool isOpposite = std::cos(a.angle - b.angle) < 0;
@@ -72,7 +72,7 @@ std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid) {
       face.start = line.start + d * (first * grid.resolution());
       face.end = line.start + d * (last * grid.resolution());
       face.line = lineThrough((line.start + line.end) * 0.5, angle, line.length,
-                              kSigma / std::sqrt(std::min(line.count, 20) / 4.0 + 1));
+                              kLineSigma / std::sqrt(std::min(line.count, 20) / 4.0 + 1));
       face.count = line.count;
       if (freedom(probe, face.start, face.end, normal) < freedom(probe, face.start, face.end, normal * -1)) {
         std::swap(face.start, face.end);

@@ -13,8 +13,8 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kThickest = 0.4;                 // m
-constexpr double kSteepest = mrpt::DEG2RAD(5.0);  // rad: allowed for short faces, beyond their covariance
+constexpr double kThickest = 0.4;                     // m
+constexpr double kSteepestPair = mrpt::DEG2RAD(5.0);  // rad: allowed for short faces, beyond their covariance
 
 /// Length (m) by which the faces overlap.
 double overlap(const PlanWall& a, const PlanWall& b) {
@@ -24,7 +24,7 @@ double overlap(const PlanWall& a, const PlanWall& b) {
 
 /// Distance (m) between two faces that may belong to one wall; 0 if they cannot.
 double thickness(const PlanWall& a, const PlanWall& b, const GridProbe& probe) {
-  if (std::abs(std::remainder(a.line.angle - b.line.angle + M_PI, 2 * M_PI)) > kSteepest) return 0;
+  if (std::abs(std::remainder(a.line.angle - b.line.angle + M_PI, 2 * M_PI)) > kSteepestPair) return 0;
   const double shared = overlap(a, b);
   if (shared < std::min(a.length(), b.length()) / 2) return 0;
   const double from = std::max(a.line.along(a.start), a.line.along(b.end));

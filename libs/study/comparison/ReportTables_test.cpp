@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<Group> kGroups{{"general", {}, 20}};
+const std::vector<Group> kOneGroup{{"general", {}, 20}};
 const std::vector<Figure> kErrors{Figure::ate};
 
 /// Four runs with ATEs of 1, 2, 3 and 4 m, and one that failed.
@@ -27,7 +27,7 @@ std::vector<RunResult> runs(int successes) {
 }
 
 std::string table(const std::vector<RunResult>& results, bool withSuccess = true) {
-  return summaryTable(kGroups, groupSummaries(1, results), kErrors, withSuccess);
+  return summaryTable(kOneGroup, groupSummaries(1, results), kErrors, withSuccess);
 }
 
 TEST(SummaryTable, SuccessIsCountedFirst) {
@@ -65,15 +65,15 @@ TEST(PairedTable, HasTheRatiosOfTheMedians) {
   const std::string paired = pairedTable(groups, groupSummaries(2, results));
   EXPECT_THAT(paired, HasSubstr("<td>general-20</td><td>4</td>"));
   EXPECT_THAT(paired, HasSubstr("<td>3 <small>"));
-  EXPECT_EQ(pairedTable(kGroups, groupSummaries(1, runs(4))), "");
+  EXPECT_EQ(pairedTable(kOneGroup, groupSummaries(1, runs(4))), "");
 }
 
 TEST(FailureTable, NamesTheErrors) {
   auto all = runs(4);
   all[4].error = "a < b";
-  EXPECT_THAT(failureTable(kGroups, all), HasSubstr("a &lt; b"));
+  EXPECT_THAT(failureTable(kOneGroup, all), HasSubstr("a &lt; b"));
   all.pop_back();
-  EXPECT_EQ(failureTable(kGroups, all), "");
+  EXPECT_EQ(failureTable(kOneGroup, all), "");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ files::Trajectory randomTrajectory(RandomStream& random, size_t poses) {
   return t;
 }
 
-files::Trajectory moved(const TPose2D& motion, files::Trajectory t) {
+files::Trajectory movedTrajectory(const TPose2D& motion, files::Trajectory t) {
   for (files::StampedPose& p : t) p.pose = motion + p.pose;
   return t;
 }
@@ -65,7 +65,8 @@ TEST(AbsoluteTrajectoryError, FindsAnyRigidMotion) {
   for (int trial = 0; trial < 200; ++trial) {
     const files::Trajectory reference = randomTrajectory(random, 2 + trial % 20);
     const TPose2D motion = randomPose(random);
-    const AteErrors e = absoluteTrajectoryError(moved(TPose2D() - motion, reference), reference, 0.01);
+    const AteErrors e =
+        absoluteTrajectoryError(movedTrajectory(TPose2D() - motion, reference), reference, 0.01);
     EXPECT_LT(e.translation.max, 1e-11);
     EXPECT_NEAR(e.alignment.x, motion.x, 1e-10);
     EXPECT_NEAR(e.alignment.y, motion.y, 1e-10);
@@ -80,7 +81,7 @@ TEST(AbsoluteTrajectoryError, IsInvariantUnderRigidMotionOfTheEstimate) {
     const files::Trajectory estimate = noisy(random, 0.5, reference);
     const ErrorStatistics a = absoluteTrajectoryError(estimate, reference, 0.01).translation;
     const ErrorStatistics b =
-        absoluteTrajectoryError(moved(randomPose(random), estimate), reference, 0.01).translation;
+        absoluteTrajectoryError(movedTrajectory(randomPose(random), estimate), reference, 0.01).translation;
     EXPECT_GT(a.rmse, 0.1);
     EXPECT_NEAR(a.rmse, b.rmse, 1e-11);
     EXPECT_NEAR(a.mean, b.mean, 1e-11);
@@ -94,7 +95,8 @@ TEST(AbsoluteTrajectoryError, NoOtherRigidMotionIsBetter) {
   RandomStream random(6, 0, 0);
   for (int trial = 0; trial < 50; ++trial) {
     const files::Trajectory reference = randomTrajectory(random, 10);
-    const auto pairs = associate(noisy(random, 2, moved(randomPose(random), reference)), reference, 0.01);
+    const auto pairs =
+        associate(noisy(random, 2, movedTrajectory(randomPose(random), reference)), reference, 0.01);
     const auto squares = [&](const TPose2D& motion) {
       double sum = 0;
       for (const PosePair& p : pairs) {

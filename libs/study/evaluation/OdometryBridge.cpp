@@ -1,9 +1,9 @@
 #include "study/evaluation/OdometryBridge.h"
 
-#include <mrpt/math/wrap2pi.h>
-
 #include <algorithm>
 #include <iterator>
+
+#include "base/PoseOffset.h"
 
 namespace hybrid_slam::evaluation {
 
@@ -25,16 +25,12 @@ std::optional<TrajectoryPoint> OdometryBridge::poseAt(double timestamp) const {
     return last->second.pose + (odometry_[target].pose - odometry_[last->first].pose);
   };
 
-  mrpt::math::TPose2D pose = carriedTo(*row);
+  const mrpt::math::TPose2D pose = carriedTo(*row);
   if (next == anchors_.end()) return TrajectoryPoint{pose, last->second.row};
-  const mrpt::math::TPose2D missed = carriedTo(next->first);
   const double share =
       static_cast<double>(*row - last->first) / static_cast<double>(next->first - last->first);
-  const mrpt::math::TPose2D& end = next->second.pose;
-  pose.x += share * (end.x - missed.x);
-  pose.y += share * (end.y - missed.y);
-  pose.phi += share * mrpt::math::wrapToPi(end.phi - missed.phi);
-  return TrajectoryPoint{pose, last->second.row};
+  const Eigen::Vector3d error = offsetOf(next->second.pose, carriedTo(next->first));
+  return TrajectoryPoint{displaced(pose, share * error), last->second.row};
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -16,8 +16,8 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kStep = 0.1;   // m, pieces of a wall
-constexpr double kCell = 0.05;  // m, of the offsets' histograms
+constexpr double kAlignedStep = 0.1;  // m, pieces of a wall
+constexpr double kCell = 0.05;        // m, of the offsets' histograms
 constexpr double kMostCells = 4000;
 
 double directionOf(const std::vector<PlanLine>& walls) {
@@ -40,7 +40,7 @@ struct Offsets {
     length.assign(static_cast<size_t>((high - low) / cell) + 1, 0);
     for (const WallPoint& point : points) {
       const double across = std::abs(axis == 0 ? std::sin(point.angle) : std::cos(point.angle));
-      if (across > 0.9) length[static_cast<size_t>((value(point.at) - low) / cell)] += kStep;
+      if (across > 0.9) length[static_cast<size_t>((value(point.at) - low) / cell)] += kAlignedStep;
     }
   }
 };
@@ -98,7 +98,8 @@ Fit refined(TPose2D pose, const std::vector<WallPoint>& plan, const WallSearch& 
 
 TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth) {
   if (plan.empty() || truth.empty()) return {};
-  const std::vector<WallPoint> points = pointsOn(plan, kStep), truePoints = pointsOn(truth, kStep);
+  const std::vector<WallPoint> points = pointsOn(plan, kAlignedStep),
+                               truePoints = pointsOn(truth, kAlignedStep);
   const double frame = directionOf(truth), turn = frame - directionOf(plan);
   // The search runs in the truth's frame, turned so that its walls lie along the axes.
   const auto onAxes = [](std::vector<WallPoint> all, double by) {

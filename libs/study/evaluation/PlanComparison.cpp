@@ -14,7 +14,6 @@ using mrpt::math::TPoint2D;
 constexpr double kStep = 0.02;        // m, pieces of a wall
 constexpr double kSeenWithin = 0.05;  // m
 constexpr int kLeastEnds = 3;
-constexpr double kTimeTolerance = 0.001;  // s
 
 double lengthOf(const std::vector<PlanLine>& walls) {
   double sum = 0;

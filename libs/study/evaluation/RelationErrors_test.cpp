@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "base/RandomStream.h"
 #include "files/TemporaryFolder.h"
@@ -19,7 +19,6 @@ namespace hybrid_slam::evaluation {
 namespace {
 
 using mrpt::math::TPose2D;
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 
 TEST(RelationErrors, ByHandWithoutOdometry) {
   const files::Trajectory trajectory{{0, {5, 5, M_PI / 2}}, {1, {5, 6, M_PI}}, {2, {4, 6, M_PI}}};

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/Errors.h"
+#include "base/Segments.h"
 #include "study/evaluation/Association.h"
 #include "study/evaluation/StampIndex.h"
 
@@ -15,10 +16,9 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kTimeTolerance = 0.001;  // s
-constexpr double kReach = 0.5;            // m; largest distance to a compared point
-constexpr double kMaxGap = 0.3;           // m; between end points of neighbouring beams on one wall
-constexpr double kFewest = 0.3;           // least fraction of a scan's points compared
+constexpr double kReach = 0.5;   // m; largest distance to a compared point
+constexpr double kMaxGap = 0.3;  // m; between end points of neighbouring beams on one wall
+constexpr double kFewest = 0.3;  // least fraction of a scan's points compared
 
 struct PlacedScan {
   TPose2D pose;          // m, rad
@@ -68,14 +68,6 @@ class NearestEarlier {
   std::optional<size_t> found_;
 };
 
-double distanceToSegment(const TPoint2D& p, const TPoint2D& a, const TPoint2D& b) {
-  const TPoint2D ab = b - a, ap = p - a;
-  const double squaredLength = ab.sqrNorm();
-  if (squaredLength == 0) return ap.norm();
-  const double share = std::clamp((ap.x * ab.x + ap.y * ab.y) / squaredLength, 0.0, 1.0);
-  return (ap - ab * share).norm();
-}
-
 /// Distance (m) from p to the wall seen by the earlier scan around its end point `i`.
 double distanceToWall(const TPoint2D& p, const PlacedPoints& points, const PlacedScan& seen, size_t i) {
   const TPoint2D& nearest = points.at[i];
@@ -83,7 +75,7 @@ double distanceToWall(const TPoint2D& p, const PlacedPoints& points, const Place
   const auto alongTo = [&](size_t neighbour) {
     const TPoint2D& other = points.at[neighbour];
     if ((other - nearest).norm() <= kMaxGap)
-      distance = std::min(distance, distanceToSegment(p, nearest, other));
+      distance = std::min(distance, (p - nearestOnSegment(p, nearest, other)).norm());
   };
   if (i > seen.begin) alongTo(i - 1);
   if (i + 1 < seen.end) alongTo(i + 1);

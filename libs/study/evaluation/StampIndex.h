@@ -11,6 +11,8 @@
 
 namespace hybrid_slam::evaluation {
 
+constexpr double kTimeTolerance = 0.001;  ///< s, of timestamps that a text file rounds
+
 /// The timestamps of a trajectory in ascending order, each with its row.
 class StampIndex {
  public:

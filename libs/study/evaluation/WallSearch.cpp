@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/Segments.h"
+
 namespace hybrid_slam::evaluation {
 
 using mrpt::math::TPoint2D;
@@ -26,13 +28,12 @@ std::optional<WallSearch::Found> WallSearch::nearest(const WallPoint& point) con
   std::optional<Found> best;
   index_.near(point.at, [&](int i) {
     const PlanLine& wall = walls_[static_cast<size_t>(i)];
-    const TPoint2D d = wall.end - wall.start, q = point.at - wall.start;
+    const TPoint2D d = wall.end - wall.start;
     const double angle = std::abs(std::remainder(std::atan2(d.y, d.x) - point.angle, M_PI));
     if (angle > options_.angle) return;
-    const double t = std::clamp((q.x * d.x + q.y * d.y) / (d.x * d.x + d.y * d.y), 0.0, 1.0);
-    const double offset = (q - d * t).norm();
-    if (offset <= options_.distance && (!best || offset < best->offset))
-      best = Found{offset, angle, wall.start + d * t};
+    const TPoint2D nearest = nearestOnSegment(point.at, wall.start, wall.end);
+    const double offset = (point.at - nearest).norm();
+    if (offset <= options_.distance && (!best || offset < best->offset)) best = Found{offset, angle, nearest};
   });
   return best;
 }

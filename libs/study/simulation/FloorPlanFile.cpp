@@ -15,8 +15,6 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-constexpr double kTolerance = 1e-3;  // m: tolerance for hand-typed coordinates
-
 /// Points of a record whose numbers come in pairs.
 std::vector<TPoint2D> pointsOf(const Record& record, size_t atLeast) {
   const size_t n = record.numbers.size();

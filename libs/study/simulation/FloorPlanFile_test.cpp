@@ -9,6 +9,7 @@
 #include "base/Errors.h"
 #include "study/simulation/BuildingPlan.h"
 #include "testing/CommaLocale.h"
+#include "testing/ErrorOf.h"
 #include "testing/TemporaryFile.h"
 
 namespace hybrid_slam::simulation {
@@ -20,12 +21,7 @@ using testing::HasSubstr;
 std::vector<Wall> wallsOf(const std::string& text) { return readWalls(test::TemporaryFile(text).path()); }
 
 std::string errorOf(const std::string& text) {
-  try {
-    wallsOf(text);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::errorOf([&] { wallsOf(text); });
 }
 
 double totalLength(const std::vector<Wall>& walls) {

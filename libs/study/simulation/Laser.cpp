@@ -1,12 +1,12 @@
 #include "study/simulation/Laser.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "base/Memory.h"
 #include "base/Numbers.h"
@@ -16,7 +16,6 @@
 namespace hybrid_slam::simulation {
 namespace {
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
 constexpr double kEdge = 0.1;  // m: surfaces closer in range than this appear as one
 
 }  // namespace

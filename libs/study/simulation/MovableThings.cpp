@@ -15,7 +15,6 @@ using mrpt::math::TPoint2D;
 
 namespace {
 
-constexpr double kTolerance = 1e-3;  // m: tolerance for hand-typed coordinates
 constexpr size_t kMostPlaces = 1000;
 
 std::vector<Wall> rectangle(const TPoint2D& low, const TPoint2D& size) {

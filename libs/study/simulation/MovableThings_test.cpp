@@ -24,16 +24,16 @@ using testing::HasSubstr;
 const std::string kCsie = SOURCE_DIR "/datasets/csie/";
 
 /// A room of 8 m x 6 m with a gap in its south wall and a column.
-BuildingPlan room() {
+BuildingPlan roomWithAColumn() {
   return BuildingPlan::load(
       test::TemporaryFile("rectangle 0 0 8 6\ndoor 2 0 3 0\ncircle 6 4 0.5\nwall 1 5 1.1 5\n").path());
 }
 
 MovableThings thingsOf(const std::string& text) {
-  return MovableThings::load(test::TemporaryFile(text).path(), room());
+  return MovableThings::load(test::TemporaryFile(text).path(), roomWithAColumn());
 }
 
-std::string errorOf(const std::string& text) {
+std::string thingsError(const std::string& text) {
   return test::errorOf([&] { thingsOf(text); });
 }
 
@@ -97,8 +97,9 @@ TEST(MovableThings, TheNoiseOfTwoSessionsDiffersInTheSameWorld) {
   const Route route = Route::load(test::TemporaryFile("start 1 1 0\ngo 4 1\n").path());
   SimulationOptions first, second;
   second.session = 2;
-  const SimulatedLog a = simulate(room(), route, first, {}, {}), b = simulate(room(), route, first, {}, {}),
-                     c = simulate(room(), route, second, {}, {});
+  const SimulatedLog a = simulate(roomWithAColumn(), route, first, {}, {}),
+                     b = simulate(roomWithAColumn(), route, first, {}, {}),
+                     c = simulate(roomWithAColumn(), route, second, {}, {});
   EXPECT_EQ(a.odometryAtScans.back(), b.odometryAtScans.back());
   EXPECT_NE(a.odometryAtScans.back(), c.odometryAtScans.back());
   const auto& scan = *a.scans.front();
@@ -125,32 +126,33 @@ TEST(MovableThings, TheFloorPlanOfASessionIsReadBack) {
 }
 
 TEST(MovableThings, ErrorsNameTheLineAndWhatWasExpected) {
-  EXPECT_EQ(errorOf("# nothing\n"), "no error");
-  EXPECT_THAT(errorOf("\nbux 1 1 1 1 2 2\n"),
+  EXPECT_EQ(thingsError("# nothing\n"), "no error");
+  EXPECT_THAT(thingsError("\nbux 1 1 1 1 2 2\n"),
               AllOf(HasSubstr("unknown word `bux`"), HasSubstr(", line 2; ")));
-  EXPECT_THAT(errorOf("door 2 0 3\n"), HasSubstr("expected `door X1 Y1 X2 Y2`"));
-  EXPECT_THAT(errorOf("door 2 0 2 0\n"), HasSubstr("door of zero length"));
-  EXPECT_THAT(errorOf("door 4 0 5 0\n"), HasSubstr("door along a wall"));
-  EXPECT_THAT(errorOf("box 1 1 1 1\n"), HasSubstr("at least two places"));
-  EXPECT_THAT(errorOf("box 1 1 1 1 2\n"), HasSubstr("`box` with 5 numbers"));
-  EXPECT_THAT(errorOf("box 1 0 1 1 2 2\n"), HasSubstr("box without area"));
-  EXPECT_THAT(errorOf("box -1 1 1 1 2 2\n"), HasSubstr("box without area"));
+  EXPECT_THAT(thingsError("door 2 0 3\n"), HasSubstr("expected `door X1 Y1 X2 Y2`"));
+  EXPECT_THAT(thingsError("door 2 0 2 0\n"), HasSubstr("door of zero length"));
+  EXPECT_THAT(thingsError("door 4 0 5 0\n"), HasSubstr("door along a wall"));
+  EXPECT_THAT(thingsError("box 1 1 1 1\n"), HasSubstr("at least two places"));
+  EXPECT_THAT(thingsError("box 1 1 1 1 2\n"), HasSubstr("`box` with 5 numbers"));
+  EXPECT_THAT(thingsError("box 1 0 1 1 2 2\n"), HasSubstr("box without area"));
+  EXPECT_THAT(thingsError("box -1 1 1 1 2 2\n"), HasSubstr("box without area"));
   std::string many = "box 0.1 0.1";
   for (int i = 0; i < 1001; ++i) many += " 1 1";
-  EXPECT_THAT(errorOf(many), HasSubstr("too many places"));
+  EXPECT_THAT(thingsError(many), HasSubstr("too many places"));
 }
 
 TEST(MovableThings, ABoxStandsOnNothingElse) {
-  EXPECT_EQ(errorOf("box 1 1  2 2  2.5 2.5\n"), "no error") << "places of one box may overlap";
-  EXPECT_THAT(errorOf("box 1 1  2 2  7.5 2\n"),
+  EXPECT_EQ(thingsError("box 1 1  2 2  2.5 2.5\n"), "no error") << "places of one box may overlap";
+  EXPECT_THAT(thingsError("box 1 1  2 2  7.5 2\n"),
               AllOf(HasSubstr("box at (7.50, 2.00) stands on a wall or a door"), HasSubstr(", line 1; ")));
-  EXPECT_THAT(errorOf("box 1 1  2 2  0 2\n"), HasSubstr("stands on a wall")) << "touches it";
-  EXPECT_THAT(errorOf("box 2 2  5 3  1 1\n"), HasSubstr("stands on a wall")) << "the column is inside";
-  EXPECT_THAT(errorOf("box 1 1  0.5 4.5  2 2\n"), HasSubstr("stands on a wall"))
+  EXPECT_THAT(thingsError("box 1 1  2 2  0 2\n"), HasSubstr("stands on a wall")) << "touches it";
+  EXPECT_THAT(thingsError("box 2 2  5 3  1 1\n"), HasSubstr("stands on a wall")) << "the column is inside";
+  EXPECT_THAT(thingsError("box 1 1  0.5 4.5  2 2\n"), HasSubstr("stands on a wall"))
       << "the short wall is inside";
-  EXPECT_THAT(errorOf("box 0.2 0.2  5.9 3.9  2 2\n"), "no error") << "in the hollow column";
-  EXPECT_THAT(errorOf("door 2 0 3 0\nbox 0.5 0.5  2.2 -0.2  2 2\n"), HasSubstr("stands on a wall or a door"));
-  EXPECT_THAT(errorOf("box 1 1  2 2  4 2\nbox 1 1  1 1.5  3 4\n"),
+  EXPECT_THAT(thingsError("box 0.2 0.2  5.9 3.9  2 2\n"), "no error") << "in the hollow column";
+  EXPECT_THAT(thingsError("door 2 0 3 0\nbox 0.5 0.5  2.2 -0.2  2 2\n"),
+              HasSubstr("stands on a wall or a door"));
+  EXPECT_THAT(thingsError("box 1 1  2 2  4 2\nbox 1 1  1 1.5  3 4\n"),
               HasSubstr("box at (2.00, 2.00) stands on a place of another box"));
 }
 

@@ -7,6 +7,8 @@
 
 namespace hybrid_slam::simulation {
 
+constexpr double kTolerance = 1e-3;  ///< m, of hand-typed coordinates
+
 /// One line `word number number ...`; `#` starts a comment; empty lines only count for line numbers.
 struct Record {
   std::string word;

@@ -2,12 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/core/bits_math.h>
 
 #include <cmath>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "study/simulation/BuildingPlan.h"
+#include "testing/ErrorOf.h"
 #include "testing/TemporaryFile.h"
 
 namespace hybrid_slam::simulation {
@@ -16,17 +17,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double kDegree = mrpt::DEG2RAD(1.0);
-
 Route routeOf(const std::string& text) { return Route::load(test::TemporaryFile(text).path()); }
 
-std::string errorOf(const std::string& text) {
-  try {
-    routeOf(text);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+std::string routeError(const std::string& text) {
+  return test::errorOf([&] { routeOf(text); });
 }
 
 void expectPose(const mrpt::math::TPose2D& pose, double x, double y, double degrees) {
@@ -88,23 +82,23 @@ TEST(Route, TurnsTakeTheShorterWay) {
 }
 
 TEST(Route, ErrorsNameTheLine) {
-  EXPECT_THAT(errorOf("start 0 0 0\ngoo 1 0\n"),
+  EXPECT_THAT(routeError("start 0 0 0\ngoo 1 0\n"),
               AllOf(HasSubstr("unknown word `goo`"), HasSubstr(", line 2; ")));
-  EXPECT_THAT(errorOf("go 1 0\n"), HasSubstr("`go` before `start`"));
-  EXPECT_THAT(errorOf("start 0 0 0\nstart 1 0 0\n"), HasSubstr("second `start`"));
-  EXPECT_THAT(errorOf("start 0 0 0\ngo 1\n"), HasSubstr("expected `go X Y`"));
-  EXPECT_THAT(errorOf("start 0 0 0\nspeed 0\ngo 1 0\n"), HasSubstr("`speed` too low"));
-  EXPECT_THAT(errorOf("start 0 0 0\nspeed 1e-300\ngo 1 0\n"), HasSubstr("expected at least 0.001 m/s"));
-  EXPECT_THAT(errorOf("start 0 0 0\nturn_speed -1\ngo 1 0\n"), HasSubstr("`turn_speed` too low"));
-  EXPECT_THAT(errorOf("start 0 0 0\nwait -1\n"), HasSubstr("`wait` too low"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 0\ngo 1 1\n"), HasSubstr("`via` too low"));
-  EXPECT_THAT(errorOf("start 0 0 0\ngo 1 0\ngo 1 0\n"), HasSubstr("repeated way point"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 1 0 2\ngo 1 5\n"), HasSubstr("does not fit"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\ngo 5 1\n"), HasSubstr("does not fit"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\ngo 0 0\n"), HasSubstr("does not fit"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\n"), HasSubstr("route ends with `via`"));
-  EXPECT_THAT(errorOf("start 0 0 0\nvia 5 0 2\nwait 1\n"), HasSubstr("`via` followed by `wait`"));
-  EXPECT_THAT(errorOf("start 0 0 0\n"), HasSubstr("route without way points"));
+  EXPECT_THAT(routeError("go 1 0\n"), HasSubstr("`go` before `start`"));
+  EXPECT_THAT(routeError("start 0 0 0\nstart 1 0 0\n"), HasSubstr("second `start`"));
+  EXPECT_THAT(routeError("start 0 0 0\ngo 1\n"), HasSubstr("expected `go X Y`"));
+  EXPECT_THAT(routeError("start 0 0 0\nspeed 0\ngo 1 0\n"), HasSubstr("`speed` too low"));
+  EXPECT_THAT(routeError("start 0 0 0\nspeed 1e-300\ngo 1 0\n"), HasSubstr("expected at least 0.001 m/s"));
+  EXPECT_THAT(routeError("start 0 0 0\nturn_speed -1\ngo 1 0\n"), HasSubstr("`turn_speed` too low"));
+  EXPECT_THAT(routeError("start 0 0 0\nwait -1\n"), HasSubstr("`wait` too low"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 1 0 0\ngo 1 1\n"), HasSubstr("`via` too low"));
+  EXPECT_THAT(routeError("start 0 0 0\ngo 1 0\ngo 1 0\n"), HasSubstr("repeated way point"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 1 0 2\ngo 1 5\n"), HasSubstr("does not fit"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 5 0 2\ngo 5 1\n"), HasSubstr("does not fit"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 5 0 2\ngo 0 0\n"), HasSubstr("does not fit"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 5 0 2\n"), HasSubstr("route ends with `via`"));
+  EXPECT_THAT(routeError("start 0 0 0\nvia 5 0 2\nwait 1\n"), HasSubstr("`via` followed by `wait`"));
+  EXPECT_THAT(routeError("start 0 0 0\n"), HasSubstr("route without way points"));
 }
 
 std::string clearanceError(const std::string& text, double radius) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Segments.h"
+
 namespace hybrid_slam::simulation {
 
 using mrpt::math::TPoint2D;
@@ -83,9 +85,7 @@ double Wall::distance(const TPoint2D& p) const {
     if (onArc(*this, std::atan2(fromCentre.y, fromCentre.x))) return std::abs(fromCentre.norm() - radius);
     return std::min((p - start).norm(), (p - end).norm());
   }
-  const TPoint2D along = end - start;
-  const double s = std::clamp(dot(p - start, along) / dot(along, along), 0.0, 1.0);
-  return (p - pointAt(s)).norm();
+  return (p - nearestOnSegment(p, start, end)).norm();
 }
 
 double rayDistance(const Wall& wall, const TPoint2D& origin, const TPoint2D& direction) {

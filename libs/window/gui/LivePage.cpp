@@ -7,11 +7,11 @@
 
 namespace hybrid_slam::window {
 
-using State = LiveSnapshot::State;
+using LiveState = LiveSnapshot::State;
 
 namespace {
 
-const char* nameOf(State state) {
+const char* nameOf(LiveState state) {
   const char* const names[] = {"running", "writing the results", "done", "failed"};
   return names[static_cast<int>(state)];
 }
@@ -65,7 +65,7 @@ void LivePage::setSettings(std::shared_ptr<const Settings> settings) {
 bool LivePage::isRunning() const {
   if (!session_) return false;
   const auto state = session_->snapshot()->state;
-  return state == State::running || state == State::finishing;
+  return state == LiveState::running || state == LiveState::finishing;
 }
 
 void LivePage::connectOrStop() {
@@ -77,7 +77,7 @@ std::string LivePage::end() {
   if (!isRunning()) return {};
   session_->finish();
   const auto last = session_->snapshot();
-  return last->state == State::failed ? last->message : "";
+  return last->state == LiveState::failed ? last->message : "";
 }
 
 void LivePage::start() {
@@ -110,14 +110,14 @@ void LivePage::refresh() {
   canvas_->setTitle(isRunning() ? "no map yet: waiting for scans" : "no map yet: Connect");
   canvas_->show(now->filter);
   plots_->show({now->filter});
-  text_->SetLabel(now->state == State::running && !now->isConnected
+  text_->SetLabel(now->state == LiveState::running && !now->isConnected
                       ? wxString("no connection, trying")
                       : wxString::Format("%zu scans, %s", now->scans, nameOf(now->state)));
   button_->SetLabel(isRunning() ? "Stop" : "Connect");
   if (!isNews) return;
-  if (now->state == State::done && onRecording_) onRecording_(now->recording);
-  if (now->state == State::done) showNotice(this, now->message);
-  if (now->state == State::failed) showError(this, now->message);
+  if (now->state == LiveState::done && onRecording_) onRecording_(now->recording);
+  if (now->state == LiveState::done) showNotice(this, now->message);
+  if (now->state == LiveState::failed) showError(this, now->message);
 }
 
 }  // namespace hybrid_slam::window

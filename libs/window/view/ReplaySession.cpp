@@ -18,7 +18,7 @@ using Clock = ReplayPass::Clock;
 
 /// Interval between snapshots during a replay: copying the grids takes time from the filters.
 constexpr auto kPictureInterval = std::chrono::milliseconds(80);
-constexpr size_t kEvents = 200;
+constexpr size_t kReplayEvents = 200;
 
 }  // namespace
 
@@ -285,7 +285,7 @@ void ReplaySession::savePass(ReplayPass& pass, const std::string& folder) {
 void ReplaySession::event(const std::string& text) {
   snapshot_.change([&](ReplaySnapshot& next) {
     next.events.push_back(text);
-    if (next.events.size() > kEvents) next.events.erase(next.events.begin());
+    if (next.events.size() > kReplayEvents) next.events.erase(next.events.begin());
   });
 }
 
