@@ -14,9 +14,13 @@ if(HYBRID_SLAM_SANITIZE)
   set(hybrid_slam_test_timeout 1200)
 endif()
 
+set(shadow -Wshadow)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(shadow -Wshadow=local)  # else a local name may shadow a constant of another file
+endif()
 add_library(hybrid_slam_flags INTERFACE)
 target_compile_options(hybrid_slam_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<BOOL:${HYBRID_SLAM_WERROR}>:-Werror>
+  -Wall -Wextra -Wpedantic ${shadow} -Wconversion -Wno-sign-conversion $<$<BOOL:${HYBRID_SLAM_WERROR}>:-Werror>
   $<$<CONFIG:Release>:-O3>
   # The same bytes on every run and for every number of threads: no contraction that depends on inlining.
   -ffp-contract=off)

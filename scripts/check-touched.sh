@@ -39,8 +39,8 @@ touched_files() {
 }
 
 # The folders of libs/ in the order in which CMake adds them, where libraries come after those that they need.
-cmake --preset release >/dev/null
-mapfile -t folders < <(sed -nE 's|^ *"file": ".*/(libs/.*)/[^/]*"$|\1|p' build/release/compile_commands.json | uniq)
+cmake --preset debug >/dev/null
+mapfile -t folders < <(sed -nE 's|^ *"file": ".*/(libs/.*)/[^/]*"$|\1|p' build/debug/compile_commands.json | uniq)
 
 step "clang-format" scripts/check.sh format
 files=$(touched_files) || { echo "not run: the touched libraries: no git history" && exit $failed; }

@@ -41,7 +41,7 @@ check_format() {
 
 check_tidy() {
   install_packages "${packages[@]}" clang-tidy
-  cmake --preset release
+  cmake --preset debug
   python3 scripts/tidy.py "$@"
 }
 

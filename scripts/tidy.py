@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""clang-tidy (.clang-tidy) over the sources of build/release, several of one target in one run.
+"""clang-tidy (.clang-tidy) over the sources of build/debug, several of one target in one run.
 
     scripts/tidy.py [FILE...]     all files of apps, benchmarks, libs and tests by default
 
@@ -34,7 +34,7 @@ def arguments(command):
 def groups(root, chosen):
     """{target: ([file], arguments)}"""
     result = {}
-    for entry in json.load(open(os.path.join(root, "build/release/compile_commands.json"))):
+    for entry in json.load(open(os.path.join(root, "build/debug/compile_commands.json"))):
         path = os.path.relpath(os.path.join(entry["directory"], entry["file"]), root)
         target = re.search(r"CMakeFiles/([^/]+)\.dir", entry["command"])
         if target and not path.startswith("build/") and (not chosen or path in chosen):

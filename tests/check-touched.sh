@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 unset "${!GIT_@}"
-mkdir -p bin full/scripts full/libs/{old,mid,new} full/build/release
+mkdir -p bin full/scripts full/libs/{old,mid,new} full/build/debug
 cp "$1"/scripts/{lib,check-touched}.sh full/scripts
 
 cat >full/scripts/check.sh <<'END'
@@ -17,8 +17,8 @@ cat >full/scripts/check.sh <<'END'
 END
 cat >bin/cmake <<'END'
 #!/bin/sh
-mkdir -p build/release
-for name in old mid new; do echo "  \"file\": \"/x/libs/$name/A.cpp\""; done >build/release/compile_commands.json
+mkdir -p build/debug
+for name in old mid new; do echo "  \"file\": \"/x/libs/$name/A.cpp\""; done >build/debug/compile_commands.json
 END
 chmod +x full/scripts/check.sh bin/cmake
 export PATH=$folder/bin:$PATH FAIL=""
