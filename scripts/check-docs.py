@@ -302,13 +302,13 @@ class Checker:
                         self.check_figures(place, rows, check)
 
 
-def main():
+def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--run", nargs="?", const="build/release/bin", metavar="BIN")
     parser.add_argument("--commands", nargs="+", metavar=("PREFIX", "PAGE"))
     parser.add_argument("--keep", type=Path, metavar="FOLDER")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent, metavar="FOLDER")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     root = options.root.resolve()
     pages = [page for page in (root / "README.md", *sorted(root.glob("doc/*.md"))) if page.is_file()]
     if options.commands:
@@ -334,4 +334,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))
