@@ -45,12 +45,11 @@ std::vector<Stretch> stretchesOf(const std::vector<Revisit>& revisits) {
   return stretches;
 }
 
-/// Successive compared scans with most of their beams contradicted. Narrow things count: the robot may have
-/// gone astray among people, who are rarely most of what it sees.
+/// Successive compared scans with most of their beams contradicted.
 std::vector<Stretch> jumpsOf(const std::vector<Revisit>& recent) {
   std::vector<Stretch> jumps(1);
   for (const Revisit& revisit : recent) {
-    if (static_cast<double>(revisit.contradicted) > kJump * static_cast<double>(revisit.compared))
+    if (revisit.share() > kJump)
       jumps.back().push_back(&revisit);
     else if (!jumps.back().empty())
       jumps.emplace_back();

@@ -17,21 +17,14 @@ struct Revisit {
   double distance = 0;       ///< m, along the path
   size_t compared = 0;       ///< beams that cross a wall of the earlier map, or end at one or in free space
   size_t contradicted = 0;   ///< of these, beams that cross a wall or end in free space
-  size_t narrow = 0;  ///< of these, beams that end in free space at a narrow thing, which may have moved
-  /// Share of the compared beams that contradict the map, without those at narrow things; 0 if fewer than 8
-  /// remain.
-  double share() const {
-    const size_t left = compared - narrow;
-    return left < kFewest ? 0 : static_cast<double>(contradicted - narrow) / static_cast<double>(left);
-  }
+  /// Share of the compared beams that contradict the map; NaN without any.
+  double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
   bool isContradicted() const { return share() > 0.2; }
-
-  static constexpr size_t kFewest = 8;  ///< beams compared
 };
 
-/// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. Doors
-/// contradict with some beams; a doubled wall or a room on top of another one contradicts with most. People
-/// and chairs are narrow things (NarrowThings.h).
+/// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. People
+/// and doors contradict with some beams; a doubled wall or a room on top of another one contradicts with
+/// most.
 ///
 /// The cells are 0.1 m wide, so a wall may be off by 0.1 m to 0.2 m.
 class RevisitCheck {
@@ -71,8 +64,7 @@ class RevisitCheck {
 /// Number of the scans that contradict the map.
 size_t contradictedOf(const std::vector<Revisit>& revisits);
 
-/// Share of the compared beams that contradict the map; 0 without any. Narrow things count: where paths of
-/// the same scans are compared, they contradict each.
+/// Share of the compared beams that contradict the map; 0 without any.
 double contradictionOf(const std::vector<Revisit>& revisits);
 
 /// Whether a correction of the path makes its scans contradict the map more. The share of the contradicting
