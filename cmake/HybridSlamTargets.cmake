@@ -15,8 +15,8 @@ if(HYBRID_SLAM_SANITIZE)
 endif()
 
 set(shadow -Wshadow)
-if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  set(shadow -Wshadow=local)  # else a local name may shadow a constant of another file
+if(CMAKE_UNITY_BUILD)  # a local name may shadow a constant of another file, which clang cannot leave out
+  set(shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 endif()
 add_library(hybrid_slam_flags INTERFACE)
 target_compile_options(hybrid_slam_flags INTERFACE

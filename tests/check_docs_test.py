@@ -48,8 +48,9 @@ class CheckDocs(unittest.TestCase):
         self.write("doc/page.md", page)
         environment = {"PATH": os.environ["PATH"], **environment}
         with unittest.mock.patch.dict(os.environ, environment, clear=True), \
-                contextlib.redirect_stdout(io.StringIO()) as out:
+                contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as errors:
             code = check_docs.main(["--root", str(self.root), *map(str, options)])
+        self.assertEqual(errors.getvalue(), "")
         return code, out.getvalue().splitlines()[:-1]
 
     def expect_good(self, page, *options):

@@ -23,8 +23,7 @@ enum class LogTime {
   logger  ///< of arrival at the logger, seconds since its start
 };
 
-/// s: the latest time of a record. MRPT's timestamps are 64-bit counts of 100 ns since 1601 and end at 9e11
-/// s.
+/// The latest time of a record, s. MRPT's timestamps, 64-bit counts of 100 ns since 1601, end at 9e11 s.
 constexpr double kLatestTime = 1e11;
 
 /// Pose from wheel odometry, in the odometry frame.

@@ -13,38 +13,35 @@ namespace hybrid_slam::run {
 namespace {
 
 using mrpt::math::TPoint2D;
+using PlanJson = nlohmann::json;
 
 constexpr size_t kMostPlanBytes = size_t{16} << 20;
 constexpr char kExpectedPlan[] = "expected a floor plan: .geojson, .dxf, or .svg of hybrid-slam";
 
 // GeoJSON
 
-TPoint2D pointOf(const nlohmann::json& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
+TPoint2D pointOf(const PlanJson& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
 
-void addString(const nlohmann::json& points, PlanLines& lines) {
+void addString(const PlanJson& points, PlanLines& lines) {
   for (size_t i = 1; i < points.size(); ++i) lines.add(pointOf(points.at(i - 1)), pointOf(points.at(i)));
 }
 
-void addGeometry(const nlohmann::json& geometry, PlanLines& lines) {
+void addGeometry(const PlanJson& geometry, PlanLines& lines) {
   const std::string type = geometry.at("type");
   if (type == "LineString") addString(geometry.at("coordinates"), lines);
   if (type == "MultiLineString" || type == "Polygon")
-    for (const nlohmann::json& part : geometry.at("coordinates")) addString(part, lines);
+    for (const PlanJson& part : geometry.at("coordinates")) addString(part, lines);
 }
 
 void readGeoJson(const std::string& text, PlanLines& lines) {
   // Anything nested deeper is not GeoJSON, and would overflow the stack.
-  const nlohmann::json json =
-      nlohmann::json::parse(text, [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        if (depth > 20) throw std::runtime_error("nested too deeply");
-        return true;
-      });
-  for (const nlohmann::json& feature : json.at("features")) {
-    const nlohmann::json& properties =
-        feature.contains("properties") ? feature["properties"] : nlohmann::json();
-    if (properties.is_object() &&
-        properties.value("kind", nlohmann::json("wall")) == nlohmann::json("opening"))
-      continue;
+  const PlanJson json = PlanJson::parse(text, [](int depth, PlanJson::parse_event_t, PlanJson&) {
+    if (depth > 20) throw std::runtime_error("nested too deeply");
+    return true;
+  });
+  for (const PlanJson& feature : json.at("features")) {
+    const PlanJson& properties = feature.contains("properties") ? feature["properties"] : PlanJson();
+    if (properties.is_object() && properties.value("kind", PlanJson("wall")) == PlanJson("opening")) continue;
     if (feature.at("geometry").is_object()) addGeometry(feature["geometry"], lines);
   }
 }
