@@ -45,7 +45,8 @@ std::vector<Stretch> stretchesOf(const std::vector<Revisit>& revisits) {
   return stretches;
 }
 
-/// Successive compared scans with most of their beams contradicted.
+/// Successive compared scans with most of their beams contradicted. Narrow things count: the path may jump
+/// among people, who are rarely most of what a scan sees.
 std::vector<Stretch> jumpsOf(const std::vector<Revisit>& recent) {
   std::vector<Stretch> jumps(1);
   for (const Revisit& revisit : recent) {
@@ -81,6 +82,42 @@ std::string share(size_t count, size_t all) {
          std::to_string(all);
 }
 
+void add(Verdict& verdict, Level level, const std::string& reason) {
+  verdict.level = std::max(verdict.level, level);
+  verdict.reasons.push_back(reason);
+}
+
+/// Judges a path by its scans alone.
+Verdict byScans(const std::vector<Revisit>& returning, const std::vector<Revisit>& recent,
+                const std::vector<DoubtfulPlace>& jumps) {
+  Verdict verdict;
+  const auto contradict = [&verdict](Level level, const std::string& reason) {
+    verdict.isContradicted = true;
+    add(verdict, level, reason);
+  };
+  const auto judge = [&](const std::vector<Revisit>& revisits, double doubtful, double lost,
+                         const std::string& what) {
+    if (revisits.empty()) return;
+    const size_t contradicted = contradictedOf(revisits);
+    const double part = static_cast<double>(contradicted) / static_cast<double>(revisits.size());
+    verdict.contradiction += part;
+    if (contradicted >= std::min(kFewestInDoubt, revisits.size()) && part > doubtful)
+      contradict(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
+                 share(contradicted, revisits.size()) + " " + what);
+  };
+  judge(returning, kReturningDoubtful, kReturningLost, "returning scans contradict what was mapped before");
+  judge(recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
+  verdict.places = placesOf(stretchesOf(returning), kFewest);
+  if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
+    contradict(Level::doubtful,
+               "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
+  if (!jumps.empty())
+    contradict(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
+                                    ": successive scans contradict what was mapped just before");
+  verdict.places.insert(verdict.places.end(), jumps.begin(), jumps.end());
+  return verdict;
+}
+
 }  // namespace
 
 std::string Verdict::name() const {
@@ -112,43 +149,20 @@ Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent) {
 }
 
 Verdict verdictOf(const Evidence& evidence) {
-  Verdict verdict;
-  const auto find = [&verdict](Level level, const std::string& reason) {
-    verdict.level = std::max(verdict.level, level);
-    verdict.reasons.push_back(reason);
-  };
-  const auto contradict = [&](Level level, const std::string& reason) {
-    verdict.isContradicted = true;
-    find(level, reason);
-  };
-  const auto judge = [&](const std::vector<Revisit>& revisits, double doubtful, double lost,
-                         const std::string& what) {
-    if (revisits.empty()) return;
-    const size_t contradicted = contradictedOf(revisits);
-    const double part = static_cast<double>(contradicted) / static_cast<double>(revisits.size());
-    verdict.contradiction += part;
-    if (contradicted >= std::min(kFewestInDoubt, revisits.size()) && part > doubtful)
-      contradict(part > lost && contradicted >= kFewest ? Level::lost : Level::doubtful,
-                 share(contradicted, revisits.size()) + " " + what);
-  };
-  judge(evidence.returning, kReturningDoubtful, kReturningLost,
-        "returning scans contradict what was mapped before");
-  judge(evidence.recent, kRecentDoubtful, kRecentLost, "scans contradict what was mapped just before");
+  const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
+  const Verdict strict = byScans(evidence.returning, evidence.recent, jumps);
+  Verdict verdict =
+      byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent), jumps);
+  verdict.isContradicted = strict.isContradicted;
+  verdict.contradiction = strict.contradiction;
+
+  const auto find = [&verdict](Level level, const std::string& reason) { add(verdict, level, reason); };
   // Another run with more particles would find the same place, so this does not count as contradicted.
-  const size_t against = contradictedOf(evidence.earlier);
+  const size_t against = contradictedOf(withoutNarrowThings(evidence.earlier));
   const double part = static_cast<double>(against) / static_cast<double>(evidence.earlier.size());
   if (against >= kFewest && part > kMostAgainstEarlierMap)
     find(part > kEarlierLost ? Level::lost : Level::doubtful,
          share(against, evidence.earlier.size()) + " scans contradict the map that the run continues");
-  verdict.places = placesOf(stretchesOf(evidence.returning), kFewest);
-  if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
-    contradict(Level::doubtful,
-               "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
-  const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
-  if (!jumps.empty())
-    contradict(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
-                                    ": successive scans contradict what was mapped just before");
-  verdict.places.insert(verdict.places.end(), jumps.begin(), jumps.end());
   if (evidence.spread > kSpread)
     find(Level::doubtful,
          "hypotheses still disagree at the end: spread " + fixedText(evidence.spread, 1) + " m");

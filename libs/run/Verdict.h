@@ -24,7 +24,9 @@ struct Verdict {
   Level level = Level::consistent;
   std::vector<std::string> reasons;   ///< short sentences
   std::vector<DoubtfulPlace> places;  ///< at most ten; returning stretches before jumps, the longest first
-  bool isContradicted = false;        ///< by scans; not only for want of evidence
+  /// Whether scans contradict the map, be it only with beams at narrow things, which do not count for the
+  /// level: people and chairs move, but another run of the same log may be better.
+  bool isContradicted = false;
   double contradiction = 0;  ///< contradicted share of the returning scans, plus that of the recent ones
 
   /// Whether the map is worse than another one of the same log: by its level; if equal, it is contradicted

@@ -114,6 +114,24 @@ TEST(Verdict, SuccessiveScansThatContradictTheirSurroundingsAreAJump) {
   EXPECT_EQ(of(scans(100), recent).level, Level::consistent) << "40 % of the beams";
 }
 
+TEST(Verdict, PeopleDoNotCountForTheLevelButForAnotherRun) {
+  std::vector<Revisit> seen = scans(100, 20, 90);
+  for (Revisit& scan : seen) scan.narrow = scan.contradicted / 40 * 38;
+  const Verdict among = of(seen);
+  EXPECT_EQ(among.line(), "verdict: consistent");
+  EXPECT_TRUE(among.isContradicted) << "another run may be better";
+  EXPECT_NEAR(among.contradiction, 0.7, 1e-9);
+  EXPECT_TRUE(among.isWorseThan(of(scans(100))));
+}
+
+TEST(Verdict, PeopleDoNotHideAJump) {
+  std::vector<Revisit> seen = scans(100, 20, 90);
+  for (Revisit& scan : seen) scan.narrow = scan.contradicted / 40 * 38;
+  EXPECT_THAT(of(scans(100), seen).line(), HasSubstr("doubtful: the path may have jumped at (27.5, 0.0) m"));
+  for (size_t i = 20; i < 90; ++i) seen[i].contradicted = 24, seen[i].narrow = 22;
+  EXPECT_EQ(of(scans(100), seen).level, Level::consistent) << "48 % of the beams";
+}
+
 TEST(Verdict, PlacesAreSeparateAndTheLongestComesFirst) {
   std::vector<Revisit> revisits = scans(100, 10, 15);
   for (size_t i = 60; i < 80; ++i) revisits[i].contradicted = 40;

@@ -7,6 +7,7 @@
 #include "base/PoseDistance.h"
 #include "slam/grid/RaySamples.h"
 #include "slam/grid/ScanBeams.h"
+#include "slam/loops/NarrowThings.h"
 
 namespace hybrid_slam {
 
@@ -17,7 +18,6 @@ namespace {
 constexpr size_t kComparedBeams = 90;
 constexpr int kWall = 6, kSolidWall = 12, kSeenFree = -1;  // log-odds, in units of a cell: 1, 2 hits; 1 miss
 constexpr double kNear = 3, kShort = 4;  // cells at both ends of a beam that may touch its own wall
-constexpr size_t kFewest = 8;            // beams compared
 constexpr double kFewestShare = 0.1;
 
 // Of a correction: true loops add up to 0.002 to the share, false ones 0.005 or more (Intel, 12 simulated
@@ -25,21 +25,21 @@ constexpr double kFewestShare = 0.1;
 constexpr size_t kFewestReturning = 20;  // scans
 constexpr double kWorse = 0.0035;
 
-enum class Finding { unknown, agrees, contradicts };
+enum class Finding { unknown, agrees, crossesWall, endsInFreeSpace };
 
 Finding compare(const ScanBeams::Ray& ray, const GridPose& frame, TileReader& cells) {
   const double range = ray.range / RevisitCheck::kResolution, dx = frame.dirX(ray), dy = frame.dirY(ray);
   const auto& origin = frame.origin(ray);
   for (double along = kNear; along < range - kShort; along += 1)
     if (cells.at(floorOf(origin.x + along * dx), floorOf(origin.y + along * dy)) >= kSolidWall)
-      return Finding::contradicts;
+      return Finding::crossesWall;
   const int x = floorOf(origin.x + range * dx), y = floorOf(origin.y + range * dy);
   int8_t highest = -128;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells.at(x + i, y + j));
   if (highest >= kWall) return Finding::agrees;
   // A wall seen at a grazing angle has free cells: beams that end further along it pass through them.
-  return highest <= kSeenFree ? Finding::contradicts : Finding::unknown;
+  return highest <= kSeenFree ? Finding::endsInFreeSpace : Finding::unknown;
 }
 
 /// The revisits of those scans that are also among the others.
@@ -66,15 +66,25 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   const GridPose frame(pose, beams, kResolution);
   TileReader cells(grid_.tiles());
   Revisit revisit{pose, update, distance};
-  for (const ScanBeams::Ray& ray : beams.rays) {
-    const Finding finding = compare(ray, frame, cells);
+  const std::vector<bool> isNarrow = endsAtNarrowThing(beams);
+  for (size_t i = 0; i < beams.rays.size(); ++i) {
+    const Finding finding = compare(beams.rays[i], frame, cells);
     revisit.compared += finding != Finding::unknown;
-    revisit.contradicted += finding == Finding::contradicts;
+    revisit.contradicted += finding == Finding::crossesWall || finding == Finding::endsInFreeSpace;
+    revisit.narrow += finding == Finding::endsInFreeSpace && isNarrow[i];
   }
-  if (revisit.compared >= kFewest &&
+  if (revisit.compared >= Revisit::kFewest &&
       static_cast<double>(revisit.compared) >= kFewestShare * static_cast<double>(beams.rays.size()))
     revisits_.push_back(revisit);
   if (std::isfinite(delay_)) waiting_.push_back({pose, beams, distance});
+}
+
+std::vector<Revisit> withoutNarrowThings(std::vector<Revisit> revisits) {
+  for (Revisit& revisit : revisits) {
+    revisit.compared -= revisit.narrow, revisit.contradicted -= revisit.narrow, revisit.narrow = 0;
+    if (revisit.compared < Revisit::kFewest) revisit.contradicted = 0;
+  }
+  return revisits;
 }
 
 size_t contradictedOf(const std::vector<Revisit>& revisits) {

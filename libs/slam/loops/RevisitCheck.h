@@ -17,9 +17,12 @@ struct Revisit {
   double distance = 0;       ///< m, along the path
   size_t compared = 0;       ///< beams that cross a wall of the earlier map, or end at one or in free space
   size_t contradicted = 0;   ///< of these, beams that cross a wall or end in free space
+  size_t narrow = 0;  ///< of these, beams that end in free space at a narrow thing, which may have moved
   /// Share of the compared beams that contradict the map; NaN without any.
   double share() const { return static_cast<double>(contradicted) / static_cast<double>(compared); }
   bool isContradicted() const { return share() > 0.2; }
+
+  static constexpr size_t kFewest = 8;  ///< beams compared
 };
 
 /// Compares each scan of a path with the map of the scans taken at least `delay` (m of path) earlier. People
@@ -60,6 +63,10 @@ class RevisitCheck {
   std::vector<Revisit> revisits_;
   size_t scans_ = 0, beams_ = 0;
 };
+
+/// The scans without their beams at narrow things (NarrowThings.h). A scan with fewer than 8 beams left
+/// contradicts nothing.
+std::vector<Revisit> withoutNarrowThings(std::vector<Revisit> revisits);
 
 /// Number of the scans that contradict the map.
 size_t contradictedOf(const std::vector<Revisit>& revisits);

@@ -70,6 +70,39 @@ TEST(RevisitCheck, ComparesWithAMapOfAnEarlierRun) {
   EXPECT_TRUE(unknown.revisits().empty()) << "the scans themselves are not in the map";
 }
 
+/// The true drive, on which three things of `width` m, 1.5 m from the laser, move to and fro.
+std::vector<DrivenPose> driveAmong(double width) {
+  std::vector<DrivenPose> drive = ringDrive(0);
+  for (size_t i = 0; i < drive.size(); ++i)
+    for (LaserScan& scan : drive[i].scans)
+      for (Beam& beam : scan.beams)
+        for (const double bearing : {-50 * kDegree, 0.0, 50 * kDegree}) {
+          const double now = bearing + (7 * static_cast<double>(i % 5) - 14) * kDegree;
+          if (std::abs(beam.angle - now) < width / 3) beam.range = std::min(beam.range, 1.5);
+        }
+  return drive;
+}
+
+TEST(RevisitCheck, WithoutNarrowThingsPeopleDoNotContradictButBoardsDo) {
+  const auto people = revisitsOf(driveAmong(0.4), true), boards = revisitsOf(driveAmong(0.8), true);
+  ASSERT_GT(people.size(), 30u);
+  EXPECT_GT(contradictedShare(people), 0.3);
+  EXPECT_LT(contradictedShare(withoutNarrowThings(people)), 0.05);
+  EXPECT_GT(contradictedShare(withoutNarrowThings(boards)), 0.5);
+}
+
+TEST(RevisitCheck, AScanOfPeopleAloneContradictsNothing) {
+  Revisit revisit;
+  revisit.compared = 40, revisit.contradicted = 40, revisit.narrow = 33;
+  EXPECT_FALSE(withoutNarrowThings({revisit})[0].isContradicted()) << "7 beams are too few";
+  revisit.narrow = 32;
+  EXPECT_EQ(withoutNarrowThings({revisit})[0].share(), 1);
+  revisit.contradicted = 34;
+  EXPECT_EQ(withoutNarrowThings({revisit})[0].share(), 0.25);
+  revisit.narrow = revisit.compared = revisit.contradicted;
+  EXPECT_FALSE(withoutNarrowThings({revisit})[0].isContradicted());
+}
+
 TEST(RevisitCheck, ComparesLongerBeamsOnlyWhereTheMapUsesThem) {
   EXPECT_EQ(RevisitCheck::rangeOf(5.6), 5.6);
   EXPECT_EQ(RevisitCheck::rangeOf(8), 8);

@@ -1,0 +1,55 @@
+#include "slam/loops/NarrowThings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybrid_slam {
+
+using mrpt::math::TPoint2D;
+using Ray = ScanBeams::Ray;
+
+namespace {
+
+constexpr double kWidth = 0.5;  // m
+constexpr double kGap = 0.3;    // m, between successive end points of one thing
+constexpr double kSteps = 2;    // the same, in distances of two beams
+
+/// Sine of the angle between successive beams of a laser, the median.
+double angularStep(const std::vector<Ray>& rays) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < rays.size(); ++i)
+    if (rays[i].laser == rays[i - 1].laser)
+      steps.push_back(std::abs(rays[i].dirX * rays[i - 1].dirY - rays[i].dirY * rays[i - 1].dirX));
+  if (steps.empty()) return 0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<bool> endsAtNarrowThing(const ScanBeams& beams) {
+  const std::vector<Ray>& rays = beams.rays;
+  const std::vector<TPoint2D> ends = beams.endPoints();
+  const double step = angularStep(rays);
+  const auto areOneThing = [&](size_t a, size_t b) {
+    return rays[a].laser == rays[b].laser &&
+           (ends[a] - ends[b]).norm() <
+               std::max(kGap, kSteps * step * std::min(rays[a].range, rays[b].range));
+  };
+  const auto isBehind = [&](size_t other, size_t thing) {
+    return other < rays.size() && rays[other].laser == rays[thing].laser &&
+           rays[other].range > rays[thing].range;
+  };
+  std::vector<bool> isNarrow(rays.size(), false);
+  for (size_t first = 0, end; first < rays.size(); first = end) {
+    for (end = first + 1; end < rays.size() && areOneThing(end - 1, end);) ++end;
+    if ((ends[end - 1] - ends[first]).norm() < kWidth &&
+        (isBehind(first - 1, first) || isBehind(end, end - 1)))
+      std::fill(isNarrow.begin() + static_cast<std::ptrdiff_t>(first),
+                isNarrow.begin() + static_cast<std::ptrdiff_t>(end), true);
+  }
+  return isNarrow;
+}
+
+}  // namespace hybrid_slam

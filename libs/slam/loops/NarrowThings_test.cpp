@@ -1,0 +1,60 @@
+#include "slam/loops/NarrowThings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Degree.h"
+
+namespace hybrid_slam {
+namespace {
+
+/// Beams 2 deg apart at a wall 5 m ahead; a box of `width` m stands `range` m ahead, `bearing` (rad) to the
+/// left.
+ScanBeams beamsAt(double width, double range, double bearing = 0, double stepDeg = 2) {
+  LaserScan scan;
+  for (double angle = -45 * kDegree; angle < 45 * kDegree + 1e-9; angle += stepDeg * kDegree) {
+    const double across = range * std::tan(angle - bearing);
+    const bool isBox = std::abs(across) <= width / 2;
+    scan.beams.push_back({angle, isBox ? range / std::cos(angle - bearing) : 5 / std::cos(angle), true});
+  }
+  return ScanBeams(scan);
+}
+
+size_t narrowOf(const ScanBeams& beams) {
+  const std::vector<bool> all = endsAtNarrowThing(beams);
+  EXPECT_EQ(all.size(), beams.rays.size());
+  return static_cast<size_t>(std::count(all.begin(), all.end(), true));
+}
+
+TEST(NarrowThings, APersonIsNarrowAndACupboardIsNot) {
+  for (const double range : {1.0, 2.0, 3.5})
+    for (const double bearing : {-0.5, 0.0, 0.4}) {
+      EXPECT_GT(narrowOf(beamsAt(0.4, range, bearing)), 2u) << range << " " << bearing;
+      EXPECT_EQ(narrowOf(beamsAt(1.0, range, bearing)), 0u) << range << " " << bearing;
+    }
+}
+
+TEST(NarrowThings, AWallIsNoneHoweverFarItsBeamsAreApart) {
+  for (const double step : {0.25, 1.0, 2.0, 4.0, 8.0})
+    EXPECT_EQ(narrowOf(beamsAt(0, 1, 0, step)), 0u) << step;
+}
+
+TEST(NarrowThings, WhatIsSeenThroughAGapIsBehind) {
+  LaserScan scan;  // a wall at 2 m with a gap, through which a piece of a wall at 6 m is seen
+  for (int i = -20; i <= 20; ++i) scan.beams.push_back({2 * i * kDegree, std::abs(i) <= 1 ? 6.0 : 2.0, true});
+  EXPECT_EQ(narrowOf(ScanBeams(scan)), 0u);
+}
+
+TEST(NarrowThings, BeamsOfTwoLasersAreNotNeighbours) {
+  LaserScan scan;  // two lasers end at the same wall
+  for (int i = 0; i < 30; ++i) scan.beams.push_back({i * kDegree, 3, true});
+  LaserScan other = scan;
+  other.beams.resize(2);
+  EXPECT_EQ(narrowOf(ScanBeams(LaserScans{scan, other})), 0u);
+  EXPECT_EQ(narrowOf(ScanBeams()), 0u);
+}
+
+}  // namespace
+}  // namespace hybrid_slam
