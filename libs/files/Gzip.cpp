@@ -15,14 +15,16 @@
 namespace hybrid_slam::files {
 namespace {
 
-constexpr int kGzip = 15 + 16;  // window bits, and gzip's format
+constexpr int kGzip = 15 + 16;   // window bits, and gzip's format
+constexpr int kMemoryLevel = 8;  // zlib's default
 constexpr size_t kBlock = 1 << 16;
 
 }  // namespace
 
-std::string gzipped(std::string_view bytes) {
+std::string gzipped(std::string_view bytes, int level) {
   z_stream stream{};
-  if (deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
+  if (deflateInit2(&stream, level, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, deflateEnd);
   std::string out;
   std::vector<char> block(kBlock);

@@ -1,5 +1,5 @@
 /// @file Gzip.h
-/// @brief Reads whole gzip files, which have a checksum.
+/// @brief Whole gzip files in memory. They have a checksum.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace hybrid_slam::files {
 
-/// Returns the bytes as the content of a gzip file.
-std::string gzipped(std::string_view bytes);
+/// Returns the bytes as the content of a gzip file, without name and time.
+/// @param level  1 (fast) to 9 (small)
+std::string gzipped(std::string_view bytes, int level = 1);
 
 /// Returns the content of a gzip file.
 /// @param what  kind of file, for errors: "session file"

@@ -153,10 +153,12 @@ Verdict verdictOf(const Evidence& evidence) {
   const Verdict strict = byScans(evidence.returning, evidence.recent, jumps);
   Verdict verdict =
       byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent), jumps);
+  const auto find = [&verdict](Level level, const std::string& reason) { add(verdict, level, reason); };
+  if (strict.isContradicted && !verdict.isContradicted)
+    find(Level::consistent, "scans contradict the map, but only at narrow things, such as people");
   verdict.isContradicted = strict.isContradicted;
   verdict.contradiction = strict.contradiction;
 
-  const auto find = [&verdict](Level level, const std::string& reason) { add(verdict, level, reason); };
   // Another run with more particles would find the same place, so this does not count as contradicted.
   const size_t against = contradictedOf(withoutNarrowThings(evidence.earlier));
   const double part = static_cast<double>(against) / static_cast<double>(evidence.earlier.size());

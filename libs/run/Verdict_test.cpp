@@ -118,7 +118,8 @@ TEST(Verdict, PeopleDoNotCountForTheLevelButForAnotherRun) {
   std::vector<Revisit> seen = scans(100, 20, 90);
   for (Revisit& scan : seen) scan.narrow = scan.contradicted / 40 * 38;
   const Verdict among = of(seen);
-  EXPECT_EQ(among.line(), "verdict: consistent");
+  EXPECT_EQ(among.line(),
+            "verdict: consistent: scans contradict the map, but only at narrow things, such as people");
   EXPECT_TRUE(among.isContradicted) << "another run may be better";
   EXPECT_NEAR(among.contradiction, 0.7, 1e-9);
   EXPECT_TRUE(among.isWorseThan(of(scans(100))));

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "base/Degree.h"
 #include "slam/filter/FilterView.h"
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/GlobalSearch.h"
@@ -15,6 +16,9 @@
 #include "slam/localization/RecentScans.h"
 
 namespace hybrid_slam {
+
+/// Searched around a given start.
+inline constexpr SearchWindow kStartWindow{0.5, 15 * kDegree};
 
 /// Agreement of a scan with the map at a pose.
 struct ScanEvidence {

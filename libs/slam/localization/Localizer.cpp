@@ -1,7 +1,5 @@
 #include "slam/localization/Localizer.h"
 
-#include <mrpt/core/bits_math.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,9 +13,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr SearchWindow kStartWindow{0.5, mrpt::DEG2RAD(15.0)};  // around a given start
-constexpr double kTrackedStdXY = 0.05,
-                 kTrackedStdPhi = mrpt::DEG2RAD(1.0);  // of the particles where tracking begins
+constexpr double kTrackedStdXY = 0.05, kTrackedStdPhi = kDegree;  // of the particles where tracking begins
 // These thresholds hold for scans at least 0.5 m or 20 deg apart:
 constexpr size_t kLost = 4;  // in succession that do not fit: the place is unknown
 constexpr double kTrackedContradicted = 0.3, kTrackedExplained = 0.4;  // share of the beams of such a scan

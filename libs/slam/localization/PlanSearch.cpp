@@ -1,6 +1,5 @@
 #include "slam/localization/PlanSearch.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -18,13 +17,12 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kScales[] = {1, 0.98, 1.02};   // between them the fit finds the scale
-constexpr double kCell = 0.1;                   // m, coarser than the plan's error
-constexpr double kMostCells = 1 << 25;          // memory
-constexpr double kMostSearchedCells = 1 << 23;  // about 2 s for a search
-constexpr double kLeastLength = 1;              // m, of a line of the database
-constexpr int kCount = 3;                       // observations that a line of the plan counts as
-constexpr SearchWindow kPlanStartWindow{0.5, mrpt::DEG2RAD(15.0)};
+constexpr double kScales[] = {1, 0.98, 1.02};       // between them the fit finds the scale
+constexpr double kCell = 0.1;                       // m, coarser than the plan's error
+constexpr double kMostCells = 1 << 25;              // memory
+constexpr double kMostSearchedCells = 1 << 23;      // about 2 s for a search
+constexpr double kLeastLength = 1;                  // m, of a line of the database
+constexpr int kCount = 3;                           // observations that a line of the plan counts as
 constexpr size_t kNearStart = 8;                    // places there
 constexpr size_t kLongestSearch = 240;              // scans, 0.5 m or 20 deg apart
 constexpr size_t kSearchedScans = 80;               // of these that are searched for together
@@ -35,7 +33,7 @@ constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place; lowered until
 constexpr double kLeastShare = 0.65;  // of the points lie on walls,
 constexpr double kPlanMargin = 4;     // and more than at any other place, by these standard deviations;
 constexpr double kPlanElsewhere = 1,
-                 kPlanElsewhereAngle = mrpt::DEG2RAD(10.0);  // m, rad: places further apart are two
+                 kPlanElsewhereAngle = 10 * kDegree;  // m, rad: places further apart are two
 constexpr int8_t kFree = -32, kOccupied = 48;
 
 /// Draws the walls as occupied cells in a free rectangle.
@@ -161,7 +159,7 @@ void PlanSearch::accept(const PlanFit& fit) {
 
 PlanFit PlanSearch::fitAtStart() const {
   const ScanBeams& scan = recent_.scans().back().scan.matchedBeams;
-  std::vector<TPose2D> places = correlativeSearch(scan, *start_, grid_, kPlanStartWindow, kNearStart);
+  std::vector<TPose2D> places = correlativeSearch(scan, *start_, grid_, kStartWindow, kNearStart);
   places.push_back(*start_);
   PlanFit best;
   for (const TPose2D& place : places)

@@ -1,7 +1,5 @@
 #include "study/simulation/SimulationOutput.h"
 
-#include <zlib.h>
-
 #include <mrpt/core/bits_math.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -16,6 +14,7 @@
 #include <stdexcept>
 
 #include "base/Numbers.h"
+#include "files/Gzip.h"
 #include "readings/SweepTimes.h"
 #include "study/simulation/BuildingPlan.h"
 #include "study/simulation/MovableThings.h"
@@ -101,25 +100,6 @@ mrpt::obs::CRawlog toRawlog(const SimulatedLog& log, RawlogForm form) {
   return rawlog;
 }
 
-namespace {
-
-/// Compresses to a gzip file in memory, best compression, without name and time in the header.
-bool gzip(std::vector<uint8_t> plain, std::vector<uint8_t>& zipped) {
-  z_stream z{};
-  constexpr int kGzip = 15 + 16, kMemoryLevel = 8;
-  if (deflateInit2(&z, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
-    return false;
-  zipped.resize(deflateBound(&z, plain.size()));
-  z.next_in = plain.data(), z.avail_in = static_cast<uInt>(plain.size());
-  z.next_out = zipped.data(), z.avail_out = static_cast<uInt>(zipped.size());
-  const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
-  zipped.resize(z.total_out);
-  deflateEnd(&z);
-  return done;
-}
-
-}  // namespace
-
 void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
   mrpt::io::CMemoryStream plain;
   auto archive = mrpt::serialization::archiveFrom(plain);
@@ -127,14 +107,11 @@ void writeRawlog(const mrpt::obs::CRawlog& rawlog, const std::string& file) {
   rawlog.getCommentText(comment.text);
   if (!comment.text.empty()) archive << comment;
   for (const auto& entry : rawlog) archive << *entry;
-  const auto* bytes = static_cast<const uint8_t*>(plain.getRawBufferData());
   // MRPT's compressor uses a temporary file that concurrent programs may share.
-  std::vector<uint8_t> zipped;
-  const bool done = gzip({bytes, bytes + plain.getTotalBytesCount()}, zipped);
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(zipped.data()), static_cast<std::streamsize>(zipped.size()));
+  out << files::gzipped({static_cast<const char*>(plain.getRawBufferData()), plain.getTotalBytesCount()}, 9);
   out.close();
-  if (!done || !out) throw std::runtime_error("cannot write " + file);
+  if (!out) throw std::runtime_error("cannot write " + file);
 }
 
 void writeGroundTruth(const std::vector<TruePose>& poses, const std::string& file) {
