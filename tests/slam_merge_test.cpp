@@ -12,6 +12,7 @@
 #include "files/TemporaryFolder.h"
 #include "files/Trajectory.h"
 #include "run/KnownMap.h"
+#include "run/MapPartFile.h"
 #include "run/SessionFile.h"
 #include "testing/TestLogs.h"
 #include "testing/TestRoom.h"
@@ -106,6 +107,16 @@ TEST_F(SlamMerge, TheMergedMapIsMappedOnAndLocalisedInButNotResumed) {
   EXPECT_THAT(run("c a -q -o f").err, "") << "it is merged with others";
 }
 
+/// Beams without a return may have the limit of their log as range, which is shorter than that of the other
+/// map.
+TEST_F(SlamMerge, TheScansOfEachMapKeepItsRange) {
+  map("a", 4, "--set grid.resolution=0.1 --set grid.max_range=5");
+  const run::MapPartFile file = run::readMapPart(folder.path("a"));
+  ASSERT_GT(file.part.scans.size(), 10u);
+  for (const Scans& scans : file.part.scans)
+    for (const auto& scan : scans) EXPECT_EQ(scan->maxRange, 5);
+}
+
 TEST_F(SlamMerge, ResultsThatAreThereStay) {
   map("a", 4);
   ASSERT_EQ(run("a a -q -o c").status, 0);
@@ -191,6 +202,10 @@ TEST_F(SlamMerge, WrongInput) {
   const std::string session = content("a/session.hslam");
   folder.write("cut.hslam", session.substr(0, session.size() / 2));
   expectInputError("a cut.hslam -o c", "cut.hslam");
+  std::string fine = content("a/map.yaml");
+  fine.replace(fine.find("resolution: 0.1"), 15, "resolution: 0.005");
+  folder.write("a/fine.yaml", fine);
+  expectInputError("a/fine.yaml a/fine.yaml -o c", "expected a number in 0.01..1 m");
   folder.write("file", "in its place");
   test::expectInputError(run("a a -o file"), "slam-merge", "file");
 }

@@ -198,11 +198,11 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
     log_.report("results", "written up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);
   }
-  const std::string incomplete = recorded.scans < run_.readings()
-                                     ? "the recording has " + std::to_string(recorded.scans) + " of " +
-                                           counted(run_.readings(), "scan(s): ") + recording_.path() +
-                                           "; the map is not refined"
-                                     : run_.placeNote();
+  std::string incomplete = run_.placeNote();
+  if (!run_.whyMissing().empty()) incomplete = "results are missing: " + run_.whyMissing();
+  if (recorded.scans < run_.readings())
+    incomplete = "the recording has " + std::to_string(recorded.scans) + " of " +
+                 counted(run_.readings(), "scan(s): ") + recording_.path() + "; the map is not refined";
   if (!incomplete.empty()) {
     log_.report("results", summary);
     log_.report("map", run_.verdict().line());

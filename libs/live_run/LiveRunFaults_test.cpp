@@ -185,6 +185,21 @@ TEST_F(LiveRunTest, ARemovedRecordingCostsOnlyWhatNeedsIt) {
   EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
 }
 
+TEST_F(LiveRunTest, AMissingResultIsAnError) {
+  run::Configuration c = configuration("live");
+  options.maxWaiting = 1000;
+  EventLog log("test", [this](const std::string& line) {
+    if (line.find("cycle(s)") == std::string::npos && line.find("cycles of the server") == std::string::npos)
+      return;
+    EXPECT_TRUE(std::filesystem::remove(recording())) << "after it was summarised";
+  });
+  LiveRun run(c, options, log, true);
+  take(run, test::laps(30));
+  EXPECT_THAT(test::errorOf<std::runtime_error>([&] { run.finish(2); }), HasSubstr("results are missing: "));
+  EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["complete"], false);
+  EXPECT_FALSE(result("live/map.png").empty());
+}
+
 // No thread can have such a stack.
 TEST_F(LiveRunTest, AMapThatCannotBeJudgedDoesNotEndTheRun) {
   options.maxWaiting = 1000;

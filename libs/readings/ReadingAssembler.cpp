@@ -211,11 +211,11 @@ CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) co
 
 void ReadingAssembler::complete(const Waiting& scan) {
   const TPose2D odometry = isEarly(scan) ? track_.at(seconds(scan.scan->timestamp)) : *scan.odometry;
-  // Wrong odometry may move a robot far between two lasers.
-  const bool isApart =
-      !collected_.empty() && !((odometry - collected_.back().second).norm() <= kFarthestApart);
-  if (scan.reading != current_ || isApart) endReading();
+  if (scan.reading != current_) endReading();
   current_ = scan.reading;
+  // Wrong odometry may move a robot far between two lasers: only the latest scans are one reading.
+  if (!collected_.empty() && !((odometry - collected_.back().second).norm() <= kFarthestApart))
+    collected_.clear();
   markInvalidBeams(*scan.scan);
   collected_.emplace_back(corrected(scan), odometry);
   if (scan.endsReading) endReading();

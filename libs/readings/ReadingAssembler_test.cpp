@@ -102,7 +102,7 @@ TEST(ReadingAssembler, ActionsDoNotAddToOdometryReadings) {
 }
 
 /// Odometry that is wrong by steps below the limit of a jump does not place a laser far from its robot.
-TEST(ReadingAssembler, ScansFarApartAreNoReading) {
+TEST(ReadingAssembler, OfScansFarApartTheLatestAreTheReading) {
   test::Log log{odometry(1, {0, 0, 0}), scan(1, {}, 3, "front"), scan(1, {}, 3, "rear")};
   for (int i = 1; i <= 40; ++i) {
     log.push_back(odometry(2 + 0.002 * i, {70.0 * i, 0, 0}));
@@ -112,6 +112,9 @@ TEST(ReadingAssembler, ScansFarApartAreNoReading) {
   const std::vector<Reading> readings = assembled(log);
   for (const Reading& reading : readings)
     for (const auto& taken : reading.scans) EXPECT_LE(taken->sensorPose.norm(), 10) << taken->sensorLabel;
+  ASSERT_EQ(readings.size(), 3u) << "as many as ScanGrouper counts";
+  ASSERT_EQ(readings[2].scans.size(), 1u);
+  EXPECT_EQ(readings[2].scans[0]->sensorLabel, "rear");
   EXPECT_NEAR(endOf(readings).x, 38 * 70, 1e-6) << "the first steps count as jumps";
 }
 

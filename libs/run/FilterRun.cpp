@@ -248,9 +248,7 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
     notes_.push_back(loopNote(*step.loop, updateTimes_, false));
   }
   if (localizer_) {
-    lostAgain_ += wasLocated_ && !localizer_->isLocalized();
-    wasLocated_ = localizer_->isLocalized();
-    located_ += wasLocated_;
+    located_ += localizer_->isLocalized();
   }
   writeStep(steps_, timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)

@@ -217,8 +217,7 @@ class FilterRun {
   size_t stuckScans_ = 0;  ///< with stuck odometry
   size_t loops_ = 0;       ///< closed while filtering
   size_t particlesMin_ = 0, particlesMax_ = 0;
-  size_t located_ = 0, lostAgain_ = 0;     ///< localisation: updates with a known place; times it was lost
-  bool wasLocated_ = false;                ///< at the last update
+  size_t located_ = 0;                     ///< localisation: updates with a known place
   double firstSlip_ = 0, firstStuck_ = 0;  ///< s
   double cell_ = 0;                        ///< m, of the filter
   double savedCell_ = 0;                   ///< m, of the map files

@@ -289,13 +289,15 @@ void FilterRun::writeCovarianceFile(const Result& result, const std::vector<Pose
 
 Verdict FilterRun::verdictOfLocalization() const {
   Verdict verdict;
-  if (!wasLocated_) verdict.reasons.push_back("the place of the robot is unknown at the end");
-  if (lostAgain_ > 0)
-    verdict.reasons.push_back("the place was lost " + std::to_string(lostAgain_) +
-                              " times: the robot was carried, or " + "the surroundings have changed");
-  verdict.level = !wasLocated_     ? Verdict::Level::lost
-                  : lostAgain_ > 0 ? Verdict::Level::doubtful
-                                   : Verdict::Level::consistent;
+  const bool isLocalized = localizer_->isLocalized();
+  const size_t losses = localizer_->losses();
+  if (!isLocalized) verdict.reasons.push_back("the place of the robot is unknown at the end");
+  if (losses > 0)
+    verdict.reasons.push_back("the place was lost " + counted(losses, "time(s)") +
+                              ": the robot was carried, or the surroundings have changed");
+  verdict.level = !isLocalized ? Verdict::Level::lost
+                  : losses > 0 ? Verdict::Level::doubtful
+                               : Verdict::Level::consistent;
   return verdict;
 }
 

@@ -60,8 +60,6 @@ void FilterRun::visit(State& state) {
                   (scans_ == 0 || recorder_.updates().back() == updates) && updateTimes_.size() == updates &&
                   particleCovariances_.size() == updates,
               "its readings do not belong to its path");
-  if constexpr (State::kIsReading)
-    if (state.isAtEnd()) return;  // a session of a version that did not replace stuck odometry
   if (stuckOdometry_) state(stuckScans_, firstStuck_, *stuckOdometry_);
   wasPlaceUnknown_ = search_ || planSearch_;
   state(wasPlaceUnknown_);

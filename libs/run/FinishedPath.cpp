@@ -62,6 +62,15 @@ FinishedPath readFinishedPath(const std::string& folder, const std::string& log,
       path.push_back(row.pose);
     updates.push_back(path.size());
   }
+  // The first of several rows of one time may not be that of the update. A few such times do no harm.
+  constexpr double kMostShared = 0.1;
+  size_t shared = 0;
+  for (size_t i = 1; i < trajectory.size(); ++i)
+    shared += updates[i - 1] > (i > 1 ? updates[i - 2] : 0) &&
+              std::abs(trajectory[i].timestamp - trajectory[i - 1].timestamp) < kSameTime;
+  if (static_cast<double>(shared) > kMostShared * static_cast<double>(times.size()))
+    throw InputError(counted(shared, "update(s) share the time of another scan"), folder + "/trajectory.tum",
+                     "expected a log whose timestamps tell its scans apart");
   if (path.empty() || path.size() < times.size())
     throw InputError("the updates are not those of the trajectory", folder + "/steps.csv",
                      "expected the files of one run");

@@ -76,6 +76,20 @@ TEST_F(FinishedRun, MetricsThatDoNotSayWhetherThePathIsRelaxed) {
   }
 }
 
+TEST_F(FinishedRun, TimesThatDoNotTellTheScansApart) {
+  test::Log coarse = test::laps(240);
+  for (const auto& object : coarse) {
+    const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+    observation->timestamp = test::stamp(std::floor(mrpt::Clock::toDouble(observation->timestamp)));
+  }
+  log = test::writeGzipped(folder.path("coarse.rawlog"), coarse);
+  const std::string results = map("hybrid");
+  EXPECT_THAT(
+      test::errorOf([&] { readFinishedPath(results, log); }),
+      testing::MatchesRegex("[0-9]+ updates share the time of another scan: .*/trajectory.tum; expected a "
+                            "log whose timestamps tell its scans apart"));
+}
+
 TEST_F(FinishedRun, FilesThatDoNotBelongTogether) {
   const std::string results = map("hybrid");
   const std::string other = test::writeGzipped(folder.path("other.rawlog"), test::laps(20));

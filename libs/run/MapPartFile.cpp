@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/DeskewedScan.h"
 #include "run/KnownMap.h"
 #include "run/SessionFile.h"
 #include "slam/filter/HybridFilter.h"
@@ -23,7 +24,16 @@ MapPartFile readMapPart(const std::string& name) {
     filter->load(in);
     in.check(filter->updates() == read.part.path.size(), "its filter does not belong to its path");
   });
-  if (filter->isMapOfUpdates()) read.part.scans = filter->updateScans();
+  if (!filter->isMapOfUpdates()) return read;
+  // Beams without a return may have the session's limit as their range: walls, with a longer limit.
+  const auto limit = static_cast<float>(read.configuration->filter.grid.maxRange);
+  for (const Scans& scans : filter->updateScans()) {
+    Scans& limited = read.part.scans.emplace_back();
+    for (const auto& scan : scans) {
+      limited.push_back(copyOf(*scan));
+      if (scan->maxRange <= 0 || scan->maxRange > limit) limited.back()->maxRange = limit;
+    }
+  }
   return read;
 }
 

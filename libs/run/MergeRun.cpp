@@ -24,14 +24,18 @@ using mrpt::math::TPose2D;
 
 /// Returns the configuration of the first map that has one; else the defaults, with the cell size of the
 /// older map.
-Configuration configurationOf(const MapPartFile& older, const MapPartFile& newer) {
+/// @throws InputError for a cell size that no run can have
+Configuration configurationOf(const MapPartFile& older, const std::string& olderName,
+                              const MapPartFile& newer) {
   Configuration configuration;
   for (const MapPartFile* file : {&newer, &older})
     if (file->configuration) configuration = *file->configuration;
   if (older.configuration && newer.configuration)
     configuration.filter.grid.maxRange =
         std::max(older.configuration->filter.grid.maxRange, newer.configuration->filter.grid.maxRange);
-  configuration.filter.grid.resolution = older.part.map.grid.resolution();
+  const double cell = older.part.map.grid.resolution();
+  Configuration().load("[grid]\nresolution = " + numberText(cell), olderName);
+  configuration.filter.grid.resolution = cell;
   return configuration;
 }
 
@@ -69,7 +73,7 @@ files::Trajectory trajectoryOf(const MapPartFile& file, const std::vector<TPose2
 MergeOutcome merge(const MergeOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const MapPartFile older = readMapPart(options.older), newer = readMapPart(options.newer);
-  Configuration configuration = configurationOf(older, newer);
+  Configuration configuration = configurationOf(older, options.older, newer);
   configuration.filter.filter.threads = options.threads;
   const MapPlacement placement = placementOf(newer.part.map, older.part.map, options.threads);
   MergeOutcome outcome;

@@ -5,9 +5,11 @@
 #include <array>
 #include <limits>
 
+#include "base/ScanState.h"
 #include "base/State.h"
 #include "slam/filter/RecentMap.h"
 #include "slam/filter/ScanOdometry.h"
+#include "slam/filter/StuckOdometry.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopCloser.h"
 #include "slam/motion/MotionBelief.h"
@@ -50,6 +52,15 @@ TEST(ImpossibleState, GridFarFromTheOrigin) {
 TEST(ImpossibleState, CellsOfNoSize) {
   EXPECT_TRUE(canBeReadBack(OccupancyGrid(0.05)));
   for (const double size : {1e-300, kInfinity}) EXPECT_FALSE(canBeReadBack(OccupancyGrid(size))) << size;
+}
+
+TEST(ImpossibleState, StuckOdometryWithoutItsScan) {
+  const auto canReadWith = [](const Scans& scans) {
+    return canRead(StuckOdometry({}, {}), false, size_t{0}, scans, TPose2D(), 0.0, 0.0, 0.0, TPose2D(),
+                   false);
+  };
+  EXPECT_TRUE(canReadWith({std::make_shared<mrpt::obs::CObservation2DRangeScan>()}));
+  EXPECT_FALSE(canReadWith({nullptr}));
 }
 
 TEST(ImpossibleState, LineThatWasSeenTooOften) {

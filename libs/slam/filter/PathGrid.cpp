@@ -19,17 +19,17 @@ const OccupancyGrid& PathGrid::of(const std::vector<TPose2D>& path, const std::v
   const auto insert = [&](OccupancyGrid& grid, size_t i) {
     grid.insert(ScanBeams(toLaserScans(scans[i], options_.maxRange)), path[i], options_);
   };
-  if (path.size() < settledPath_.size() ||
-      !std::equal(settledPath_.begin(), settledPath_.end(), path.begin())) {
+  const size_t count = std::min(path.size(), scans.size());
+  if (count < settledPath_.size() || !std::equal(settledPath_.begin(), settledPath_.end(), path.begin())) {
     settledPath_.clear();
     settled_ = OccupancyGrid(options_.resolution);
   }
-  for (size_t i = settledPath_.size(); i + kOpen < path.size(); ++i) {
+  for (size_t i = settledPath_.size(); i + kOpen < count; ++i) {
     insert(settled_, i);
     settledPath_.push_back(path[i]);
   }
   whole_ = settled_;
-  for (size_t i = settledPath_.size(); i < path.size(); ++i) insert(whole_, i);
+  for (size_t i = settledPath_.size(); i < count; ++i) insert(whole_, i);
   return whole_;
 }
 

@@ -41,5 +41,13 @@ TEST(PathGrid, EqualsTheScansInsertedAtOnce) {
   expectRight();
 }
 
+TEST(PathGrid, LeavesOutAPoseWithoutScans) {
+  const std::vector<DrivenPose> drive = ringDrive(0);
+  PathGrid whole{GridOptions()}, first{GridOptions()};
+  const std::vector<TPose2D> path{drive[0].truth, drive[30].truth};
+  const std::vector<Scans> scans{observed(drive[0].scans[0])};
+  EXPECT_TRUE(isSame(whole.of(path, scans), first.of({path[0]}, scans)));
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -31,6 +31,7 @@ class StuckOdometry {
     bool matches = scanOdometry_.has_value();
     state(isStuck_, distrusted_, lastScans_, lastMotion_, lastTime_, lastDuration_, stoodSince_, moved_,
           matches);
+    for (const auto& scan : lastScans_) state.check(scan != nullptr, "a scan is missing");
     if constexpr (State::kIsReading) {
       scanOdometry_.reset();
       if (matches) scanOdometry_.emplace(grid_, matcher_);

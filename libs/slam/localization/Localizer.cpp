@@ -106,6 +106,7 @@ void Localizer::check(const BeamShares& shares) {
     if (!global_.refutes(pose_, recent_)) return;
   }
   isTracking_ = false;
+  ++losses_;
   search(isLost);
 }
 

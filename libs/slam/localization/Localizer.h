@@ -32,6 +32,8 @@ class Localizer : public Filter {
   /// Returns whether the robot's place is known. If not, several places are possible, or none fits; the poses
   /// and their spreads then cover all of them.
   bool isLocalized() const { return isTracking_; }
+  /// Returns how often the place turned out to be wrong or was lost, also if it was found again at once.
+  size_t losses() const { return losses_; }
 
   size_t updates() const override { return path_.size(); }
   const FilterStep& lastStep() const override { return step_; }
@@ -62,6 +64,7 @@ class Localizer : public Filter {
   RecentScans recent_;
   tbb::task_arena arena_;
   bool isTracking_ = false, hasTracked_ = false;
+  size_t losses_ = 0;
   size_t unsupported_ = 0;      ///< successive scans that do not fit the map at the tracked pose
   std::deque<bool> explained_;  ///< for each of the last scans, whether the map explains it at that pose
   mrpt::math::TPose2D odometry_;

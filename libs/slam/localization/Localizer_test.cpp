@@ -116,6 +116,26 @@ TEST(Localizer, FindsACarriedRobot) {
     }
 }
 
+/// The room is symmetric except for a nook, and the robot is carried to the place opposite to its own.
+TEST(Localizer, CountsAWrongPlaceThatIsReplacedAtOnce) {
+  const Walls walls = polygon({{-3, -2.5}, {8, -2.5}, {8, 4}, {7, 4}, {7, 6}, {-3, 6}});
+  const RoomMap map = mapOf(walls);
+  Drive drive(walls, {0, 0, 0});
+  Localizer localizer(FilterConfiguration(), map.grid, map.lines, TPose2D(0, 0, 0));
+  for (int i = 0; i < 10; ++i) drive.step(localizer);
+  EXPECT_EQ(localizer.losses(), 0u);
+  const TPose2D opposite(5 - drive.at().x, 3.5 - drive.at().y, drive.at().phi + M_PI);
+  drive.carry(walls, opposite);
+  bool wasUnknown = false;
+  for (int i = 0; i < 60; ++i) {
+    drive.step(localizer);
+    wasUnknown = wasUnknown || !localizer.isLocalized();
+  }
+  EXPECT_LT(offBy(localizer.bestPath().back(), drive.at()), 0.1);
+  EXPECT_FALSE(wasUnknown) << "else this test is that of any carried robot";
+  EXPECT_EQ(localizer.losses(), 1u);
+}
+
 TEST(Localizer, ClaimsNoPlaceOutsideTheMap) {
   const RoomMap map = mapOf(room());
   const Walls elsewhere = polygon({{-1, -1}, {1, -2}, {4, 0}, {2, 5}, {-2, 2}});

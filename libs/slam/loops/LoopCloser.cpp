@@ -284,9 +284,9 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
 
   // All of the new matches must hold, and at most one of the older pairs may be false. A false loop bends the
   // path, so that scans end in free space.
-  const auto newMatches = result.loopWeights.end() - static_cast<ptrdiff_t>(candidates_.size());
-  const auto broken = std::count(result.loopWeights.begin(), result.loopWeights.end(), 0);
-  const bool holds = broken <= 1 && std::count(newMatches, result.loopWeights.end(), 0) == 0 &&
+  const auto newMatches = result.isFalse.end() - static_cast<ptrdiff_t>(candidates_.size());
+  const auto broken = std::count(result.isFalse.begin(), result.isFalse.end(), true);
+  const bool holds = broken <= 1 && std::count(newMatches, result.isFalse.end(), true) == 0 &&
                      !isMoreContradicted(revisits(visit.poses), revisits(result.poses));
   const std::vector<Candidate> candidates = std::move(candidates_);
   candidates_.clear();
@@ -301,7 +301,7 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
     closure.turn = std::max(closure.turn, angleBetween(closure.path[i], path[i]));
   }
   for (size_t i = loops_.size(); i-- > 0;)
-    if (result.loopWeights[i] == 0) {
+    if (result.isFalse[i]) {
       loops_.erase(loops_.begin() + static_cast<ptrdiff_t>(i));
       known_.erase(known_.begin() + static_cast<ptrdiff_t>(i));
     }

@@ -114,22 +114,22 @@ std::vector<TPose2D> solve(const Edges& edges, std::vector<TPose2D> poses) {
 }  // namespace
 
 OptimizedGraph optimized(const PoseGraph& graph) {
-  OptimizedGraph result{graph.poses, std::vector<double>(graph.loops.size(), 1)};
+  OptimizedGraph result{graph.poses, std::vector<bool>(graph.loops.size(), false)};
   if (graph.poses.size() < 2) return result;
   for (int solution = 0; solution < 2; ++solution) {
     Edges edges;
     for (const PoseEdge& edge : graph.motions) edges.push_back(&edge);
     for (size_t i = 0; i < graph.loops.size(); ++i)
-      if (result.loopWeights[i] > 0) edges.push_back(&graph.loops[i]);
+      if (!result.isFalse[i]) edges.push_back(&graph.loops[i]);
     result.poses = solve(edges, graph.poses);
     size_t worst = graph.loops.size();
     double highest = kFalseResidual;
     for (size_t i = 0; i < graph.loops.size(); ++i) {
-      const double chi2 = result.loopWeights[i] * chi2Of(graph.loops[i], result.poses);
-      if (chi2 > highest) highest = chi2, worst = i;
+      const double chi2 = chi2Of(graph.loops[i], result.poses);
+      if (!result.isFalse[i] && chi2 > highest) highest = chi2, worst = i;
     }
     if (worst == graph.loops.size()) break;
-    result.loopWeights[worst] = 0;
+    result.isFalse[worst] = true;
   }
   return result;
 }

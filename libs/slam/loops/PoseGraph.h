@@ -39,7 +39,7 @@ struct PoseGraph {
 /// The most likely poses, and the loops that they agree with.
 struct OptimizedGraph {
   std::vector<mrpt::math::TPose2D> poses;
-  std::vector<double> loopWeights;  ///< of each loop edge: 0 if it is false, else 1; two of 0: no solution
+  std::vector<bool> isFalse;  ///< of each loop edge; two false ones: no solution
 };
 
 /// Solves for least squares by Gauss-Newton with a sparse Cholesky factorisation. (mrpt::graphslam 2.5.8
