@@ -9,7 +9,7 @@ outliers a tenth of the beams end at a random distance before the wall
 coarse   one beam of four has a return
 narrow   only the middle half of the beams has a return
 sparse   a scan every 1 m or 30 deg; the odometry of the other scans is kept
-people   twelve people walk around the robot, within 5 m
+people   PEOPLE=12 people walk around the robot, within 5 m
 
 OUT defaults to out/other-sensors. Runs the default command with SEEDS=3 seeds from FIRST_SEED=1 on, JOBS at a time (all
 cores). Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 25 minutes on one core.
@@ -26,10 +26,11 @@ import sys
 from crowd import Crowd
 from public_logs import BOUNDS, NAMES, error, rows, run
 
+PEOPLE = int(os.environ.get("PEOPLE", 12))
 NONE = 81.91  # m; beyond any range of these logs: no return
 KINDS = {
     "short": "5.6 m", "noise": "noise of 3 cm", "outliers": "a tenth of the beams wrong", "coarse": "every fourth beam",
-    "narrow": "half the view", "sparse": "a scan per metre", "people": "12 people"}
+    "narrow": "half the view", "sparse": "a scan per metre", "people": f"{PEOPLE} people"}
 
 
 def changed(kind, ranges, draw):
@@ -54,7 +55,7 @@ def is_due(pose, last):
 
 def write(file, odometry_file, log, kind):
     draw, last = random.Random(1), None
-    crowd = Crowd(12 if kind == "people" else 0, draw)
+    crowd = Crowd(PEOPLE if kind == "people" else 0, draw)
     with gzip.open(file, "wt") as out, open(odometry_file, "w") as odometry:
         for fields, at, time in rows(log):
             pose = tuple(map(float, fields[at:at + 3]))

@@ -17,11 +17,17 @@ Progress::Progress(size_t total, bool isQuiet)
       start_(Clock::now()),
       last_(start_) {}
 
+void Progress::beginAt(size_t done) {
+  first_ = std::min(done, total_);
+  timeLeft_ = TimeLeft(total_ - first_);
+  start_ = Clock::now();
+}
+
 void Progress::update(size_t done, const std::string& note) {
   if (isQuiet_) return;
   const auto now = Clock::now();
   const std::chrono::duration<double> sinceLast = now - last_, elapsed = now - start_;
-  const std::optional<double> seconds = timeLeft_.after(done, elapsed.count());
+  const std::optional<double> seconds = timeLeft_.after(done - first_, elapsed.count());
   if (sinceLast.count() < (isTerminal_ ? 0.2 : 10) && (done < total_ || !isTerminal_)) return;
   last_ = now;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));

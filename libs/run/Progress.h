@@ -18,6 +18,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Begins where an earlier run ended; the time left is that of the others.
+  void beginAt(size_t done);
   /// @param done  of `total`; @param note  shown next to it, such as the particles' spread
   void update(size_t done, const std::string& note);
   /// Writes a separate line, also if quiet.
@@ -27,7 +29,7 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  size_t total_;
+  size_t total_, first_ = 0;
   TimeLeft timeLeft_;
   bool isQuiet_, isTerminal_, hasBar_ = false;
   Clock::time_point start_, last_;

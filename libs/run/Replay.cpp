@@ -80,6 +80,7 @@ class LogPass {
     if (session) {
       run.resume(*session);
       run.passOver(source, file);
+      progress_.beginAt(run.scans());
     }
     try {
       while (const auto reading = stop ? std::nullopt : nextReading())
