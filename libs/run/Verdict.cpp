@@ -140,14 +140,6 @@ std::string Verdict::line() const {
   return line;
 }
 
-Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent) {
-  Evidence evidence;
-  evidence.returning = returning.revisits();
-  evidence.recent = recent.revisits();
-  evidence.beams = recent.meanBeams();
-  return evidence;
-}
-
 Verdict verdictOf(const Evidence& evidence) {
   const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
   const Verdict strict = byScans(evidence.returning, evidence.recent, jumps);

@@ -53,9 +53,6 @@ struct Evidence {
 /// Share of the scans that may contradict the map that a run continues: buildings change between runs.
 constexpr double kMostAgainstEarlierMap = 0.3;
 
-/// The evidence of the same scans compared with both maps.
-Evidence evidenceOf(const RevisitCheck& returning, const RevisitCheck& recent);
-
 /// The rules and thresholds of doc/verdict.md.
 Verdict verdictOf(const Evidence& evidence);
 

@@ -28,21 +28,27 @@ OccupancyGrid toCompare(const OccupancyGrid& map) {
   return map.resolution() <= kCell ? resampled(map, {}, kCell) : OccupancyGrid(kCell);
 }
 
+void ScanComparisons::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
+  returning_.add(pose, beams, distance, update);
+  recent_.add(pose, beams, distance, update);
+  if (earlier_) earlier_->add(pose, beams, distance, update);
+}
+
+Evidence ScanComparisons::evidence() const {
+  Evidence evidence;
+  evidence.returning = returning_.revisits();
+  evidence.recent = recent_.revisits();
+  evidence.beams = recent_.meanBeams();
+  if (earlier_) evidence.earlier = earlier_->revisits();
+  return evidence;
+}
+
 void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
   const size_t update = updates_++;
   if (last_) distance_ += distanceBetween(*last_, pose);
   last_ = pose;
   if (!steps_.isDue(pose)) return;
-  const ScanBeams beams = beamsToCompare(scans, maxRange_);
-  returning_.add(pose, beams, distance_, update);
-  recent_.add(pose, beams, distance_, update);
-  if (earlier_) earlier_->add(pose, beams, distance_, update);
-}
-
-Evidence VerdictCheck::evidence() const {
-  Evidence evidence = evidenceOf(returning_, recent_);
-  if (earlier_) evidence.earlier = earlier_->revisits();
-  return evidence;
+  comparisons_.add(pose, beamsToCompare(scans, maxRange_), distance_, update);
 }
 
 void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) {
@@ -56,9 +62,8 @@ void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) 
 }
 
 Evidence ComparedScans::evidence(const std::vector<TPose2D>& path, const OccupancyGrid* earlier) const {
-  RevisitCheck returning(RevisitCheck::kReturn), recent(kRecent);
-  std::optional<RevisitCheck> before;
-  if (earlier) before.emplace(*earlier);
+  ScanComparisons comparisons;
+  if (earlier) comparisons.compareWith(*earlier);
   double distance = 0;
   size_t reached = 0;
   for (const auto& scan : scans_) {
@@ -67,13 +72,9 @@ Evidence ComparedScans::evidence(const std::vector<TPose2D>& path, const Occupan
     beams.origins = scan->origins;
     for (const Beam& beam : scan->beams)
       beams.rays.push_back({std::cos(beam.direction), std::sin(beam.direction), beam.range, beam.laser});
-    returning.add(path[scan->update], beams, distance, scan->update);
-    recent.add(path[scan->update], beams, distance, scan->update);
-    if (before) before->add(path[scan->update], beams, distance, scan->update);
+    comparisons.add(path[scan->update], beams, distance, scan->update);
   }
-  Evidence evidence = evidenceOf(returning, recent);
-  if (before) evidence.earlier = before->revisits();
-  return evidence;
+  return comparisons.evidence();
 }
 
 void RunningVerdict::add(const FilterView& view, const Scans& scans) {

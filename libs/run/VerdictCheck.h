@@ -30,23 +30,36 @@ class ComparisonSteps {
 /// so that nothing is compared with it.
 OccupancyGrid toCompare(const OccupancyGrid& map);
 
+/// Compares the scans of a path with the maps of the scans before them, and with that of an earlier run.
+class ScanComparisons {
+ public:
+  /// @param earlier  as `toCompare` makes it
+  void compareWith(const OccupancyGrid& earlier) { earlier_.emplace(earlier); }
+  /// @param distance  m, along the path
+  void add(const mrpt::math::TPose2D& pose, const ScanBeams& beams, double distance, size_t update);
+  Evidence evidence() const;
+
+ private:
+  RevisitCheck returning_{RevisitCheck::kReturn}, recent_{kRecent};
+  std::optional<RevisitCheck> earlier_;
+};
+
 /// Collects the evidence of the scans along the final path.
 class VerdictCheck {
  public:
   /// @param maxRange  m, of the beams that the map uses
   /// @param earlier   map that the run continues, or null
   explicit VerdictCheck(double maxRange, const OccupancyGrid* earlier = nullptr) : maxRange_(maxRange) {
-    if (earlier) earlier_.emplace(toCompare(*earlier));
+    if (earlier) comparisons_.compareWith(toCompare(*earlier));
   }
 
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
-  Evidence evidence() const;
+  Evidence evidence() const { return comparisons_.evidence(); }
 
  private:
   double maxRange_;
-  RevisitCheck returning_{RevisitCheck::kReturn}, recent_{kRecent};
-  std::optional<RevisitCheck> earlier_;
+  ScanComparisons comparisons_;
   ComparisonSteps steps_;
   std::optional<mrpt::math::TPose2D> last_;
   double distance_ = 0;
