@@ -288,7 +288,7 @@ constexpr ObjectLayout kLayouts[] = {
     {"CMatrixF", Kind::matrixF, 1, matrixF},
     {"CMatrixD", Kind::matrixD, 1, matrixD},
     {"CObservationIMU", Kind::observation, 5, imu},
-    {"CObservationComment", Kind::observation, 1, comment},
+    {"CObservationComment", Kind::observation, 2, comment},
     {"CObservationBatteryState", Kind::observation, 3, battery},
     {"CObservationRange", Kind::observation, 5, range},
     {"CObservationRobotPose", Kind::observation, 2, robotPose},

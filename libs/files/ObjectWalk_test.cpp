@@ -176,6 +176,18 @@ std::string walked(const std::string& bytes, size_t* length = nullptr) {
   }
 }
 
+/// MRPT 2.5.8 writes version 0, MRPT 2.14 version 1, which ends with a label.
+TEST(ObjectWalk, ReadsCommentsOfBothVersions) {
+  const auto number = [](uint32_t n) { return std::string(reinterpret_cast<const char*>(&n), sizeof n); };
+  const auto comment = [&](char version) {
+    const std::string name = "mrpt::obs::CObservationComment";
+    return static_cast<char>(0x80 | name.size()) + name + version + number(2) + "hi" + std::string(8, '\1') +
+           (version == 0 ? "" : number(5) + "LASER") + static_cast<char>(0x88);
+  };
+  for (const char version : {'\0', '\1'}) EXPECT_EQ(walked(comment(version)), "") << int{version};
+  EXPECT_EQ(walked(comment(2)), "mrpt::obs::CObservationComment of unknown version 2");
+}
+
 TEST(ObjectWalk, AcceptsWhatMrptWritesToTheLastByte) {
   Objects objects(1);
   for (int i = 0; i < 2000; ++i) {

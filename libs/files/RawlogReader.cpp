@@ -27,9 +27,11 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     isAtEnd_ = !stream_->bytes().has(1) && stream_->damage().empty();
     if (isAtEnd_ && entry_ == 0) throw InputError("empty file", file_, kExpected);
     if (isAtEnd_) break;
+    bool isKnown = false;
     try {
       ObjectWalk walk(stream_->bytes(), true);
       walk.entry();
+      isKnown = true;
       const std::string_view bytes = walk.rest();
       const auto object = bytes.empty() ? nullptr : buildObject(bytes);
       stream_->bytes().drop(walk.at());
@@ -38,6 +40,9 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
       if (object) return object;  // otherwise an empty entry, or one that is passed over
     } catch (const std::exception& e) {
       if (isOutOfMemory(e)) throw std::bad_alloc();
+      if (entry_ == 0 && isKnown)  // as a comment of MRPT 2.14, for MRPT 2.5
+        throw InputError("unreadable object (" + messageOf(e) + ")", file_,
+                         "expected a rawlog of this version of MRPT or an earlier one");
       if (entry_ == 0) throw InputError("not a log", file_, kExpected);
       const bool isCut = dynamic_cast<const ObjectCut*>(&e) != nullptr;
       defect_ = !isCut                       ? "unreadable object (" + messageOf(e) + ")"

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "base/Errors.h"
+#include "base/MrptVersion.h"
 #include "base/RandomStream.h"
 #include "files/TemporaryFolder.h"
 #include "testing/TestLogs.h"
@@ -21,6 +22,7 @@ namespace {
 using test::Log;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::MatchesRegex;
 
 struct Read {
   size_t entries = 0;
@@ -220,6 +222,20 @@ TEST(RawlogReader, AnUnknownVersionIsADefectThatNamesClassAndVersion) {
   newer[1 + std::string("mrpt::obs::CObservation2DRangeScan").size()] = 77;
   EXPECT_THAT(readAll(folder.write("log", scan + newer)).defect,
               HasSubstr("CObservation2DRangeScan of unknown version 77"));
+}
+
+TEST(RawlogReader, AFirstObjectOfANewerMrptIsAnErrorThatSaysSo) {
+  const TemporaryFolder folder;
+  const std::string name = "mrpt::obs::CObservationComment";
+  const std::string log = static_cast<char>(0x80 | name.size()) + name + '\1' + std::string(4, '\0') +
+                          std::string(8, '\1') + std::string(4, '\0') + static_cast<char>(0x88);
+  const Read read = readAll(folder.write("log", log));
+  if (MRPT_VERSION >= 0x20e00)
+    EXPECT_EQ(read, (Read{1, "", ""}));
+  else
+    EXPECT_THAT(read.error,
+                MatchesRegex("unreadable object \\(.*CObservationComment.*\\): .*/log; expected a "
+                             "rawlog of this version of MRPT or an earlier one"));
 }
 
 TEST(RawlogReader, AFileThatIsNotALogIsAnError) {
