@@ -12,7 +12,7 @@ sparse   a scan every 1 m or 30 deg; the odometry of the other scans is kept
 people   PEOPLE=12 people walk around the robot, within 5 m
 
 OUT defaults to out/other-sensors. Runs the default command with SEEDS=3 seeds from FIRST_SEED=1 on, JOBS at a time (all
-cores). Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 25 minutes on one core.
+cores). Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 40 minutes on one core.
 """
 import concurrent.futures
 import gzip
@@ -73,11 +73,12 @@ def write(file, odometry_file, log, kind):
 
 def cell(out, log, kind):
     first = int(os.environ.get("FIRST_SEED", 1))
-    file, odometry = out / f"{log}-{kind}.clf.gz", out / f"{log}-{kind}.odometry"
+    name = f"{log}-{kind}{PEOPLE if kind == 'people' else ''}"
+    file, odometry = out / f"{name}.clf.gz", out / f"{name}.odometry"
     write(file, odometry, log, kind)
     errors, verdicts = [], []
     for seed in range(first, first + int(os.environ.get("SEEDS", 3))):
-        folder = out / f"{log}-{kind}-{seed}"
+        folder = out / f"{name}-{seed}"
         verdicts.append(run(file, folder, seed)["verdict"])
         errors.append(error(log, folder, odometry=odometry))
     wrong = [verdict for verdict, e in zip(verdicts, errors) if e >= BOUNDS[log]]

@@ -247,9 +247,7 @@ void FilterRun::record(double timestamp, Clock::time_point stepStart) {
     ++loops_;
     notes_.push_back(loopNote(*step.loop, updateTimes_, false));
   }
-  if (localizer_) {
-    located_ += localizer_->isLocalized();
-  }
+  if (localizer_) located_ += localizer_->isLocalized();
   writeStep(steps_, timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
     writeParticles(*particles_, timestamp, step);

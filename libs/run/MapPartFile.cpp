@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "base/DeskewedScan.h"
 #include "run/KnownMap.h"
 #include "run/SessionFile.h"
 #include "slam/filter/HybridFilter.h"
@@ -25,15 +24,12 @@ MapPartFile readMapPart(const std::string& name) {
     in.check(filter->updates() == read.part.path.size(), "its filter does not belong to its path");
   });
   if (!filter->isMapOfUpdates()) return read;
+  read.part.scans = filter->updateScans();
   // Beams without a return may have the session's limit as their range: walls, with a longer limit.
   const auto limit = static_cast<float>(read.configuration->filter.grid.maxRange);
-  for (const Scans& scans : filter->updateScans()) {
-    Scans& limited = read.part.scans.emplace_back();
-    for (const auto& scan : scans) {
-      limited.push_back(copyOf(*scan));
-      if (scan->maxRange <= 0 || scan->maxRange > limit) limited.back()->maxRange = limit;
-    }
-  }
+  for (const Scans& scans : read.part.scans)
+    for (const auto& scan : scans)
+      if (scan->maxRange <= 0 || scan->maxRange > limit) scan->maxRange = limit;
   return read;
 }
 

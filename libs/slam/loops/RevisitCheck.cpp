@@ -66,12 +66,14 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   const GridPose frame(pose, beams, kResolution);
   TileReader cells(grid_.tiles());
   Revisit revisit{pose, update, distance};
-  const std::vector<bool> isNarrow = endsAtNarrowThing(beams);
+  std::vector<bool> isNarrow;  // most scans of a right map need none
   for (size_t i = 0; i < beams.rays.size(); ++i) {
     const Finding finding = compare(beams.rays[i], frame, cells);
     revisit.compared += finding != Finding::unknown;
     revisit.contradicted += finding == Finding::crossesWall || finding == Finding::endsInFreeSpace;
-    revisit.narrow += finding == Finding::endsInFreeSpace && isNarrow[i];
+    if (finding != Finding::endsInFreeSpace) continue;
+    if (isNarrow.empty()) isNarrow = endsAtNarrowThing(beams);
+    revisit.narrow += isNarrow[i];
   }
   if (revisit.compared >= Revisit::kFewest &&
       static_cast<double>(revisit.compared) >= kFewestShare * static_cast<double>(beams.rays.size()))
