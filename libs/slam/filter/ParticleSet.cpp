@@ -42,6 +42,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       database_(c.databaseOptions()),
       features_(c.features),
       profiler_(profiler),
+      prepare_(c),
       gridWeight_(c.gridWeight, c.grid.resolution),
       lineMapWeight_(c.lineMap, c.grid.maxRange),
       terms_(c),
@@ -150,9 +151,15 @@ void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedS
   summarise(odometry);
 }
 
-// The paper's [5]: sample around a scan match instead.
-void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& scan) {
-  const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, scan);
+// The paper's [5]: sample around a scan match instead. People are left out by the odometry first, then by the
+// match, which is where the robot is.
+void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& observed) {
+  const TPose2D last = best().path.back();
+  const auto stillAt = [&](const TPose2D& motion) {
+    return prepare_.withoutMovedThings(observed, last + motion, best().grid);
+  };
+  const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, stillAt(odometry));
+  const PreparedScan scan = stillAt(motions[0].start);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
     const StepMotion& motion = motions[i % motions.size()];

@@ -90,7 +90,7 @@ class ParticleSet : public MrptParticles {
     double log(double exponent) const { return exponent * logGrid + terms.log(); }
   };
   void sampleFromMotionModel(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
-  void sampleAroundMatches(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
+  void sampleAroundMatches(const mrpt::math::TPose2D& odometry, const PreparedScan& observed);
   void sampleByMrpt(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose, const PreparedScan& scan) const;
   void setWeight(Particle& particle, const Weight& weight) const;
@@ -112,6 +112,7 @@ class ParticleSet : public MrptParticles {
   LineDatabaseOptions database_;
   FeatureOptions features_;
   mrpt::system::CTimeLogger* profiler_;
+  ScanPreparation prepare_;
   GridWeight gridWeight_;
   LineMapWeight lineMapWeight_;
   WeightTerms terms_;

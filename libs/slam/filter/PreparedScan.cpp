@@ -1,7 +1,10 @@
 #include "slam/filter/PreparedScan.h"
 
+#include <algorithm>
+
 #include "slam/features/FeatureDetection.h"
 #include "slam/grid/BeamSelection.h"
+#include "slam/grid/NarrowThings.h"
 
 namespace hybrid_slam {
 
@@ -22,6 +25,17 @@ PreparedScan ScanPreparation::operator()(const Scans& observed) const {
           ScanBeams(scans, selection.take(matchedBeams_)),
           lines(scans),
           features(scans)};
+}
+
+PreparedScan ScanPreparation::withoutMovedThings(PreparedScan scan, const mrpt::math::TPose2D& robot,
+                                                 const OccupancyGrid& grid) const {
+  const std::vector<bool> moved = endsAtMovedThing(scan.beams, robot, grid);
+  if (std::find(moved.begin(), moved.end(), true) == moved.end()) return scan;
+  const LaserScans still = without(scan.scans, moved);
+  const BeamSelection selection(still);
+  scan.weighedBeams = ScanBeams(still, selection.take(weighedBeams_));
+  scan.matchedBeams = ScanBeams(still, selection.take(matchedBeams_));
+  return scan;
 }
 
 std::vector<LineSegment> ScanPreparation::lines(const LaserScans& scans) const {

@@ -7,6 +7,7 @@
 #include "base/LaserScan.h"
 #include "slam/features/PointFeature.h"
 #include "slam/filter/FilterOptions.h"
+#include "slam/grid/OccupancyGrid.h"
 #include "slam/grid/ScanBeams.h"
 #include "slam/lines/LineSegment.h"
 
@@ -29,6 +30,10 @@ class ScanPreparation {
  public:
   explicit ScanPreparation(const FilterConfiguration& configuration);
   PreparedScan operator()(const Scans& observed) const;
+  /// Returns the scan with other beams to weigh and to match, none of them at a thing that has moved.
+  /// @param robot  where it was taken, map frame
+  PreparedScan withoutMovedThings(PreparedScan scan, const mrpt::math::TPose2D& robot,
+                                  const OccupancyGrid& grid) const;
   /// Extracts only the lines, robot frame; empty if lines are off.
   std::vector<LineSegment> lines(const LaserScans& scans) const;
   /// Extracts only the features, as in PreparedScan.

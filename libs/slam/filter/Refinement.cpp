@@ -5,6 +5,7 @@
 
 #include "slam/filter/Threads.h"
 #include "slam/grid/BeamSelection.h"
+#include "slam/grid/NarrowThings.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/loops/LoopCloser.h"
 
@@ -100,7 +101,8 @@ void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
     const OccupancyGrid map = gridOf(scans, grid, base);
     std::vector<std::optional<TPose2D>> elsewhere(scans.size());
     parallelFor(arena, 0, scans.size(), [&](size_t i) {
-      const LaserScans seen = toLaserScans(scans[i].scans, grid.maxRange);
+      const LaserScans all = toLaserScans(scans[i].scans, grid.maxRange);
+      const LaserScans seen = without(all, endsAtMovedThing(ScanBeams(all), scans[i].pose, map));
       const ScanBeams beams(seen, BeamSelection(seen).take(matcher.beams));
       ScanLikelihood likelihood = scanMatcher.likelihood(beams, map);
       const auto matchFrom = [&](const TPose2D& start) {

@@ -7,7 +7,7 @@
 #include "base/PoseDistance.h"
 #include "slam/grid/RaySamples.h"
 #include "slam/grid/ScanBeams.h"
-#include "slam/loops/NarrowThings.h"
+#include "slam/grid/NarrowThings.h"
 
 namespace hybrid_slam {
 

@@ -1,4 +1,4 @@
-#include "slam/loops/NarrowThings.h"
+#include "slam/grid/NarrowThings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slam/loops/NarrowThings.h"
+#include "slam/grid/NarrowThings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 namespace hybrid_slam {
 
 using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
 using Ray = ScanBeams::Ray;
 
 namespace {
@@ -13,6 +14,9 @@ namespace {
 constexpr double kWidth = 0.5;  // m
 constexpr double kGap = 0.3;    // m, between successive end points of one thing
 constexpr double kSteps = 2;    // the same, in distances of two beams
+
+constexpr double kAround = 0.1;  // m, of an end point
+constexpr double kSeenThrough = 0.4;  // occupancy
 
 /// Sine of the angle between successive beams of a laser, the median.
 double angularStep(const std::vector<Ray>& rays) {
@@ -50,6 +54,33 @@ std::vector<bool> endsAtNarrowThing(const ScanBeams& beams) {
                 isNarrow.begin() + static_cast<std::ptrdiff_t>(end), true);
   }
   return isNarrow;
+}
+
+std::vector<bool> endsAtMovedThing(const ScanBeams& beams, const TPose2D& robot, const OccupancyGrid& grid) {
+  std::vector<bool> isMoved = endsAtNarrowThing(beams);
+  const GridPose frame(robot, beams, grid.resolution());
+  const int near = std::max(1, static_cast<int>(std::lround(kAround / grid.resolution())));
+  const double free = OccupancyGrid::valueOf(kSeenThrough);
+  TileReader cells(grid.tiles());
+  const auto endsInFreeSpace = [&](const Ray& ray) {
+    const double range = ray.range / grid.resolution();
+    const int x = static_cast<int>(std::floor(frame.origin(ray).x + range * frame.dirX(ray)));
+    const int y = static_cast<int>(std::floor(frame.origin(ray).y + range * frame.dirY(ray)));
+    for (int j = -near; j <= near; ++j)
+      for (int i = -near; i <= near; ++i)
+        if (cells.at(x + i, y + j) > free) return false;
+    return true;
+  };
+  for (size_t i = 0; i < isMoved.size(); ++i) isMoved[i] = isMoved[i] && endsInFreeSpace(beams.rays[i]);
+  return isMoved;
+}
+
+LaserScans without(LaserScans scans, const std::vector<bool>& beams) {
+  auto isLeftOut = beams.begin();
+  for (LaserScan& scan : scans)
+    for (Beam& beam : scan.beams)
+      if (beam.valid) beam.valid = !*isLeftOut++;
+  return scans;
 }
 
 }  // namespace hybrid_slam
