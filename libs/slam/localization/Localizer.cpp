@@ -43,7 +43,7 @@ Localizer::Localizer(FilterConfiguration configuration, OccupancyGrid grid, Line
       prepare_(configuration),
       particles_(configuration, &profiler()),
       global_(configuration.gridWeight, configuration.matcher, grid_, lines_),
-      recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit),
+      recent_(configuration),
       arena_(arenaThreads(configuration.filter.threads)) {}
 
 void Localizer::process(const TPose2D& odometry, const Scans& scans) {
@@ -86,7 +86,7 @@ void Localizer::track(const PreparedScan& scan, bool isRemembered) {
   particles_.resampleIfDue();
   step_ = particles_.lastStep();
   pose_ = particles_.best().path.back();
-  if (isRemembered) check(beamShares(scan.matchedBeams, pose_, grid_));
+  if (isRemembered) check(beamShares(recent_.scans().back().scan.matchedBeams, pose_, grid_));
 }
 
 // Comparing the places detects a robot that was carried to a similar one.

@@ -113,8 +113,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
       walls_(std::move(walls)),
       start_(start),
       prepare_(configuration),
-      recent_(configuration.grid, configuration.motion, configuration.matcher, configuration.improved.minFit,
-              kSearchedScans),
+      recent_(configuration, kSearchedScans),
       arena_(arenaThreads(configuration.filter.threads)) {
   const auto isLong = [](const PlanLine& wall) { return (wall.end - wall.start).norm() >= kLeastLength; };
   if (std::none_of(walls_.begin(), walls_.end(), isLong))

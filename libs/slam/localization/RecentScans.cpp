@@ -17,9 +17,13 @@ constexpr size_t kStride = 2;
 
 }  // namespace
 
-RecentScans::RecentScans(const GridOptions& grid, const MotionModelOptions& motion,
-                         const ScanMatcherOptions& matcher, double minFit, size_t most)
-    : grid_(decisive(grid)), motion_(motion), minFit_(minFit), most_(most), matcher_(matcher) {}
+RecentScans::RecentScans(const FilterConfiguration& configuration, size_t most)
+    : prepare_(configuration),
+      grid_(decisive(configuration.grid)),
+      motion_(configuration.motion),
+      minFit_(configuration.improved.minFit),
+      most_(most),
+      matcher_(configuration.matcher) {}
 
 bool RecentScans::add(const TPose2D& odometry, const PreparedScan& scan) {
   since_ = since_ + odometry;
@@ -27,7 +31,10 @@ bool RecentScans::add(const TPose2D& odometry, const PreparedScan& scan) {
     scans_.push_back({{}, scan});
   } else {
     if (since_.norm() < kSpacing && std::abs(since_.phi) < kSpacingAngle) return false;
-    scans_.push_back({matched(scans_.back().pose + since_, scan), scan});
+    const OccupancyGrid local = localMap();
+    const TPose2D expected = scans_.back().pose + since_;
+    const TPose2D pose = matched(expected, prepare_.withoutMovedThings(scan, expected, local), local);
+    scans_.push_back({pose, prepare_.withoutMovedThings(scan, pose, local)});
   }
   if (scans_.size() > most_) scans_.pop_front();
   since_ = {};
@@ -38,10 +45,15 @@ void RecentScans::keep(size_t count) {
   while (scans_.size() > count) scans_.pop_front();
 }
 
-TPose2D RecentScans::matched(const TPose2D& expected, const PreparedScan& scan) const {
+OccupancyGrid RecentScans::localMap() const {
   OccupancyGrid local(grid_.resolution);
   for (size_t i = scans_.size() - std::min(kLocal, scans_.size()); i < scans_.size(); ++i)
     local.insert(scans_[i].scan.beams, scans_[i].pose, grid_);
+  return local;
+}
+
+TPose2D RecentScans::matched(const TPose2D& expected, const PreparedScan& scan,
+                             const OccupancyGrid& local) const {
   const MotionDistribution motion = motionDistribution(scans_.back().pose, since_, motion_);
   Eigen::Matrix3d covariance = motion.covariance;
   covariance.diagonal().array() += 1e-8;

@@ -13,19 +13,17 @@ namespace hybrid_slam {
 /// A scan and where it was taken.
 struct RecentScan {
   mrpt::math::TPose2D pose;  ///< odometry, corrected by scan matching; frame of the oldest scan ever added
-  PreparedScan scan;
+  PreparedScan scan;         ///< without the people who stand where the scans before saw free space
 };
 
 /// The last scans at least 0.5 m or 20 deg apart, oldest first.
 ///
 /// Each is matched to a local map of the few previous scans, so that odometry errors in turns do not distort
-/// the window.
+/// the window. That map also shows which things move, wherever the robot is.
 class RecentScans {
  public:
-  /// @param minFit  of a match in [0, 1], else the odometry is kept
-  /// @param most    remembers at most this number of scans
-  RecentScans(const GridOptions& grid, const MotionModelOptions& motion, const ScanMatcherOptions& matcher,
-              double minFit, size_t most = 40);
+  /// @param most  remembers at most this number of scans
+  explicit RecentScans(const FilterConfiguration& configuration, size_t most = 40);
 
   /// @param odometry  since the previous call (m, rad)
   /// @return whether the scan was far enough from the last one to be added
@@ -47,9 +45,12 @@ class RecentScans {
   std::vector<mrpt::math::TPoint2D> endPoints() const;
 
  private:
-  mrpt::math::TPose2D matched(const mrpt::math::TPose2D& expected, const PreparedScan& scan) const;
+  mrpt::math::TPose2D matched(const mrpt::math::TPose2D& expected, const PreparedScan& scan,
+                              const OccupancyGrid& local) const;
+  OccupancyGrid localMap() const;
   std::vector<size_t> spread() const;
 
+  ScanPreparation prepare_;
   GridOptions grid_;
   MotionModelOptions motion_;
   double minFit_;

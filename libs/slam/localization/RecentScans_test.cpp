@@ -13,7 +13,7 @@ using namespace test;
 /// Drives a circle in the room; in each step, the odometry's turn is too small by `error`.
 struct Driven {
   explicit Driven(int steps, double error = 0)
-      : recent(GridOptions(), MotionModelOptions(), ScanMatcherOptions(), ImprovedProposalOptions().minFit) {
+      : recent(FilterConfiguration()) {
     RandomStream random(1, 0, 0);
     TPose2D robot(1, 0, 0);
     const TPose2D motion(0.3, 0, 15 * kDegree);
