@@ -9,10 +9,10 @@ outliers a tenth of the beams end at a random distance before the wall
 coarse   one beam of four has a return
 narrow   only the middle half of the beams has a return
 sparse   a scan every 1 m or 30 deg; the odometry of the other scans is kept
-people   PEOPLE=12 people walk around the robot, within 5 m
+people   PEOPLE=30 people walk around the robot, within 5 m
 
 OUT defaults to out/other-sensors. Runs the default command with SEEDS=3 seeds from FIRST_SEED=1 on, JOBS at a time (all
-cores). Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 40 minutes on one core.
+cores). LOGS and KINDS select some. Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 40 minutes on one core.
 """
 import concurrent.futures
 import gzip
@@ -26,7 +26,7 @@ import sys
 from crowd import Crowd
 from public_logs import BOUNDS, NAMES, error, rows, run
 
-PEOPLE = int(os.environ.get("PEOPLE", 12))
+PEOPLE = int(os.environ.get("PEOPLE", 30))
 NONE = 81.91  # m; beyond any range of these logs: no return
 KINDS = {
     "short": "5.6 m", "noise": "noise of 3 cm", "outliers": "a tenth of the beams wrong", "coarse": "every fourth beam",
@@ -94,11 +94,13 @@ def cell(out, log, kind):
 def main():
     out = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "out/other-sensors")
     out.mkdir(parents=True, exist_ok=True)
-    print("| log | " + " | ".join(KINDS.values()) + " |\n" + "|---" * (len(KINDS) + 1) + "|")
+    logs = os.environ.get("LOGS", " ".join(NAMES)).split()
+    kinds = os.environ.get("KINDS", " ".join(KINDS)).split()
+    print("| log | " + " | ".join(KINDS[kind] for kind in kinds) + " |\n" + "|---" * (len(kinds) + 1) + "|")
     with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
-        cells = {(log, kind): pool.submit(cell, out, log, kind) for log in NAMES for kind in KINDS}
-        for log, name in NAMES.items():
-            print(f"| {name} | " + " | ".join(cells[log, kind].result() for kind in KINDS) + " |", flush=True)
+        cells = {(log, kind): pool.submit(cell, out, log, kind) for log in logs for kind in kinds}
+        for log in logs:
+            print(f"| {NAMES[log]} | " + " | ".join(cells[log, kind].result() for kind in kinds) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 
 DATA = pathlib.Path(os.environ["HYBRID_SLAM_DATASETS"])
-BIN = pathlib.Path("build/release/bin")
+BIN = pathlib.Path(os.environ.get("BIN", "build/release/bin"))
 NAMES = {"intel-lab": "Intel", "csail": "MIT CSAIL", "fr079": "Freiburg 079", "mit-killian": "MIT Killian Court"}
 BOUNDS = {"intel-lab": 0.1, "csail": 0.1, "fr079": 0.1, "mit-killian": 0.3}  # m; a run below is right
 

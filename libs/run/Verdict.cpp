@@ -45,8 +45,7 @@ std::vector<Stretch> stretchesOf(const std::vector<Revisit>& revisits) {
   return stretches;
 }
 
-/// Successive compared scans with most of their beams contradicted. Narrow things count: the path may jump
-/// among people, who are rarely most of what a scan sees.
+/// Successive compared scans with most of their beams contradicted.
 std::vector<Stretch> jumpsOf(const std::vector<Revisit>& recent) {
   std::vector<Stretch> jumps(1);
   for (const Revisit& revisit : recent) {
@@ -88,8 +87,7 @@ void add(Verdict& verdict, Level level, const std::string& reason) {
 }
 
 /// Judges a path by its scans alone.
-Verdict byScans(const std::vector<Revisit>& returning, const std::vector<Revisit>& recent,
-                const std::vector<DoubtfulPlace>& jumps) {
+Verdict byScans(const std::vector<Revisit>& returning, const std::vector<Revisit>& recent) {
   Verdict verdict;
   const auto contradict = [&verdict](Level level, const std::string& reason) {
     verdict.isContradicted = true;
@@ -111,6 +109,7 @@ Verdict byScans(const std::vector<Revisit>& returning, const std::vector<Revisit
   if (!verdict.places.empty() && verdict.places[0].length > kLongPlace)
     contradict(Level::doubtful,
                "walls are doubled along " + fixedText(verdict.places[0].length, 0) + " m of path");
+  const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(recent), kJumpScans);
   if (!jumps.empty())
     contradict(Level::doubtful, "the path may have jumped at " + text(jumps[0].at) +
                                     ": successive scans contradict what was mapped just before");
@@ -141,10 +140,8 @@ std::string Verdict::line() const {
 }
 
 Verdict verdictOf(const Evidence& evidence) {
-  const std::vector<DoubtfulPlace> jumps = placesOf(jumpsOf(evidence.recent), kJumpScans);
-  const Verdict strict = byScans(evidence.returning, evidence.recent, jumps);
-  Verdict verdict =
-      byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent), jumps);
+  const Verdict strict = byScans(evidence.returning, evidence.recent);
+  Verdict verdict = byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent));
   const auto find = [&verdict](Level level, const std::string& reason) { add(verdict, level, reason); };
   if (strict.isContradicted && !verdict.isContradicted)
     find(Level::consistent, "scans contradict the map, but only at narrow things, such as people");

@@ -48,7 +48,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       terms_(c),
       improvedProposal_(c.improved, c.motion, c.matcher, terms_),
       matcher_(c.matcher),
-      newSlipRecovery_(c.improved, c.motion, c.matcher, c.gridWeight, c.grid),
+      newSlipRecovery_(c),
       slipRecovery_(newSlipRecovery_),
       arena_(arenaThreads(c.filter.threads)) {}
 
@@ -151,15 +151,12 @@ void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedS
   summarise(odometry);
 }
 
-// The paper's [5]: sample around a scan match instead. People are left out by the odometry first, then by the
-// match, which is where the robot is.
+// The paper's [5]: sample around a scan match instead. Beams at people are left out, as seen from the match of
+// the best particle.
 void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& observed) {
-  const TPose2D last = best().path.back();
-  const auto stillAt = [&](const TPose2D& motion) {
-    return prepare_.withoutMovedThings(observed, last + motion, best().grid);
-  };
-  const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, stillAt(odometry));
-  const PreparedScan scan = stillAt(motions[0].start);
+  const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, observed);
+  const PreparedScan scan =
+      prepare_.withoutMovedThings(observed, best().path.back() + motions[0].start, best().grid);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
     const StepMotion& motion = motions[i % motions.size()];

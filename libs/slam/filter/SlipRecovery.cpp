@@ -36,15 +36,14 @@ double refutedShare(const BeamShares& shares) {
 
 }  // namespace
 
-SlipRecovery::SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
-                           const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight,
-                           const GridOptions& grid)
-    : options_(options),
-      motion_(motion),
-      exponent_(gridWeight.exponent),
-      matcher_(matcher),
-      gridWeight_(gridWeight, grid.resolution),
-      recent_(grid) {}
+SlipRecovery::SlipRecovery(const FilterConfiguration& c)
+    : options_(c.improved),
+      motion_(c.motion),
+      exponent_(c.gridWeight.exponent),
+      prepare_(c),
+      matcher_(c.matcher),
+      gridWeight_(c.gridWeight, c.grid.resolution),
+      recent_(c.grid) {}
 
 // Compare by w_grid, which allows beams to end in unknown cells. The matcher's likelihood prefers any wall,
 // and would pull the robot back along a partly seen corridor. A scan has no more independent beams than
@@ -55,10 +54,11 @@ double SlipRecovery::logWeight(const TPose2D& pose, const Particle& best, const 
 }
 
 std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPose2D& odometry,
-                                                const PreparedScan& scan) {
+                                                const PreparedScan& whole) {
   const TPose2D before = best.path.back();
   if (options_.slipDistance <= 0) return {{odometry, odometry, false}};
   const MotionDistribution expected = motionAfter(best, {odometry, odometry, false}, motion_, options_);
+  const PreparedScan scan = prepare_.withoutMovedThings(whole, before + odometry, best.grid);
   const Eigen::Matrix3d information = expected.covariance.inverse();
   const auto asExpected = [&](const TPose2D& pose) {
     return gaussianLogDensity(pose, expected.mean, information);
@@ -67,7 +67,7 @@ std::vector<StepMotion> SlipRecovery::motionsOf(const Particle& best, const TPos
   std::vector<Hypothesis> hypotheses{usual};
   if (usual.match.fit < kPoorFit * usualFit_) {
     usual.logPosterior = logWeight(usual.match.pose, best, scan) + asExpected(usual.match.pose).value;
-    hypotheses = search(odometry, best, expected, usual, scan);
+    hypotheses = search(odometry, best, expected, usual, scan, whole);
   } else {
     contradicting_.clear();
   }
@@ -110,7 +110,8 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
 std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odometry, const Particle& best,
                                                            const MotionDistribution& expected,
                                                            const Hypothesis& usual,
-                                                           const PreparedScan& scan) {
+                                                           const PreparedScan& scan,
+                                                           const PreparedScan& whole) {
   const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
   const auto refuted = [&](const TPose2D& pose) {
     return refutedShare(beamShares(scan.matchedBeams, pose, recent));
@@ -138,10 +139,10 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
     contradicting_.clear();
     return found;
   }
-  contradicting_.push_back({odometry, scan.matchedBeams});
+  contradicting_.push_back({odometry, whole.matchedBeams});
   // The map of recent scans leaves out as many, or all.
   if (contradicting_.size() > RecentMap::kScans) contradicting_.pop_front();
-  const auto elsewhere = searchMap(best, scan);
+  const auto elsewhere = searchMap(best, whole);
   return elsewhere.empty() ? found : elsewhere;
 }
 

@@ -35,21 +35,21 @@ struct StepMotion {
 /// the whole map. Where they know less than a fifth of the beams at the odometry's pose, as with a short
 /// range, they exclude nothing; if they know more there, a pose where they know less counts as contradicted.
 ///
+/// Beams at people are left out, as seen from where the odometry says the robot is; but not where the whole
+/// map is searched, since a robot that was carried is elsewhere.
+///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
 /// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
 /// motion model is accepted if its posterior under this mixture is higher; poses of similar posterior are
 /// hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
  public:
-  /// @param grid  of the particles
-  SlipRecovery(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
-               const ScanMatcherOptions& matcher, const GridWeightOptions& gridWeight,
-               const GridOptions& grid);
+  explicit SlipRecovery(const FilterConfiguration& configuration);
   /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
   /// Returns at least one hypothesis, the most likely first.
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
-                                    const PreparedScan& scan);
+                                    const PreparedScan& whole);
 
   template <class State>
   void visit(State& state) {
@@ -65,7 +65,7 @@ class SlipRecovery {
   };
   std::vector<Hypothesis> search(const mrpt::math::TPose2D& odometry, const Particle& best,
                                  const MotionDistribution& expected, const Hypothesis& usual,
-                                 const PreparedScan& scan);
+                                 const PreparedScan& scan, const PreparedScan& whole);
   std::vector<Hypothesis> searchNearby(const mrpt::math::TPose2D& odometry, const Particle& best,
                                        const MotionDistribution& expected, const Hypothesis& usual,
                                        const PreparedScan& scan) const;
@@ -81,6 +81,7 @@ class SlipRecovery {
   MotionModelOptions motion_;
   double exponent_;  ///< of w_grid
   bool searchesMap_ = true;
+  ScanPreparation prepare_;
   ScanMatcher matcher_;
   GridWeight gridWeight_;
   struct TakenScan {

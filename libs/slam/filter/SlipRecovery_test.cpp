@@ -15,7 +15,9 @@ using namespace test;
 const TPose2D kSlipStart(0.4, 0.3, 0.5), kSlipOdometry(0.25, 0.01, 0.05);
 
 SlipRecovery slipRecovery(const ImprovedProposalOptions& options = {}) {
-  return {options, MotionModelOptions(), ScanMatcherOptions(), GridWeightOptions(), GridOptions()};
+  FilterConfiguration c;
+  c.improved = options;
+  return SlipRecovery(c);
 }
 
 /// A SlipRecovery that has processed a few scans without a slip, so that it knows the usual fit.

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/PoseOffset.h"
 #include "testing/MappedRoom.h"
+#include "testing/RingDrive.h"
 
 namespace hybrid_slam {
 namespace {
@@ -33,6 +36,26 @@ TEST(RecentScans, TakesScansFarEnoughApart) {
   EXPECT_EQ(driven.recent.scans().size(), 6);  // every second: 30 deg
   EXPECT_EQ(driven.recent.since(), TPose2D());
   EXPECT_LT(offsetOf(driven.recent.motion(5, 0), driven.truth[0] - driven.truth[5]).norm(), 0.06);
+}
+
+TEST(RecentScans, LeavesOutWhoWalksWhereTheScansBeforeSawFreeSpace) {
+  RecentScans recent{FilterConfiguration()};
+  RandomStream random(1, 0, 0);
+  TPose2D robot(-1, 0, 0);
+  for (int i = 0; i < 6; ++i, robot = robot + TPose2D(0.5, 0, 0)) {
+    Walls walls = room();
+    const TPoint2D at = robot.composePoint(TPoint2D(1, 0.3));
+    if (i == 5) append(walls, box(at.x - 0.1, at.y - 0.1, at.x + 0.1, at.y + 0.1));
+    recent.add({i == 0 ? 0 : 0.5, 0, 0}, prepared(walls, robot, random));
+  }
+  const PreparedScan& scan = recent.scans().back().scan;
+  const auto shortest = [](const ScanBeams& beams) {
+    return std::min_element(beams.rays.begin(), beams.rays.end(), [](const auto& a, const auto& b) {
+             return a.range < b.range;
+           })->range;
+  };
+  EXPECT_LT(shortest(scan.beams), 1.3);
+  EXPECT_GT(shortest(scan.matchedBeams), 1.3);
 }
 
 TEST(RecentScans, ForgetsTheOldest) {
