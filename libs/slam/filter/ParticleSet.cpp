@@ -151,8 +151,8 @@ void ParticleSet::sampleFromMotionModel(const TPose2D& odometry, const PreparedS
   summarise(odometry);
 }
 
-// The paper's [5]: sample around a scan match instead. Beams at people are left out, as seen from the match of
-// the best particle.
+// The paper's [5]: sample around a scan match instead. Beams at people are left out, as seen from the match
+// of the best particle.
 void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedScan& observed) {
   const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, observed);
   const PreparedScan scan =

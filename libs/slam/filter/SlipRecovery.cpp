@@ -109,8 +109,7 @@ std::vector<Hypothesis> rivals(std::vector<Hypothesis> all) {
 
 std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odometry, const Particle& best,
                                                            const MotionDistribution& expected,
-                                                           const Hypothesis& usual,
-                                                           const PreparedScan& scan,
+                                                           const Hypothesis& usual, const PreparedScan& scan,
                                                            const PreparedScan& whole) {
   const OccupancyGrid recent = recent_.map(best.path, contradicting_.size());
   const auto refuted = [&](const TPose2D& pose) {

@@ -15,7 +15,7 @@ constexpr double kWidth = 0.5;  // m
 constexpr double kGap = 0.3;    // m, between successive end points of one thing
 constexpr double kSteps = 2;    // the same, in distances of two beams
 
-constexpr double kAround = 0.1;  // m, of an end point
+constexpr double kAround = 0.1;       // m, of an end point
 constexpr double kSeenThrough = 0.4;  // occupancy
 
 /// Sine of the angle between successive beams of a laser, the median.

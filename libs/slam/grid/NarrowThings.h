@@ -15,8 +15,8 @@ namespace hybrid_slam {
 std::vector<bool> endsAtNarrowThing(const ScanBeams& beams);
 
 /// Returns for each beam whether it ends at a narrow thing where the map is free within 0.1 m: a person, or a
-/// thing that has moved. Such beams fit the map nowhere, and BeamSelection would take many of them, since they
-/// end on surfaces of all directions.
+/// thing that has moved. Such beams fit the map nowhere, and BeamSelection would take many of them, since
+/// they end on surfaces of all directions.
 /// @param robot  where the scan was taken, map frame; if it is wrong, pillars seem to have moved, too
 std::vector<bool> endsAtMovedThing(const ScanBeams& beams, const mrpt::math::TPose2D& robot,
                                    const OccupancyGrid& grid);

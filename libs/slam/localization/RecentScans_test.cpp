@@ -15,8 +15,7 @@ using namespace test;
 
 /// Drives a circle in the room; in each step, the odometry's turn is too small by `error`.
 struct Driven {
-  explicit Driven(int steps, double error = 0)
-      : recent(FilterConfiguration()) {
+  explicit Driven(int steps, double error = 0) : recent(FilterConfiguration()) {
     RandomStream random(1, 0, 0);
     TPose2D robot(1, 0, 0);
     const TPose2D motion(0.3, 0, 15 * kDegree);
@@ -50,9 +49,9 @@ TEST(RecentScans, LeavesOutWhoWalksWhereTheScansBeforeSawFreeSpace) {
   }
   const PreparedScan& scan = recent.scans().back().scan;
   const auto shortest = [](const ScanBeams& beams) {
-    return std::min_element(beams.rays.begin(), beams.rays.end(), [](const auto& a, const auto& b) {
-             return a.range < b.range;
-           })->range;
+    return std::min_element(beams.rays.begin(), beams.rays.end(),
+                            [](const auto& a, const auto& b) { return a.range < b.range; })
+        ->range;
   };
   EXPECT_LT(shortest(scan.beams), 1.3);
   EXPECT_GT(shortest(scan.matchedBeams), 1.3);

@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "base/PoseDistance.h"
+#include "slam/grid/NarrowThings.h"
 #include "slam/grid/RaySamples.h"
 #include "slam/grid/ScanBeams.h"
-#include "slam/grid/NarrowThings.h"
 
 namespace hybrid_slam {
 
