@@ -20,9 +20,10 @@ def rows(log):
 
 
 def run(log, out, seed):
-    """The metrics of the default command; those of a finished run are kept."""
+    """The metrics of the default command, with OPTIONS; those of a finished run are kept."""
     if not (out / "metrics.json").exists():
         command = [BIN / "hybrid-slam", log, "-q", "--seed", str(seed), "--overwrite", "-o", out]
+        command += os.environ.get("OPTIONS", "").split()
         with open(f"{out}.log", "w") as errors:
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=errors)
     return json.loads((out / "metrics.json").read_text())
