@@ -12,7 +12,7 @@ sparse   a scan every 1 m or 30 deg; the odometry of the other scans is kept
 people   PEOPLE=30 people walk around the robot, within 5 m
 
 OUT defaults to out/other-sensors. Runs the default command with SEEDS=3 seeds from FIRST_SEED=1 on, JOBS at a time (all
-cores). LOGS and KINDS select some. Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 40 minutes on one core.
+cores). LOGS and KINDS select some. Needs HYBRID_SLAM_DATASETS. Keeps finished runs. Takes about 50 minutes on one core.
 """
 import concurrent.futures
 import gzip

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/grid/RaySamples.h"
+
 namespace hybrid_slam {
 
 using mrpt::math::TPoint2D;
@@ -64,8 +66,8 @@ std::vector<bool> endsAtMovedThing(const ScanBeams& beams, const TPose2D& robot,
   TileReader cells(grid.tiles());
   const auto endsInFreeSpace = [&](const Ray& ray) {
     const double range = ray.range / grid.resolution();
-    const int x = static_cast<int>(std::floor(frame.origin(ray).x + range * frame.dirX(ray)));
-    const int y = static_cast<int>(std::floor(frame.origin(ray).y + range * frame.dirY(ray)));
+    const int x = floorOf(frame.origin(ray).x + range * frame.dirX(ray));
+    const int y = floorOf(frame.origin(ray).y + range * frame.dirY(ray));
     for (int j = -near; j <= near; ++j)
       for (int i = -near; i <= near; ++i)
         if (cells.at(x + i, y + j) > free) return false;
