@@ -27,8 +27,8 @@ class FilterRunTest : public testing::Test {
     readings::RawlogSource source(log, c.input, readings::summarise(log, c.input));
     while (const auto reading = source.next()) run.process(*reading);
   }
-  static void finish(FilterRun& run, const Configuration& c, const std::string& file) {
-    run.finish(file, readings::summarise(file, c.input), nlohmann::ordered_json::object());
+  static run::FinishedRun finish(FilterRun& run, const Configuration& c, const std::string& file) {
+    return run.finish(file, readings::summarise(file, c.input), nlohmann::ordered_json::object());
   }
   /// Writes the results of a run that is not refined to `plain`.
   void makePlain() {

@@ -191,24 +191,24 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
   if (lost > 0)
     log_.report("results", "without " + counted(lost, "cycle(s)") + " of the server that did not arrive");
   if (failure_) more["complete"] = false;
-  const std::string summary = run_.finish(recording_.path(), recorded, more);
+  const run::FinishedRun finished = run_.finish(recording_.path(), recorded, more);
   tellNotes();
-  if (const std::string map = run_.mapNote(); !map.empty()) log_.report("results", map);
+  if (!finished.mapNote.empty()) log_.report("results", finished.mapNote);
   if (failure_) {
     log_.report("results", "written up to the failure: " + run_.folder());
     std::rethrow_exception(failure_);
   }
   std::string incomplete = run_.placeNote();
-  if (!run_.whyMissing().empty()) incomplete = "results are missing: " + run_.whyMissing();
+  if (!finished.whyMissing.empty()) incomplete = "results are missing: " + finished.whyMissing;
   if (recorded.scans < run_.readings())
     incomplete = "the recording has " + std::to_string(recorded.scans) + " of " +
                  counted(run_.readings(), "scan(s): ") + recording_.path() + "; the map is not refined";
   if (!incomplete.empty()) {
-    log_.report("results", summary);
-    log_.report("map", run_.verdict().line());
+    log_.report("results", finished.summary);
+    log_.report("map", finished.verdict.line());
     throw std::runtime_error(incomplete);
   }
-  return summary + ", " + recording_.path() + "\n" + run_.verdict().line();
+  return finished.summary + ", " + recording_.path() + "\n" + finished.verdict.line();
 }
 
 }  // namespace hybrid_slam::live

@@ -45,11 +45,6 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions stockSettings(const Conf
   }
 }
 
-std::unique_ptr<PlanSearch> planSearchOf(const Configuration& configuration) {
-  return std::make_unique<PlanSearch>(configuration.filter, loadPlan(configuration.run.priorPlan),
-                                      configuration.run.start);
-}
-
 /// Returns the session that the run continues from, if it is in the output folder.
 std::string ownFile(const RunOptions& run) {
   const fs::path name = fs::path(run.resume).filename();
@@ -94,16 +89,11 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     auto hybrid = std::make_unique<HybridFilter>(configuration.filter);
     hybrid_ = hybrid.get();
     filter_ = std::move(hybrid);
-    earlierMap_ = std::move(map);
-    if (earlierMap_)
-      search_ = std::make_unique<Localizer>(configuration.filter, earlierMap_->grid, earlierMap_->lines,
-                                            configuration.run.start);
-    if (!configuration.run.priorPlan.empty()) planSearch_ = planSearchOf(configuration);
-    if (search_ || planSearch_) hybrid_->expectMap();
-    if (search_ && !configuration.run.start && earlierMap_->grid.resolution() > RevisitCheck::kResolution)
-      notes_.push_back("the place in " + configuration.run.continueFrom +
-                       " is not checked: its cells are larger than " +
-                       fixedText(RevisitCheck::kResolution, 1) + " m");
+    if (map || !configuration.run.priorPlan.empty()) {
+      search_.emplace(configuration, std::move(map));
+      hybrid_->expectMap();
+      if (const std::string warning = search_->warning(); !warning.empty()) notes_.push_back(warning);
+    }
   }
   if (!configuration.input.requireOdometry)
     scanOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
@@ -125,7 +115,6 @@ bool FilterRun::process(const readings::Reading& reading) {
   if (stuckOdometry_) replaceStuckOdometry(moved);
   const bool isUpdate = filter(moved);
   if (search_) searchPlace(moved);
-  if (planSearch_) searchPlan(moved);
   isConsistent_ = true;
   saveIfDue();
   if (isUpdate || scans_ % 100 == 0) checkMemory();
@@ -136,10 +125,10 @@ void FilterRun::replaceStuckOdometry(readings::Reading& reading) {
   const bool wasStuck = stuckOdometry_->isStuck();
   reading.motion = stuckOdometry_->motionTo(reading.motion, reading.scans, reading.timestamp);
   if (!wasStuck && !stuckOdometry_->isStuck()) return;
-  if (stuckScans_++ > 0) return;
-  firstStuck_ = reading.timestamp;
+  counts_.addStuckScan(reading.timestamp);
+  if (counts_.stuckScans > 1) return;
   notes_.push_back("the odometry stands still while the scans move: scan matching replaces it from " +
-                   fixedText(firstStuck_, 3) + " s on");
+                   fixedText(counts_.firstStuck, 3) + " s on");
 }
 
 bool FilterRun::isMemoryFull() {
@@ -174,56 +163,23 @@ bool FilterRun::filter(const readings::Reading& reading) {
   ++scans_;
   fingerprint_ = fingerprintAfter(fingerprint_, reading);
   recorder_.add(reading.timestamp, reading.motion, filter_->updates());
-  uses_.push_back(filter_->updates() > before ? Use::update : Use::carried);
-  const bool isUpdate = uses_.back() == Use::update;
+  uses_.push_back(filter_->updates() > before ? ReadingUse::update : ReadingUse::carried);
+  const bool isUpdate = uses_.back() == ReadingUse::update;
   if (isUpdate) record(reading.timestamp, stepStart);
   return isUpdate;
 }
 
-// A corridor of another building may look like one of the map. Then the scans on the way there contradict it.
-bool FilterRun::isContradictedAt(const mrpt::math::TPose2D& pose) {
-  if (!earlierWalls_) earlierWalls_ = toCompare(earlierMap_->grid);
-  const std::vector<Revisit> compared = hybrid_->comparedWith(*earlierWalls_, pose);
-  return static_cast<double>(contradictedOf(compared)) >
-         kMostAgainstEarlierMap * static_cast<double>(compared.size());
-}
-
-// Until the place in the map of the earlier run is found, the filter maps in its own frame.
+// Until the place is found, the filter maps in its own frame.
 void FilterRun::searchPlace(const readings::Reading& reading) {
-  constexpr size_t kPause = 20;  // scans
-  const size_t before = search_->updates();
-  search_->process(reading.motion, reading.scans);
-  const bool isUpdate = search_->updates() > before;  // else its pose is that of an earlier scan
-  if (!isUpdate || !search_->isLocalized() || scans_ < nextPlace_) return;
-  const mrpt::math::TPose2D pose = search_->bestPath().back();
-  if (!configuration_.run.start && isContradictedAt(pose)) {
-    nextPlace_ = scans_ + kPause;
-    return;
+  const std::optional<FoundPlace> found = search_->process(reading, *hybrid_, scans_);
+  if (found) {
+    notes_.push_back(found->note);
+    const double turn = hybrid_->joinMap(found->map, found->pose);
+    for (PoseCovariance& covariance : particleCovariances_) covariance = rotated(covariance, turn);
+  } else if (search_->isOver()) {
+    hybrid_->expectNoMap();
   }
-  notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(pose.x, 2) + ", " +
-                   fixedText(pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(pose.phi), 1) +
-                   " deg in the map of " + configuration_.run.continueFrom);
-  joinMap(*earlierMap_, pose);
-  earlierMap_.reset();
-  earlierWalls_.reset();
-  search_.reset();
-}
-
-void FilterRun::searchPlan(const readings::Reading& reading) {
-  planSearch_->process(reading.motion, reading.scans);
-  if (!planSearch_->isOver()) return;
-  const std::unique_ptr<PlanSearch> search = std::move(planSearch_);
-  const auto& found = search->found();
-  if (!found) return hybrid_->expectNoMap();
-  notes_.push_back("place found after " + counted(scans_, "scan(s): (") + fixedText(found->pose.x, 2) + ", " +
-                   fixedText(found->pose.y, 2) + ") m, " + fixedText(mrpt::RAD2DEG(found->pose.phi), 1) +
-                   " deg in " + configuration_.run.priorPlan + ", scaled by " + fixedText(found->scale, 3));
-  joinMap(found->map, found->pose);
-}
-
-void FilterRun::joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose) {
-  const double turn = hybrid_->joinMap(map, pose);
-  for (PoseCovariance& covariance : particleCovariances_) covariance = rotated(covariance, turn);
+  if (search_->isOver()) search_.reset();
 }
 
 std::string FilterRun::placeNote() const {
@@ -238,37 +194,13 @@ std::string FilterRun::placeNote() const {
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {
   updateTimes_.push_back(timestamp);
   const FilterStep& step = filter_->lastStep();
-  particlesMin_ = particlesMin_ == 0 ? step.particles : std::min(particlesMin_, step.particles);
-  particlesMax_ = std::max(particlesMax_, step.particles);
+  counts_.add(timestamp, step);
   particleCovariances_.push_back(covarianceOf(step.poses));
-  resamplings_ += step.resampled.value_or(false) ? 1 : 0;
-  if (step.slipped.value_or(false) && slips_++ == 0) firstSlip_ = timestamp;
-  if (step.loop) {
-    ++loops_;
-    notes_.push_back(loopNote(*step.loop, updateTimes_, false));
-  }
+  if (step.loop) notes_.push_back(loopNote(*step.loop, updateTimes_, false));
   if (localizer_) located_ += localizer_->isLocalized();
   writeStep(steps_, timestamp, step, 1000 * secondsSince(stepStart));
   if (particles_ && filter_->updates() % static_cast<size_t>(configuration_.run.particlesEvery) == 0)
     writeParticles(*particles_, timestamp, step);
-}
-
-std::string FilterRun::slipNote() const {
-  if (slips_ == 0) return {};
-  return counted(slips_, "update(s) with rejected odometry: first at ") + fixedText(firstSlip_, 3) + " s" +
-         "; scan matching replaced it";
-}
-
-std::string FilterRun::stuckNote() const {
-  if (stuckScans_ == 0) return {};
-  return counted(stuckScans_, "scan(s) with odometry that stood still while the robot moved: first at ") +
-         fixedText(firstStuck_, 3) + " s; scan matching replaced it";
-}
-
-std::string FilterRun::mapNote() const {
-  if (savedCell_ < 1.5 * cell_) return {};
-  return "the map files have cells of " + fixedText(savedCell_, 2) + " m instead of " + fixedText(cell_, 2) +
-         " m: the map is too large for MRPT's grid";
 }
 
 }  // namespace hybrid_slam::run

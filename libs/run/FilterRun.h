@@ -18,8 +18,11 @@
 #include "files/StagedFolder.h"
 #include "readings/RawlogSource.h"
 #include "run/Configuration.h"
-#include "run/LogAgain.h"
+#include "run/MapRefinement.h"
 #include "run/PathCovariance.h"
+#include "run/PlaceSearch.h"
+#include "run/ReadingUse.h"
+#include "run/RunCounts.h"
 #include "run/SessionFile.h"
 #include "run/TrajectoryRecorder.h"
 #include "run/Verdict.h"
@@ -27,13 +30,21 @@
 #include "slam/filter/ScanOdometry.h"
 #include "slam/filter/StuckOdometry.h"
 #include "slam/localization/Localizer.h"
-#include "slam/localization/PlanSearch.h"
 
 namespace hybrid_slam::run {
 
 /// The map of a run is worse than that of another run over the log.
 struct WorseMap : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// A run whose results are written.
+struct FinishedRun {
+  std::string summary;  ///< one line: scans, updates, time, real-time factor, place of the results
+  Verdict verdict;
+  std::string whyMissing;      ///< why results are missing, which notes name; empty if none are
+  bool logHasChanged = false;  ///< since it was summarised, so that results may be of different readings
+  std::string mapNote;         ///< one line if the map files have coarser cells than the filter's; else empty
 };
 
 /// Writes the files of doc/results.md at the end. They appear together (files/StagedFolder.h); without
@@ -66,7 +77,7 @@ class FilterRun {
   /// @throws InputError if the log does not begin with them
   void passOver(readings::RawlogSource& source, const std::string& log);
   /// Marks the next `readings` of the log as skipped; the motion of the following one includes theirs.
-  void skip(size_t readings) { uses_.resize(uses_.size() + readings, Use::skipped); }
+  void skip(size_t readings) { uses_.resize(uses_.size() + readings, ReadingUse::skipped); }
 
   /// Makes the next call of `process` save the map and the session to a dated subfolder. Thread-safe. A note
   /// names the folder, or the reason for a failure.
@@ -87,17 +98,13 @@ class FilterRun {
 
   size_t scans() const { return scans_; }           ///< processed
   size_t readings() const { return uses_.size(); }  ///< of the log, processed or skipped
-  /// One line on the updates with rejected odometry; empty if there were none.
-  std::string slipNote() const;
-  /// One line on the scans during which the odometry was stuck; empty if there were none.
-  std::string stuckNote() const;
-  /// One line if the map of the finished run has coarser cells than the filter's; else empty.
-  std::string mapNote() const;
+  /// One line each on rejected and on stuck odometry, if there was any.
+  std::vector<std::string> warnings() const { return counts_.warnings(); }
   /// Returns the events since the last call, one line each: loops closed (where, by how much, on what
   /// evidence), start found in a map, maps saved.
   std::vector<std::string> takeNotes() { return std::exchange(notes_, {}); }
   /// Returns the filter; during the search for the start in an earlier map, that search.
-  const FilterView& view() const { return search_ ? static_cast<const FilterView&>(*search_) : *filter_; }
+  const FilterView& view() const { return search_ && search_->view() ? *search_->view() : *filter_; }
   /// Returns the profiler of the stages; enable it before the first scan. It does not change the results.
   mrpt::system::CTimeLogger& profiler() { return filter_->profiler(); }
   /// Returns the folder of the results.
@@ -123,29 +130,12 @@ class FilterRun {
   ///                 map.simplemap.gz ends with it and nothing is refined; without scans, `file` is not read.
   ///                 If `file` cannot be read again, nothing is refined and there is no map.simplemap.gz
   /// @param more     further keys of metrics.json
-  /// @return one line: scans, updates, time, real-time factor, place of the results
   /// @throws InputError if a result cannot be written, after which it can be called again;
   ///         WorseMap and std::runtime_error after `expectVerdict`
-  std::string finish(const std::string& file, const readings::RawlogSummary& log,
+  FinishedRun finish(const std::string& file, const readings::RawlogSummary& log,
                      const nlohmann::ordered_json& more);
-  /// Returns why results of the finished run are missing, which notes name; empty if none are.
-  const std::string& whyMissing() const { return whyMissing_; }
-  /// Returns whether the log was written to or replaced since it was summarised, so that results may be of
-  /// different readings.
-  bool logHasChanged() const { return logHasChanged_; }
-  /// The verdict on the map of the finished run.
-  const Verdict& verdict() const { return verdict_; }
 
  private:
-  struct Result {
-    files::Trajectory trajectory;
-    std::vector<mrpt::math::TPose2D> path;
-    std::optional<mrpt::maps::COccupancyGridMap2D> grid;  ///< none if there is no memory for it
-    std::vector<DatabaseLine> lines;
-    ScanMap map;             ///< with our filters: the same grid and lines
-    bool isRelaxed = false;  ///< refined, its errors distributed over its loops
-  };
-  static const mrpt::maps::COccupancyGridMap2D& gridOf(const Result& result);
   template <class State>
   void visit(State& state);
   void replaceStuckOdometry(readings::Reading& reading);
@@ -154,19 +144,19 @@ class FilterRun {
   void checkMemory();
   std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
-  /// Whether the scans so far contradict the earlier map, with the robot at `pose` in it.
-  bool isContradictedAt(const mrpt::math::TPose2D& pose);
-  void searchPlan(const readings::Reading& reading);
-  /// @param pose  current pose of the robot in the map
-  void joinMap(const ScanMap& map, const mrpt::math::TPose2D& pose);
   Verdict verdictOfLocalization() const;
-  nlohmann::ordered_json metrics(const Result& result, const readings::RawlogSummary& log) const;
-  void writeCovarianceFile(const Result& result, const std::vector<PoseCovariance>& covariances);
+  nlohmann::ordered_json metrics(const FinishedRun& finished, const FinishedMap& map,
+                                 const readings::RawlogSummary& log) const;
+  void writeCovarianceFile(const FinishedMap& map, const std::vector<PoseCovariance>& covariances);
   ScanMap currentMap() const;  ///< of a method with lines
+  FinishedMap bestMap();
+  /// @param whyMissing  set to the reason if there is no `result`
   /// @return whether it was written
   template <class Write>
-  bool writeOrNote(const std::string& result, const Write& write);
-  void writeMap(const Result& result, const std::string& file, const readings::RawlogSummary& log);
+  bool writeOrNote(const std::string& result, std::string& whyMissing, const Write& write);
+  /// Writes the files of the map; the covariances and the verdict need the scans of simplemap's log.
+  void writeMap(FinishedRun& finished, const FinishedMap& map, const std::string& file,
+                const readings::RawlogSummary& log);
   void writeState(StateWriter& out);
   /// Returns the bytes of a session file; empty, with a note, if there can be none.
   std::string sessionWith(const ScanMap& map, const std::vector<mrpt::math::TPose2D>& poses);
@@ -176,10 +166,6 @@ class FilterRun {
   void saveIfDue();
   /// Writes the row of steps.csv and updates the counters.
   void record(double timestamp, Clock::time_point stepStart);
-  /// Closes the remaining loops, matches the scans of the log to the map and rebuilds it.
-  /// @return why not, if the scans need too much memory; else empty
-  std::string refineResult(Result& result, LogAgain& log);
-  std::string refineOrSayWhyNot(Result& result, const std::string& file, const readings::RawlogSummary& log);
 
   Configuration& configuration_;
   Clock::time_point start_;
@@ -188,41 +174,28 @@ class FilterRun {
   std::unique_ptr<Filter> filter_;
   HybridFilter* hybrid_ = nullptr;               ///< filter_, if it is ours
   Localizer* localizer_ = nullptr;               ///< filter_, if it localises
-  std::optional<ScanMap> earlierMap_;            ///< to continue, until the place in it is found
-  std::unique_ptr<Localizer> search_;            ///< for this place
-  std::optional<OccupancyGrid> earlierWalls_;    ///< of this map, to compare scans with
-  size_t nextPlace_ = 0;                         ///< scan from which a place may be accepted
-  std::unique_ptr<PlanSearch> planSearch_;       ///< for the place in a floor plan
+  std::optional<PlaceSearch> search_;            ///< until it is over
   bool wasPlaceUnknown_ = false;                 ///< in the session that was read
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
   std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still
   std::ostringstream steps_;                     ///< in memory: a disk that is full for a while costs no row
   std::optional<std::ostringstream> particles_;  ///< likewise
   TrajectoryRecorder recorder_;
-  enum class Use { skipped, carried, update };
-  std::vector<Use> uses_;                            ///< per reading of the log
+  std::vector<ReadingUse> uses_;                     ///< per reading of the log
   std::vector<double> updateTimes_;                  ///< s
   std::vector<PoseCovariance> particleCovariances_;  ///< of each update
-  std::vector<LoopClosure> refinementLoops_;         ///< not in a session: a resumed run refines again
   std::vector<std::string> notes_;
   std::atomic<bool> isSaveRequested_{false};
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
   bool isConsistent_ = true;  ///< no reading has failed halfway
-  std::string whyMissing_;
-  bool logHasChanged_ = false;
   double secondsBefore_ = 0;  ///< wall time of the resumed run
-  size_t scans_ = 0, resamplings_ = 0, slips_ = 0;
-  size_t stuckScans_ = 0;  ///< with stuck odometry
-  size_t loops_ = 0;       ///< closed while filtering
-  size_t particlesMin_ = 0, particlesMax_ = 0;
-  size_t located_ = 0;                     ///< localisation: updates with a known place
-  double firstSlip_ = 0, firstStuck_ = 0;  ///< s
-  double cell_ = 0;                        ///< m, of the filter
-  double savedCell_ = 0;                   ///< m, of the map files
+  size_t scans_ = 0;
+  RunCounts counts_;
+  size_t located_ = 0;  ///< localisation: updates with a known place
+  double cell_ = 0;     ///< m, of the filter
   double mostBytes_, refinementBytes_, sessionBytes_;
-  Verdict verdict_;
   std::optional<Verdict> worstVerdict_;
   std::string checkpointName_;
   std::future<void> checkpoint_;  ///< compressed and written while the filter goes on

@@ -41,8 +41,7 @@ void FilterRun::visit(State& state) {
     hybrid_->load(state);
   else
     hybrid_->save(state);
-  state(fingerprint_, secondsBefore_, scans_, resamplings_, slips_, loops_, particlesMin_, particlesMax_,
-        firstSlip_, recorder_, uses_, particleCovariances_);
+  state(fingerprint_, secondsBefore_, scans_, counts_, recorder_, uses_, particleCovariances_);
   visitTable(state, steps_);
   bool hasParticles = particles_.has_value(), hasScanOdometry = scanOdometry_.has_value();
   state(hasParticles, hasScanOdometry);
@@ -51,17 +50,18 @@ void FilterRun::visit(State& state) {
   if (particles_) visitTable(state, *particles_);
   if (scanOdometry_) state(*scanOdometry_);
   size_t processed = 0, updates = 0;
-  for (const Use use : uses_) {
-    state.check(use == Use::skipped || use == Use::carried || use == Use::update, "a reading has no use");
-    processed += use != Use::skipped;
-    updates += use == Use::update;
+  for (const ReadingUse use : uses_) {
+    state.check(use == ReadingUse::skipped || use == ReadingUse::carried || use == ReadingUse::update,
+                "a reading has no use");
+    processed += use != ReadingUse::skipped;
+    updates += use == ReadingUse::update;
   }
   state.check(processed == scans_ && recorder_.updates().size() == scans_ && updates == hybrid_->updates() &&
                   (scans_ == 0 || recorder_.updates().back() == updates) && updateTimes_.size() == updates &&
                   particleCovariances_.size() == updates,
               "its readings do not belong to its path");
-  if (stuckOdometry_) state(stuckScans_, firstStuck_, *stuckOdometry_);
-  wasPlaceUnknown_ = search_ || planSearch_;
+  if (stuckOdometry_) state(counts_.stuckScans, counts_.firstStuck, *stuckOdometry_);
+  wasPlaceUnknown_ = search_.has_value();
   state(wasPlaceUnknown_);
 }
 
@@ -100,7 +100,7 @@ void FilterRun::writeState(StateWriter& out) {
 
 std::string FilterRun::state() {
   std::string bytes;
-  if (!hybrid_ || search_ || planSearch_) return bytes;
+  if (!hybrid_ || search_) return bytes;
   StateWriter out(bytes);
   out(updateTimes_);
   writeState(out);
@@ -111,9 +111,7 @@ void FilterRun::restore(const std::string& state) {
   StateReader in(state);
   in(updateTimes_);
   visit(in);
-  earlierMap_.reset();
   search_.reset();
-  planSearch_.reset();
 }
 
 /// Begins a checkpoint if one is due and none is being written. Next to the results of another run, which
@@ -129,7 +127,7 @@ void FilterRun::saveIfDue() {
     finishCheckpoint();
   }
   const double every = configuration_.run.checkpointEvery;
-  if (every <= 0 || !hybrid_ || search_ || planSearch_ || secondsSince(lastCheckpoint_) < every) return;
+  if (every <= 0 || !hybrid_ || search_ || secondsSince(lastCheckpoint_) < every) return;
   lastCheckpoint_ = Clock::now();
   try {
     staged_.follow();
@@ -159,7 +157,7 @@ void FilterRun::finishCheckpoint() {
 }
 
 void FilterRun::saveToDatedFolder() {
-  if (search_ || planSearch_) throw std::runtime_error(placeNote());
+  if (search_) throw std::runtime_error(placeNote());
   staged_.follow();
   namespace fs = std::filesystem;
   const auto saved = [this](const std::string& date) { return staged_.finalPath("saved-" + date); };
@@ -181,7 +179,7 @@ void FilterRun::saveToDatedFolder() {
 }
 
 void FilterRun::saveMapTo(const std::string& path) {
-  if (search_ || planSearch_) throw std::runtime_error(placeNote());
+  if (search_) throw std::runtime_error(placeNote());
   const files::OutputFolder folder(path);
   const auto grid = filter_->bestGrid();
   const auto trajectory = recorder_.trajectory(filter_->bestPath());
@@ -215,10 +213,10 @@ void FilterRun::resume(SessionReader& session) {
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {
   uint32_t found = 0;
-  for (const Use use : uses_) {
+  for (const ReadingUse use : uses_) {
     const auto reading = source.next();
     if (!reading) throw otherLog(log);
-    if (use != Use::skipped) found = fingerprintAfter(found, *reading);
+    if (use != ReadingUse::skipped) found = fingerprintAfter(found, *reading);
   }
   if (found != fingerprint_) throw otherLog(log);
 }

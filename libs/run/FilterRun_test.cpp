@@ -111,7 +111,7 @@ TEST_F(FilterRunTest, StuckOdometryIsReplacedByTheScans) {
     FilterRun run(c);
     readings::RawlogSource source(file, c.input, readings::summarise(file, c.input));
     while (const auto reading = source.next()) run.process(*reading);
-    EXPECT_EQ(run.stuckNote().empty(), setting == "false") << run.stuckNote();
+    EXPECT_EQ(run.warnings().empty(), setting == "false") << testing::PrintToString(run.warnings());
     finish(run, c, file);
     EXPECT_EQ(run.takeNotes().size(), setting == "false" ? 0u : 1u);
     const auto trajectory = files::loadTum(folder.path(output + "/trajectory.tum"));
@@ -214,8 +214,7 @@ TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {
   second.run.start.emplace(0, 0, 0);
   FilterRun run(second);
   process(run, second);
-  finish(run, second, log);
-  EXPECT_EQ(run.mapNote(), "");
+  EXPECT_EQ(finish(run, second, log).mapNote, "");
 }
 
 TEST_F(FilterRunTest, ResultsDoNotReplaceAnInput) {

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "base/Errors.h"
+#include "files/InputFile.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -19,6 +20,10 @@ auto checked(const Read& read) {
 }
 
 }  // namespace
+
+bool hasChanged(const std::string& file, const readings::RawlogSummary& log) {
+  return !log.state.empty() && files::stateOf(file) != log.state;
+}
 
 LogAgain::LogAgain(const std::string& file, const readings::InputOptions& options,
                    const readings::RawlogSummary& summary)

@@ -16,6 +16,9 @@ class UnreadableLog : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Returns whether the log was written to or replaced since it was summarised.
+bool hasChanged(const std::string& file, const readings::RawlogSummary& log);
+
 /// The readings of a log from its start. Its errors have a separate type, so that they cost only the results
 /// that need the log.
 class LogAgain {

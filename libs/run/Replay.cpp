@@ -52,16 +52,16 @@ class LogPass {
     if (run.scans() == 0 && !cut.empty()) throw std::runtime_error(cut + ", before the first scan");
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
     outcome.warnings = readings::warningsOf(log_, file);
-    if (const std::string slips = run.slipNote(); !slips.empty()) outcome.warnings.push_back(slips);
-    if (const std::string stuck = run.stuckNote(); !stuck.empty()) outcome.warnings.push_back(stuck);
-    outcome.summary = run.finish(file, log_, {{"second_run", isRepeated_}});
-    if (!run.whyMissing().empty() && outcome.incomplete.empty())
-      outcome.incomplete = "results are missing: " + run.whyMissing();
-    if (run.logHasChanged() && outcome.incomplete.empty())
+    for (const std::string& warning : run.warnings()) outcome.warnings.push_back(warning);
+    const FinishedRun finished = run.finish(file, log_, {{"second_run", isRepeated_}});
+    outcome.summary = finished.summary;
+    outcome.verdict = finished.verdict;
+    if (!finished.whyMissing.empty() && outcome.incomplete.empty())
+      outcome.incomplete = "results are missing: " + finished.whyMissing;
+    if (finished.logHasChanged && outcome.incomplete.empty())
       outcome.incomplete =
           "log has changed while it was read: " + file + "; results may be of both its states";
-    if (const std::string map = run.mapNote(); !map.empty()) outcome.warnings.push_back(map);
-    outcome.verdict = run.verdict();
+    if (!finished.mapNote.empty()) outcome.warnings.push_back(finished.mapNote);
     if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there
     for (const std::string& note : run.takeNotes()) progress_.say(note);
     if (wantsProfile) outcome.profile = run.profiler().getStatsAsText();

@@ -130,11 +130,11 @@ TEST(Replay, ALogThatIsGoneAtTheEndCostsOnlyTheResultsThatNeedIt) {
       std::filesystem::remove(log);
     else
       std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
-    run.finish(log, summary, nlohmann::ordered_json::object());
-    EXPECT_THAT(run.whyMissing(), testing::StartsWith("the log cannot be read again (")) << run.whyMissing();
+    const FinishedRun finished = run.finish(log, summary, nlohmann::ordered_json::object());
+    EXPECT_THAT(finished.whyMissing, testing::StartsWith("the log cannot be read again ("));
     EXPECT_THAT(run.takeNotes(), testing::IsSupersetOf({std::string("map not refined: the log has changed"),
-                                                        "no map.simplemap.gz: " + run.whyMissing()}));
-    EXPECT_TRUE(run.logHasChanged());
+                                                        "no map.simplemap.gz: " + finished.whyMissing}));
+    EXPECT_TRUE(finished.logHasChanged);
     const auto metrics = nlohmann::json::parse(test::contentOf(output + "/metrics.json"));
     EXPECT_EQ(metrics["complete"], false);
     EXPECT_EQ(metrics["verdict"], "doubtful");

@@ -26,12 +26,14 @@ run::Configuration withMethod(run::Configuration c, run::RunOptions::Method meth
 Lane::Lane(const run::Configuration& all, run::RunOptions::Method method, const std::string& folder)
     : configuration(withMethod(all, method, folder)), run(configuration), watch(configuration, true) {}
 
-void Lane::finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target) {
+std::string Lane::finish(const std::string& file, const readings::RawlogSummary& log,
+                         const std::string& target) {
   isFinished = true;
-  if (isWritten) return;
-  configuration.run.output = target;
-  run.finish(file, log, nlohmann::ordered_json::object());
-  isWritten = true;
+  if (!finished) {
+    configuration.run.output = target;
+    finished = run.finish(file, log, nlohmann::ordered_json::object());
+  }
+  return finished->whyMissing;
 }
 
 ReplayPass::ReplayPass(const run::Configuration& configuration, const std::vector<Method>& methods,

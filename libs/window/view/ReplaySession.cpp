@@ -249,9 +249,9 @@ void ReplaySession::exportPass(ReplayPass& pass, const std::string& folder) {
     std::string whyMissing;
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method);
-      lane->finish(pass.file, pass.log, staged.finalPath(name));
+      const std::string why = lane->finish(pass.file, pass.log, staged.finalPath(name));
       std::filesystem::copy(pass.folder.path(name), staged.files().path(name));
-      if (!lane->run.whyMissing().empty()) whyMissing = "; some are missing: " + lane->run.whyMissing();
+      if (!why.empty()) whyMissing = "; some are missing: " + why;
     }
     staged.publish();
     for (const auto& lane : pass.lanes)
