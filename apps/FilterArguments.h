@@ -27,9 +27,9 @@ struct FilterArguments {
   /// Adds -n, -s and -j.
   void addParticles(CLI::App& app,
                     const std::string& seedMeans = "random seed; same seed: identical results") {
-    app.add_option("-n,--particles", particles, "number of particles")->type_name("N");
+    app.add_option("-n,--particles", particles, "number of particles (default: adaptive)")->type_name("N");
     app.add_option("-s,--seed", seed, seedMeans)->type_name("N");
-    app.add_option("-j,--threads", threads, "number of threads; 0: all cores")->type_name("N");
+    app.add_option("-j,--threads", threads, "number of threads (default: 1); 0: all cores")->type_name("N");
   }
   /// Appends the given options to the settings.
   void addTo(std::vector<std::string>& settings, const CLI::App& app) const {

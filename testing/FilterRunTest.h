@@ -14,6 +14,7 @@ namespace hybrid_slam::test {
 
 using run::Configuration;
 using run::FilterRun;
+using run::FinishedRun;
 
 /// Runs over a log of 100 scans.
 class FilterRunTest : public testing::Test {
@@ -27,7 +28,7 @@ class FilterRunTest : public testing::Test {
     readings::RawlogSource source(log, c.input, readings::summarise(log, c.input));
     while (const auto reading = source.next()) run.process(*reading);
   }
-  static run::FinishedRun finish(FilterRun& run, const Configuration& c, const std::string& file) {
+  static FinishedRun finish(FilterRun& run, const Configuration& c, const std::string& file) {
     return run.finish(file, readings::summarise(file, c.input), nlohmann::ordered_json::object());
   }
   /// Writes the results of a run that is not refined to `plain`.

@@ -39,7 +39,7 @@ void describe(CLI::App& app, CommandLine& line) {
   line.filter.addMethod(app);
   line.filter.addParticles(app);
   app.add_option("--refine", line.refine,
-                 "after the run, match every scan to the final map and rebuild the map, N times")
+                 "after the run, match every scan to the final map and rebuild the map, N times (default: 1)")
       ->type_name("N");
   line.topics.add(app);
   line.session.addResume(app);

@@ -1,10 +1,7 @@
 #include "run/FilterRun.h"
 
 #include <malloc.h>
-#include <mrpt/core/bits_math.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <locale>
 #include <new>
@@ -18,11 +15,9 @@
 #include "run/Fingerprint.h"
 #include "run/KnownMap.h"
 #include "run/LoopNote.h"
-#include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/ResultFiles.h"
 #include "run/StepsTable.h"
-#include "run/VerdictCheck.h"
 #include "slam/filter/StockMapBuilder.h"
 #include "slam/ortho/OrthoFilter.h"
 
@@ -172,14 +167,12 @@ bool FilterRun::filter(const readings::Reading& reading) {
 // Until the place is found, the filter maps in its own frame.
 void FilterRun::searchPlace(const readings::Reading& reading) {
   const std::optional<FoundPlace> found = search_->process(reading, *hybrid_, scans_);
-  if (found) {
-    notes_.push_back(found->note);
-    const double turn = hybrid_->joinMap(found->map, found->pose);
-    for (PoseCovariance& covariance : particleCovariances_) covariance = rotated(covariance, turn);
-  } else if (search_->isOver()) {
-    hybrid_->expectNoMap();
-  }
-  if (search_->isOver()) search_.reset();
+  if (!search_->isOver()) return;
+  search_.reset();
+  if (!found) return hybrid_->expectNoMap();
+  notes_.push_back(found->note);
+  const double turn = hybrid_->joinMap(found->map, found->pose);
+  for (PoseCovariance& covariance : particleCovariances_) covariance = rotated(covariance, turn);
 }
 
 std::string FilterRun::placeNote() const {
@@ -187,8 +180,8 @@ std::string FilterRun::placeNote() const {
     return "place not found in the floor plan " + configuration_.run.priorPlan + ": " +
            counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
   if (!search_) return {};
-  return "place not found in the map of " + configuration_.run.continueFrom + ": " + std::to_string(scans_) +
-         " scans, mapped in their own frame; --start X,Y,DEG gives the place";
+  return "place not found in the map of " + configuration_.run.continueFrom + ": " +
+         counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
 }
 
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {

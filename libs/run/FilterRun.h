@@ -42,7 +42,7 @@ struct WorseMap : std::runtime_error {
 struct FinishedRun {
   std::string summary;  ///< one line: scans, updates, time, real-time factor, place of the results
   Verdict verdict;
-  std::string whyMissing;      ///< why results are missing, which notes name; empty if none are
+  std::string whyMissing;      ///< for lack of memory or of the log; notes name the results; else empty
   bool logHasChanged = false;  ///< since it was summarised, so that results may be of different readings
   std::string mapNote;         ///< one line if the map files have coarser cells than the filter's; else empty
 };
@@ -93,7 +93,7 @@ class FilterRun {
   void finishCheckpoint();
   /// Returns whether this run, or the resumed one, continues an earlier map or began with a floor plan.
   bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
-  /// Says in one line that the place in the earlier map has not been found; else empty.
+  /// Says in one line that the place in the earlier map or floor plan has not been found; else empty.
   std::string placeNote() const;
 
   size_t scans() const { return scans_; }           ///< processed
@@ -122,7 +122,7 @@ class FilterRun {
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
   /// Lets `finish` write no results, but throw, if the map is worse than one of this verdict (WorseMap), or
-  /// if a result is missing or the log has changed (std::runtime_error).
+  /// if results are missing (FinishedRun::whyMissing) or the log has changed (std::runtime_error).
   void expectVerdict(const Verdict& worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
@@ -145,17 +145,18 @@ class FilterRun {
   std::string memoryNote() const;
   void searchPlace(const readings::Reading& reading);
   Verdict verdictOfLocalization() const;
-  nlohmann::ordered_json metrics(const FinishedRun& finished, const FinishedMap& map,
+  nlohmann::ordered_json metrics(const FinishedRun& finished, const FinishedMap& best,
                                  const readings::RawlogSummary& log) const;
-  void writeCovarianceFile(const FinishedMap& map, const std::vector<PoseCovariance>& covariances);
+  void writeCovarianceFile(const FinishedMap& best, const std::vector<PoseCovariance>& covariances);
   ScanMap currentMap() const;  ///< of a method with lines
-  FinishedMap bestMap();
+  FinishedMap finishedMap() const;
   /// @param whyMissing  set to the reason if there is no `result`
   /// @return whether it was written
   template <class Write>
   bool writeOrNote(const std::string& result, std::string& whyMissing, const Write& write);
-  /// Writes the files of the map; the covariances and the verdict need the scans of simplemap's log.
-  void writeMap(FinishedRun& finished, const FinishedMap& map, const std::string& file,
+  /// Writes the files of the map, and sets the verdict, mapNote and whyMissing of `finished`. The log is read
+  /// again for map.simplemap.gz, the verdict and the covariances.
+  void writeMap(FinishedRun& finished, const FinishedMap& best, const std::string& file,
                 const readings::RawlogSummary& log);
   void writeState(StateWriter& out);
   /// Returns the bytes of a session file; empty, with a note, if there can be none.
@@ -174,7 +175,7 @@ class FilterRun {
   std::unique_ptr<Filter> filter_;
   HybridFilter* hybrid_ = nullptr;               ///< filter_, if it is ours
   Localizer* localizer_ = nullptr;               ///< filter_, if it localises
-  std::optional<PlaceSearch> search_;            ///< until it is over
+  std::optional<PlaceSearch> search_;            ///< in an earlier map or a floor plan; until it is over
   bool wasPlaceUnknown_ = false;                 ///< in the session that was read
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
   std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still

@@ -8,26 +8,23 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <utility>
 
 #include "base/Clock.h"
-#include "base/DeskewedScan.h"
+#include "base/Errors.h"
 #include "base/Numbers.h"
-#include "files/InputFile.h"
+#include "files/Trajectory.h"
 #include "readings/Timestamps.h"
 #include "run/FilterRun.h"
 #include "run/JsonText.h"
+#include "run/LogAgain.h"
 #include "run/LoopNote.h"
 #include "run/MapFiles.h"
+#include "run/MapRefinement.h"
 #include "run/PlanFiles.h"
 #include "run/ResourceUse.h"
 #include "run/SimpleMapFile.h"
 #include "run/StepsTable.h"
 #include "run/VerdictCheck.h"
-#include "slam/filter/PathRelaxation.h"
-#include "slam/filter/Refinement.h"
-#include "slam/grid/GridConversion.h"
-#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -67,55 +64,55 @@ FinishedRun FilterRun::finish(const std::string& file, const readings::RawlogSum
   staged_.follow();
   const bool hasRoom = !isMemoryFull();  // the results below are copies
   FinishedRun finished;
-  FinishedMap map = bestMap();
+  FinishedMap best = finishedMap();
   if (hybrid_ && configuration_.filter.useGrid && configuration_.run.refine > 0) {
-    const MapRefinement refine(configuration_, recorder_, uses_, hybrid_->base(), refinementBytes_);
-    const std::string why = hasRoom ? refine(map, file, log) : "out of memory";
+    const MapRefinement refinement(configuration_, recorder_, uses_, hybrid_->base(), refinementBytes_);
+    const std::string why = hasRoom ? refinement(best, file, log) : "out of memory";
     if (!why.empty()) notes_.push_back("map not refined: " + why);
-    for (const LoopClosure& loop : map.loops) notes_.push_back(loopNote(loop, updateTimes_, true));
+    for (const LoopClosure& loop : best.loops) notes_.push_back(loopNote(loop, updateTimes_, true));
   }
-  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(map.trajectory, out); });
+  folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(best.trajectory, out); });
   if (localizer_) {
     finished.verdict = verdictOfLocalization();
-    writeCovarianceFile(map, inFixedMap(particleCovariances_));
+    writeCovarianceFile(best, inFixedMap(particleCovariances_));
   } else {
-    writeMap(finished, map, file, log);
+    writeMap(finished, best, file, log);
   }
   const Verdict& verdict = finished.verdict;
   if (worstVerdict_ && verdict.isWorseThan(*worstVerdict_))
     throw WorseMap("its map is " + verdict.name() +
                    (verdict.level > worstVerdict_->level ? "" : ", too, and more scans contradict it"));
   writeOrNote("map.png", finished.whyMissing,
-              [&] { savePicture(folder_, map.gridOrThrow(), map.trajectory, map.lines, verdict.places); });
+              [&] { savePicture(folder_, best.gridOrThrow(), best.trajectory, best.lines, verdict.places); });
   if (hybrid_)
     writeOrNote("session", finished.whyMissing, [&] {
-      if (!map.isWhole) throw std::bad_alloc();
-      saveSessionTo(folder_.path(kSessionName), map.map, map.path);
+      if (!best.hasMap) throw std::bad_alloc();
+      saveSessionTo(folder_.path(kSessionName), best.map, best.path);
     });
   if (!std::filesystem::exists(folder_.path(kSessionName)))
     if (const std::string kept = staged_.keepOwn(); !kept.empty())
       notes_.push_back("the last checkpoint stays: " + kept);
-  folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), map.loops); });
+  folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), best.loops); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
   finished.logHasChanged = hasChanged(file, log);
   if (worstVerdict_ && !finished.whyMissing.empty())
     throw std::runtime_error("results are missing: " + finished.whyMissing);
   if (worstVerdict_ && finished.logHasChanged) throw std::runtime_error("the log has changed");
-  nlohmann::ordered_json all = metrics(finished, map, log);
+  nlohmann::ordered_json all = metrics(finished, best, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << jsonText(all); });
   staged_.publish();
 
   const double wall = all.at("wall_s");
-  finished.summary = counted(scans_, "scan(s), ") + counted(map.path.size(), "update(s), ") +
+  finished.summary = counted(scans_, "scan(s), ") + counted(best.path.size(), "update(s), ") +
                      fixedText(recorder_.distance(), 0) + " m in " + fixedText(wall, 1) + " s (" +
                      fixedText(all.at("realtime_factor"), 0) +
                      " x real time): " + staged_.finalPath("map.png");
   return finished;
 }
 
-FinishedMap FilterRun::bestMap() {
+FinishedMap FilterRun::finishedMap() const {
   FinishedMap best;
   best.path = filter_->bestPath();
   best.path.resize(std::min(best.path.size(), updateTimes_.size()));  // without an update that failed
@@ -123,7 +120,7 @@ FinishedMap FilterRun::bestMap() {
   best.lines = filter_->bestLines();
   try {
     if (hybrid_ || (configuration_.filter.useLines && !localizer_)) best.map = currentMap();
-    best.isWhole = true;
+    best.hasMap = true;
     best.grid = filter_->bestGrid();
   } catch (const std::bad_alloc&) {  // costs the files of the grid
   }
@@ -149,19 +146,19 @@ bool FilterRun::writeOrNote(const std::string& result, std::string& whyMissing, 
   }
 }
 
-void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& map, const std::string& file,
+void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const std::string& file,
                          const readings::RawlogSummary& log) {
   std::string& whyMissing = finished.whyMissing;
-  if (const double cell = map.grid ? map.grid->getResolution() : cell_; cell >= 1.5 * cell_)
+  if (const double cell = best.grid ? best.grid->getResolution() : cell_; cell >= 1.5 * cell_)
     finished.mapNote = "the map files have cells of " + fixedText(cell, 2) + " m instead of " +
                        fixedText(cell_, 2) + " m: the map is too large for MRPT's grid";
-  writeOrNote("map.yaml", whyMissing, [&] { saveRosMap(folder_, map.gridOrThrow(), map.trajectory); });
-  writeOrNote("map.gridmap.gz", whyMissing, [&] { saveGridMap(folder_, map.gridOrThrow()); });
-  saveLines(folder_, map.lines);
+  writeOrNote("map.yaml", whyMissing, [&] { saveRosMap(folder_, best.gridOrThrow(), best.trajectory); });
+  writeOrNote("map.gridmap.gz", whyMissing, [&] { saveGridMap(folder_, best.gridOrThrow()); });
+  saveLines(folder_, best.lines);
   if (configuration_.filter.useLines)
     writeOrNote("plan", whyMissing, [&] {
-      map.gridOrThrow();
-      savePlan(folder_, floorPlanOf(map.lines, map.map.grid));
+      best.gridOrThrow();
+      savePlan(folder_, floorPlanOf(best.lines, best.map.grid));
     });
   VerdictCheck check(configuration_.filter.grid.maxRange, filter_->earlierMap());
   std::vector<bool> isUpdate;
@@ -169,7 +166,7 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& map, const st
     isUpdate.push_back(uses_[i] == ReadingUse::update);
   const auto compare = [&] {
     LogAgain again(file, configuration_.input, log);
-    saveSimpleMap(folder_, again, isUpdate, map.path,
+    saveSimpleMap(folder_, again, isUpdate, best.path,
                   [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
   };
   const bool isCompared = log.scans == 0 || writeOrNote("map.simplemap.gz", whyMissing, compare);
@@ -185,15 +182,15 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& map, const st
   evidence.scans = log.scans;
   finished.verdict = verdictOf(evidence);
   // The poses of a relaxed path are matches to the map of all scans; the particles knew the earlier ones.
-  const PathCovariances covariances(map.path,
-                                    map.isRelaxed ? std::vector<PoseCovariance>() : particleCovariances_,
-                                    evidence.returning, configuration_.filter.useLines, map.isRelaxed);
-  writeCovarianceFile(map, covariances.ofPoses());
+  const PathCovariances covariances(best.path,
+                                    best.isRelaxed ? std::vector<PoseCovariance>() : particleCovariances_,
+                                    evidence.returning, configuration_.filter.useLines, best.isRelaxed);
+  writeCovarianceFile(best, covariances.ofPoses());
 }
 
-void FilterRun::writeCovarianceFile(const FinishedMap& map, const std::vector<PoseCovariance>& covariances) {
+void FilterRun::writeCovarianceFile(const FinishedMap& best, const std::vector<PoseCovariance>& covariances) {
   folder_.write("covariance.csv", [&](std::ostream& out) {
-    writeCovariances(out, map.trajectory, recorder_.updates(), map.path, covariances);
+    writeCovariances(out, best.trajectory, recorder_.updates(), best.path, covariances);
   });
 }
 
@@ -211,11 +208,11 @@ Verdict FilterRun::verdictOfLocalization() const {
   return verdict;
 }
 
-nlohmann::ordered_json FilterRun::metrics(const FinishedRun& finished, const FinishedMap& map,
+nlohmann::ordered_json FilterRun::metrics(const FinishedRun& finished, const FinishedMap& best,
                                           const readings::RawlogSummary& log) const {
   const bool isWhole = uses_.size() == log.scans;
   const double wall = secondsBefore_ + secondsSince(start_);
-  const double duration = isWhole ? log.duration : durationOf(map.trajectory);
+  const double duration = isWhole ? log.duration : durationOf(best.trajectory);
   const bool isOne = configuration_.run.method == RunOptions::Method::ortho;
   nlohmann::ordered_json metrics{
       {"method", nameOf(configuration_.run.method)},
@@ -225,7 +222,7 @@ nlohmann::ordered_json FilterRun::metrics(const FinishedRun& finished, const Fin
       {"seed", configuration_.filter.filter.seed},
       {"threads", configuration_.filter.filter.threads},
       {"scans", scans_},
-      {"updates", map.path.size()},
+      {"updates", best.path.size()},
       {"duration_s", duration},
       {"wall_s", wall},
       {"cpu_s", cpuSeconds()},
@@ -233,18 +230,18 @@ nlohmann::ordered_json FilterRun::metrics(const FinishedRun& finished, const Fin
       {"peak_rss_mb", peakMegabytes()},
       {"resamplings", counts_.resamplings},
       {"slips", counts_.slips},
-      {"loops_closed", counts_.loops + map.loops.size()},
-      {"path_relaxed", map.isRelaxed},
+      {"loops_closed", counts_.loops + best.loops.size()},
+      {"path_relaxed", best.isRelaxed},
       {"verdict", finished.verdict.name()},
       {"reasons", finished.verdict.reasons},
       {"doubtful_places", json(finished.verdict.places, updateTimes_)},
-      {"lines", map.lines.size()},
+      {"lines", best.lines.size()},
       {"distance_m", recorder_.distance()},
       {"complete", isWhole && log.defect.empty() && finished.whyMissing.empty() && !finished.logHasChanged},
       {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
-  if (localizer_ && !map.path.empty())
-    metrics["localized_share"] = static_cast<double>(located_) / static_cast<double>(map.path.size());
+  if (localizer_ && !best.path.empty())
+    metrics["localized_share"] = static_cast<double>(located_) / static_cast<double>(best.path.size());
   return metrics;
 }
 

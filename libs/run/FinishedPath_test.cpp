@@ -17,7 +17,7 @@ namespace {
 
 /// A run of three laps, 29 m, whose third returns to places mapped 20 m before. A single particle has no
 /// spread.
-struct FinishedRun : testing::Test {
+struct FinishedPathTest : testing::Test {
   files::TemporaryFolder folder;
   std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(240));
 
@@ -58,14 +58,16 @@ struct FinishedRun : testing::Test {
   }
 };
 
-TEST_F(FinishedRun, HasTheCovariancesOfTheRun) {
+TEST_F(FinishedPathTest, HasTheCovariancesOfTheRun) {
   for (const char* method : {"hybrid", "general"}) expectSame(map(method));
 }
 
 // A run that continues a map does not relax its path.
-TEST_F(FinishedRun, HasTheCovariancesOfARunThatContinuesAMap) { expectSame(map("hybrid", map("hybrid"))); }
+TEST_F(FinishedPathTest, HasTheCovariancesOfARunThatContinuesAMap) {
+  expectSame(map("hybrid", map("hybrid")));
+}
 
-TEST_F(FinishedRun, MetricsThatDoNotSayWhetherThePathIsRelaxed) {
+TEST_F(FinishedPathTest, MetricsThatDoNotSayWhetherThePathIsRelaxed) {
   const std::string results = map("hybrid");
   for (const char* metrics : {"{", "{}", R"({"path_relaxed": 1})"}) {
     folder.write("hybrid/metrics.json", metrics);
@@ -76,7 +78,7 @@ TEST_F(FinishedRun, MetricsThatDoNotSayWhetherThePathIsRelaxed) {
   }
 }
 
-TEST_F(FinishedRun, TimesThatDoNotTellTheScansApart) {
+TEST_F(FinishedPathTest, TimesThatDoNotTellTheScansApart) {
   test::Log coarse = test::laps(240);
   for (const auto& object : coarse) {
     const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
@@ -90,7 +92,7 @@ TEST_F(FinishedRun, TimesThatDoNotTellTheScansApart) {
                             "log whose timestamps tell its scans apart"));
 }
 
-TEST_F(FinishedRun, FilesThatDoNotBelongTogether) {
+TEST_F(FinishedPathTest, FilesThatDoNotBelongTogether) {
   const std::string results = map("hybrid");
   const std::string other = test::writeGzipped(folder.path("other.rawlog"), test::laps(20));
   EXPECT_EQ(test::errorOf([&] { readFinishedPath(results, other); }),

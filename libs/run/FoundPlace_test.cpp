@@ -18,7 +18,7 @@
 namespace hybrid_slam::run {
 namespace {
 
-struct FoundPlace : testing::Test {
+struct FoundPlaceTest : testing::Test {
   files::TemporaryFolder folder;
   std::string incomplete;             ///< why the results of the last run are
   std::vector<std::string> settings;  ///< beside those of all runs
@@ -73,7 +73,7 @@ struct AroundTheBlock {
 };
 
 /// The last corridors of two buildings are alike, the first ones are not.
-TEST_F(FoundPlace, ACorridorOfAnotherBuildingIsNotTaken) {
+TEST_F(FoundPlaceTest, ACorridorOfAnotherBuildingIsNotTaken) {
   const std::string earlier = map("earlier", AroundTheBlock(-1.5).log);
   map("again", AroundTheBlock(-1.5).log, earlier);
   EXPECT_EQ(incomplete, "");
@@ -82,7 +82,7 @@ TEST_F(FoundPlace, ACorridorOfAnotherBuildingIsNotTaken) {
 }
 
 /// The first corridor has changed, so the place is taken only after others, at a scan between two updates.
-TEST_F(FoundPlace, BetweenTwoUpdatesJoinsTheMapAtThePoseOfTheScan) {
+TEST_F(FoundPlaceTest, BetweenTwoUpdatesJoinsTheMapAtThePoseOfTheScan) {
   const std::vector<test::TPoint2D> corners = {{0, 0}, {31.5, 0}, {31.5, 21}, {-1.5, 21}};
   const std::string earlier = map("earlier", AroundTheBlock(-1.5, corners).log);
   for (const std::string distance : {"0.8", "1.3"}) {
@@ -97,7 +97,7 @@ TEST_F(FoundPlace, BetweenTwoUpdatesJoinsTheMapAtThePoseOfTheScan) {
   }
 }
 
-TEST_F(FoundPlace, AResumedRunIsComparedWithTheEarlierMapToo) {
+TEST_F(FoundPlaceTest, AResumedRunIsComparedWithTheEarlierMapToo) {
   const std::string earlier = map("earlier", AroundTheBlock(-1.5).log);
   test::Log other = AroundTheBlock(-4, {{0, 0}, {20, 0}}).log;
   start = mrpt::math::TPose2D();
@@ -111,7 +111,7 @@ TEST_F(FoundPlace, AResumedRunIsComparedWithTheEarlierMapToo) {
   EXPECT_EQ(verdict.line(), line);
 }
 
-TEST_F(FoundPlace, ARunWithoutOneIsNotResumed) {
+TEST_F(FoundPlaceTest, ARunWithoutOneIsNotResumed) {
   const std::string earlier = map("earlier", test::logOf(test::drive(8, 1)));
   const test::Log log = test::logOf(test::drive(8, 2));
   resume = map("begun", test::Log(log.begin(), log.begin() + 4), earlier) + "/session.hslam";
@@ -133,7 +133,7 @@ Eigen::Matrix3d covarianceOfRow(const std::vector<double>& row) {
   return covariance;
 }
 
-TEST_F(FoundPlace, TurnsTheCovariancesOfThePathSoFar) {
+TEST_F(FoundPlaceTest, TurnsTheCovariancesOfThePathSoFar) {
   const std::string earlier = map("earlier", test::logOf(test::drive(8, 1)));
   auto drive = test::drive(8, 2);
   drive.erase(drive.begin(), drive.begin() + 22);  // begins at a right angle to the earlier one

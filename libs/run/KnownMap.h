@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "run/Configuration.h"
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 
 namespace hybrid_slam::run {
 

@@ -9,6 +9,7 @@
 #include "base/Errors.h"
 #include "base/Numbers.h"
 #include "slam/filter/PathRelaxation.h"
+#include "slam/filter/Refinement.h"
 #include "slam/grid/GridConversion.h"
 #include "slam/loops/RevisitCheck.h"
 
@@ -36,14 +37,14 @@ const mrpt::maps::COccupancyGridMap2D& FinishedMap::gridOrThrow() const {
   return *grid;
 }
 
-std::string MapRefinement::operator()(FinishedMap& map, const std::string& file,
+std::string MapRefinement::operator()(FinishedMap& best, const std::string& file,
                                       const readings::RawlogSummary& log) const {
   if (hasChanged(file, log)) return "the log has changed";
   if (log.scans < uses_.size()) return "the recording ends before the run";
   try {
     LogAgain again(file, configuration_.input, log);
-    std::vector<PosedScans> scans = read(again, map.trajectory);
-    if (!scans.empty()) map = refined(map, std::move(scans));
+    std::vector<PosedScans> scans = read(again, best.trajectory);
+    if (!scans.empty()) best = refined(best, std::move(scans));
     return {};
   } catch (const UnreadableLog& e) {
     return e.what();
@@ -67,64 +68,64 @@ std::vector<PosedScans> MapRefinement::read(LogAgain& log, const files::Trajecto
     bytes += memoryOf(reading.scans);
     const double expected =
         bytes * static_cast<double>(trajectory.size()) / static_cast<double>(scans.size());
-    if (expected > most_)
+    if (expected > mostBytes_)
       throw TooManyScans("the scans need " + fixedText(expected / 1e9, 1) + " GB, over " +
-                         fixedText(most_ / 1e9, 1) + " GB");
+                         fixedText(mostBytes_ / 1e9, 1) + " GB");
   }
   return scans;
 }
 
-/// Changes the path of `map`.
+/// Changes the path of `best`.
 /// @param scans  of each update
-void MapRefinement::closeLoops(FinishedMap& map, const std::vector<Scans>& scans) const {
+void MapRefinement::closeLoops(FinishedMap& best, const std::vector<Scans>& scans) const {
   const FilterConfiguration& filter = configuration_.filter;
   const auto contradictionAlong = [&](const std::vector<mrpt::math::TPose2D>& path) {
     return contradictionOf(path, scans, filter.grid.maxRange);
   };
-  double contradiction = contradictionAlong(map.path);
-  std::vector<mrpt::math::TPose2D> closed = map.path;
+  double contradiction = contradictionAlong(best.path);
+  std::vector<mrpt::math::TPose2D> closed = best.path;
   std::vector<LoopClosure> loops =
-      hybrid_slam::closeLoops(closed, scans, directionModuloRightAngle(map.lines), filter);
+      hybrid_slam::closeLoops(closed, scans, directionModuloRightAngle(best.lines), filter);
   // A false loop puts walls into free space.
   if (const double after = loops.empty() ? INFINITY : contradictionAlong(closed); after < contradiction) {
-    map.loops = std::move(loops);
-    map.path = std::move(closed);
+    best.loops = std::move(loops);
+    best.path = std::move(closed);
     contradiction = after;
   }
   // On a wrong map, returning scans may match the walls of other places.
   constexpr double kMoreContradiction = 0.02;  // of the compared beams
-  std::vector<mrpt::math::TPose2D> even = relaxed(map.path, recorder_.motionsOfUpdates(), scans, filter);
-  map.isRelaxed = contradictionAlong(even) <= contradiction + kMoreContradiction;
-  if (map.isRelaxed) map.path = std::move(even);
+  std::vector<mrpt::math::TPose2D> even = relaxed(best.path, recorder_.motionsOfUpdates(), scans, filter);
+  best.isRelaxed = contradictionAlong(even) <= contradiction + kMoreContradiction;
+  if (best.isRelaxed) best.path = std::move(even);
 }
 
-FinishedMap MapRefinement::refined(FinishedMap map, std::vector<PosedScans> scans) const {
+FinishedMap MapRefinement::refined(FinishedMap best, std::vector<PosedScans> scans) const {
   const FilterConfiguration& filter = configuration_.filter;
   if (filter.closesLoops() && !base_) {
     std::vector<Scans> ofUpdates;
     for (const PosedScans& posed : scans)
       if (posed.isMapped) ofUpdates.push_back(posed.scans);
-    closeLoops(map, ofUpdates);
-    map.trajectory = recorder_.trajectory(map.path);
-    for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = map.trajectory[i].pose;
+    closeLoops(best, ofUpdates);
+    best.trajectory = recorder_.trajectory(best.path);
+    for (size_t i = 0; i < scans.size(); ++i) scans[i].pose = best.trajectory[i].pose;
   }
   std::vector<MotionDistribution> odometry;
   for (const mrpt::math::TPose2D& motion : recorder_.motions())
     odometry.push_back(motionDistribution({}, motion, filter.motion));
   const mrpt::math::TPose2D start = scans.front().pose;
-  refine(scans, configuration_.run.refine, filter.grid, filter.matcher, filter.improved.minFit,
-         filter.filter.threads, base_, odometry);
+  refine(scans, configuration_.run.refine, filter, base_, odometry);
   // The first pose defines the frame of a new map.
   if (!base_) moveFirstTo(start, scans);
   for (size_t i = 0, update = 0; i < scans.size(); ++i) {
-    map.trajectory[i].pose = scans[i].pose;
-    if (scans[i].isMapped) map.path[update++] = scans[i].pose;
+    best.trajectory[i].pose = scans[i].pose;
+    if (scans[i].isMapped) best.path[update++] = scans[i].pose;
   }
-  map.map = MapMaker(filter)(scans, base_);
-  map.grid = toMrpt(map.map.grid);
-  map.lines = map.map.lines.lines();
-  for (LoopClosure& loop : map.loops) loop.place = map.path[loop.later];
-  return map;
+  best.map = MapMaker(filter)(scans, base_);
+  best.hasMap = true;
+  best.grid = toMrpt(best.map.grid);
+  best.lines = best.map.lines.lines();
+  for (LoopClosure& loop : best.loops) loop.place = best.path[loop.later];
+  return best;
 }
 
 }  // namespace hybrid_slam::run

@@ -13,7 +13,7 @@
 #include "run/LogAgain.h"
 #include "run/ReadingUse.h"
 #include "run/TrajectoryRecorder.h"
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/loops/LoopClosure.h"
 
@@ -26,7 +26,7 @@ struct FinishedMap {
   std::optional<mrpt::maps::COccupancyGridMap2D> grid;  ///< none if there is no memory for it
   std::vector<DatabaseLine> lines;
   ScanMap map;                     ///< with our filters: the same grid and lines
-  bool isWhole = false;            ///< there was memory for `map`
+  bool hasMap = false;             ///< there was memory for `map`
   std::vector<LoopClosure> loops;  ///< closed by the refinement
   bool isRelaxed = false;          ///< refined, its errors distributed over its loops
 
@@ -35,30 +35,31 @@ struct FinishedMap {
 };
 
 /// Closes the remaining loops, distributes their errors, matches every scan of the log to the map of all, and
-/// rebuilds the map (slam/filter/Refinement.h).
+/// rebuilds the map (slam/filter/MapMaker.h).
 class MapRefinement {
  public:
   /// The references must outlive it.
   /// @param uses  of each reading of the log
   /// @param base  the earlier map that the run continues, whose loops stay as they are
-  /// @param most  bytes that the scans may take
+  /// @param mostBytes  of the scans
   MapRefinement(const Configuration& configuration, const TrajectoryRecorder& recorder,
-                const std::vector<ReadingUse>& uses, const std::optional<ScanMap>& base, double most)
-      : configuration_(configuration), recorder_(recorder), uses_(uses), base_(base), most_(most) {}
+                const std::vector<ReadingUse>& uses, const std::optional<ScanMap>& base, double mostBytes)
+      : configuration_(configuration), recorder_(recorder), uses_(uses), base_(base), mostBytes_(mostBytes) {}
 
-  /// @return why `map` could not be refined, and stays as it is; else empty
-  std::string operator()(FinishedMap& map, const std::string& file, const readings::RawlogSummary& log) const;
+  /// @return why `best` could not be refined, and stays as it is; else empty
+  std::string operator()(FinishedMap& best, const std::string& file,
+                         const readings::RawlogSummary& log) const;
 
  private:
   std::vector<PosedScans> read(LogAgain& log, const files::Trajectory& trajectory) const;
-  void closeLoops(FinishedMap& map, const std::vector<Scans>& scans) const;
-  FinishedMap refined(FinishedMap map, std::vector<PosedScans> scans) const;
+  void closeLoops(FinishedMap& best, const std::vector<Scans>& scans) const;
+  FinishedMap refined(FinishedMap best, std::vector<PosedScans> scans) const;
 
   const Configuration& configuration_;
   const TrajectoryRecorder& recorder_;
   const std::vector<ReadingUse>& uses_;
   const std::optional<ScanMap>& base_;
-  double most_;
+  double mostBytes_;
 };
 
 }  // namespace hybrid_slam::run

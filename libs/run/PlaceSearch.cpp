@@ -2,9 +2,14 @@
 
 #include <mrpt/core/bits_math.h>
 
+#include <utility>
+#include <vector>
+
 #include "base/Numbers.h"
 #include "run/PlanFiles.h"
+#include "run/Verdict.h"
 #include "run/VerdictCheck.h"
+#include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
 namespace {

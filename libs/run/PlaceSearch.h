@@ -24,8 +24,9 @@ struct FoundPlace {
 /// Searches while the filter maps in a separate frame.
 class PlaceSearch {
  public:
-  /// @param earlierMap  of the run to continue; empty: the floor plan of `configuration` is searched
-  /// @throws InputError for a plan that cannot be searched
+  /// @param configuration  must outlive it
+  /// @param earlierMap     of the run to continue; empty: the floor plan of `configuration` is searched
+  /// @throws InputError for settings that a filter rejects, and for a plan that cannot be searched
   PlaceSearch(const Configuration& configuration, std::optional<ScanMap> earlierMap);
 
   /// Takes a reading that `filter` has just processed.

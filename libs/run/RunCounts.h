@@ -27,7 +27,7 @@ struct RunCounts {
   /// One line each on rejected and on stuck odometry, if there was any.
   std::vector<std::string> warnings() const;
 
-  /// Without the stuck scans, which the odometry's own state accompanies.
+  /// Without the stuck scans, which are saved with StuckOdometry.
   template <class State>
   void visit(State& state) {
     state(resamplings, slips, loops, particlesMin, particlesMax, firstSlip);

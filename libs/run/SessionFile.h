@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/State.h"
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 
 namespace hybrid_slam::run {
 

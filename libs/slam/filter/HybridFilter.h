@@ -6,7 +6,7 @@
 #include "slam/filter/FilterOptions.h"
 #include "slam/filter/ParticleSet.h"
 #include "slam/filter/PathGrid.h"
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/loops/LoopCloser.h"
 #include "slam/loops/RevisitCheck.h"
 

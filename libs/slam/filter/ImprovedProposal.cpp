@@ -16,6 +16,38 @@ Eigen::Vector3d standardNormal(RandomStream& random) {
   return {x, y, random.gaussian()};
 }
 
+/// Of weighted samples.
+struct Moments {
+  double logMeanWeight;
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+
+Moments momentsOf(const std::vector<Eigen::Vector3d>& samples, std::vector<double> logWeights) {
+  const double highest = *std::max_element(logWeights.begin(), logWeights.end());
+  double sum = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (size_t k = 0; k < samples.size(); ++k) {
+    logWeights[k] = std::exp(logWeights[k] - highest);
+    sum += logWeights[k];
+    mean += logWeights[k] * samples[k];
+  }
+  mean /= sum;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (size_t k = 0; k < samples.size(); ++k)
+    covariance += logWeights[k] / sum * (samples[k] - mean) * (samples[k] - mean).transpose();
+  return {highest + std::log(sum / static_cast<double>(samples.size())), mean, covariance};
+}
+
+/// Draws from N(0, covariance). The covariance of few samples may be singular; LDLT also works for
+/// semi-definite matrices.
+Eigen::Vector3d drawnFrom(const Eigen::Matrix3d& covariance, RandomStream& random) {
+  const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
+  const Eigen::Vector3d deviations = spread.vectorD().cwiseMax(0).cwiseSqrt();
+  return spread.transpositionsP().transpose() *
+         Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
+}
+
 }  // namespace
 
 ImprovedProposal::ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
@@ -65,28 +97,9 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     const TPose2D pose = displaced(match.pose, offsets[k]);
     logRatios[k] = likelihood.value(pose) + prior(pose).value + 0.5 * normal.squaredNorm() + logVolume;
   }
-  const double highest = *std::max_element(logRatios.begin(), logRatios.end());
-  double sum = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (size_t k = 0; k < samples; ++k) {
-    logRatios[k] = std::exp(logRatios[k] - highest);
-    sum += logRatios[k];
-    mean += logRatios[k] * offsets[k];
-  }
-  mean /= sum;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (size_t k = 0; k < samples; ++k)
-    covariance += logRatios[k] / sum * (offsets[k] - mean) * (offsets[k] - mean).transpose();
-
-  proposed.logWeight = highest + std::log(sum / static_cast<double>(samples)) -
-                       0.5 * std::log(motion.covariance.determinant());
-  // The covariance of few samples may be singular; LDLT also works for semi-definite matrices.
-  const Eigen::LDLT<Eigen::Matrix3d> spread(covariance);
-  const Eigen::Vector3d deviations = spread.vectorD().cwiseMax(0).cwiseSqrt();
-  const Eigen::Vector3d drawn =
-      spread.transpositionsP().transpose() *
-      Eigen::Vector3d(Eigen::Matrix3d(spread.matrixL()) * deviations.cwiseProduct(standardNormal(random)));
-  proposed.pose = displaced(match.pose, mean + drawn);
+  const Moments moments = momentsOf(offsets, logRatios);
+  proposed.logWeight = moments.logMeanWeight - 0.5 * std::log(motion.covariance.determinant());
+  proposed.pose = displaced(match.pose, moments.mean + drawnFrom(moments.covariance, random));
   proposed.lineWeight = terms_.lineWeight(particle, proposed.pose, scan);
   return proposed;
 }

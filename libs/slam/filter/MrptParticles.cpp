@@ -72,28 +72,29 @@ void MrptParticles::seedStep(const RandomStream& random) {
 }
 
 void MrptParticles::performSubstitution(const std::vector<size_t>& indices) {
-  if (options_.resamplingMethod == CParticleFilter::prResidual) {
-    std::vector<double> logWeights;
-    for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
-    RandomStream random = random_;
-    CParticleFilterDataImpl::performSubstitution(residualResampling(logWeights, random));
-  } else {
-    CParticleFilterDataImpl::performSubstitution(indices);
-  }
+  RandomStream random = random_;
+  const bool isResidual = options_.resamplingMethod == CParticleFilter::prResidual;
+  substitute(isResidual ? residualResampling(logWeights(), random) : indices);
+}
+
+void MrptParticles::substitute(const std::vector<size_t>& indices) {
+  CParticleFilterDataImpl::performSubstitution(indices);
   for (auto& particle : m_particles) particle.log_w = 0;
   hasResampled_ = true;
+}
+
+std::vector<double> MrptParticles::logWeights() const {
+  std::vector<double> weights;
+  for (const auto& particle : m_particles) weights.push_back(particle.log_w);
+  return weights;
 }
 
 // MRPT's schemes resample to the same number: to more they read past their draws, to fewer they leave out the
 // last particles.
 void MrptParticles::resample(size_t particles) {
   if (particles == m_particles.size()) return performResampling(options_);
-  std::vector<double> logWeights;
-  for (const auto& particle : m_particles) logWeights.push_back(particle.log_w);
   RandomStream random = random_;
-  CParticleFilterDataImpl::performSubstitution(systematicResampling(logWeights, particles, random));
-  for (auto& particle : m_particles) particle.log_w = 0;
-  hasResampled_ = true;
+  substitute(systematicResampling(logWeights(), particles, random));
 }
 
 void MrptParticles::auxiliaryStep(const TPose2D& odometry, const MotionModelOptions& motion,

@@ -60,6 +60,10 @@ class MrptParticles
                      const LogWeightAt& logWeightAt);
 
  private:
+  /// Replaces the particles by those with these indices, with equal weights.
+  void substitute(const std::vector<size_t>& indices);
+  std::vector<double> logWeights() const;
+
   mrpt::bayes::CParticleFilter::TParticleFilterOptions options_;
   RandomStream random_{0, 0, 0};  ///< of the step
   bool hasResampled_ = false;

@@ -15,15 +15,6 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-OccupancyGrid gridOf(const std::vector<PosedScans>& scans, const GridOptions& options,
-                     const std::optional<ScanMap>& base) {
-  OccupancyGrid grid = base ? base->grid : OccupancyGrid(options.resolution);
-  for (const PosedScans& posed : scans)
-    if (posed.isMapped)
-      grid.insert(ScanBeams(toLaserScans(posed.scans, options.maxRange)), posed.pose, options);
-  return grid;
-}
-
 /// Moves each run of scans that fit better elsewhere, unless the motions at its two ends then depart from the
 /// odometry by more than before and 3 standard deviations.
 void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2D>>& elsewhere,
@@ -49,28 +40,6 @@ void move(std::vector<PosedScans>& scans, const std::vector<std::optional<TPose2
 
 }  // namespace
 
-MapMaker::MapMaker(const FilterConfiguration& configuration)
-    : prepare_(configuration),
-      grid_(configuration.grid),
-      database_(configuration.databaseOptions()),
-      association_(configuration.association),
-      features_(configuration.features) {}
-
-ScanMap MapMaker::operator()(const std::vector<PosedScans>& scans, const std::optional<ScanMap>& base) const {
-  ScanMap map{gridOf(scans, grid_, base), base ? base->lines : LineDatabase(),
-              base ? base->features : FeatureDatabase()};
-  for (const PosedScans& posed : scans) {
-    if (!posed.isMapped) continue;
-    const LaserScans scan = toLaserScans(posed.scans, grid_.maxRange);
-    map.lines.update(transformed(prepare_.lines(scan), posed.pose), database_, association_);
-    if (!features_.enabled) continue;
-    std::vector<PointFeature> features = prepare_.features(scan);
-    for (PointFeature& feature : features) feature = transformed(feature, posed.pose);
-    map.features.update(features, features_);
-  }
-  return map;
-}
-
 std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vector<Scans>& scans,
                                     const std::optional<double>& direction,
                                     const FilterConfiguration& configuration) {
@@ -89,25 +58,23 @@ std::vector<LoopClosure> closeLoops(std::vector<TPose2D>& path, const std::vecto
   return closures;
 }
 
-void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
-            const ScanMatcherOptions& matcher, double minFit, int threads, const std::optional<ScanMap>& base,
-            const std::vector<MotionDistribution>& odometry) {
+void refine(std::vector<PosedScans>& scans, int passes, const FilterConfiguration& configuration,
+            const std::optional<ScanMap>& base, const std::vector<MotionDistribution>& odometry) {
   constexpr double kClearGain = 0.25;  // of ln p, per beam
   const Eigen::Vector3d deviations(0.05, 0.05, mrpt::DEG2RAD(1.0));
-  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
-  const ScanMatcher scanMatcher(matcher);
-  tbb::task_arena arena(arenaThreads(threads));
+  const double minFit = configuration.improved.minFit;
+  const ScanMatcher matcher(configuration.matcher);
+  tbb::task_arena arena(arenaThreads(configuration.filter.threads));
   for (int pass = 0; pass < passes; ++pass) {
-    const OccupancyGrid map = gridOf(scans, grid, base);
+    const OccupancyGrid map = gridOf(scans, configuration.grid, base);
     std::vector<std::optional<TPose2D>> elsewhere(scans.size());
     parallelFor(arena, 0, scans.size(), [&](size_t i) {
-      const LaserScans all = toLaserScans(scans[i].scans, grid.maxRange);
+      const LaserScans all = toLaserScans(scans[i].scans, configuration.grid.maxRange);
       const LaserScans seen = without(all, endsAtMovedThing(ScanBeams(all), scans[i].pose, map));
-      const ScanBeams beams(seen, BeamSelection(seen).take(matcher.beams));
-      ScanLikelihood likelihood = scanMatcher.likelihood(beams, map);
+      const ScanBeams beams(seen, BeamSelection(seen).take(configuration.matcher.beams));
+      ScanLikelihood likelihood = matcher.likelihood(beams, map);
       const auto matchFrom = [&](const TPose2D& start) {
-        return scanMatcher.match(
-            likelihood, start, [&](const TPose2D& at) { return gaussianLogDensity(at, start, information); });
+        return matcher.match(likelihood, start, normalPrior(start, deviations));
       };
       TPose2D& pose = scans[i].pose;
       const ScanMatch match = matchFrom(pose);

@@ -5,55 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "base/LaserScan.h"
-#include "slam/features/FeatureDatabase.h"
 #include "slam/filter/FilterOptions.h"
-#include "slam/filter/PreparedScan.h"
-#include "slam/grid/OccupancyGrid.h"
-#include "slam/lines/LineDatabase.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/loops/LoopClosure.h"
 #include "slam/motion/MotionModel.h"
 
 namespace hybrid_slam {
-
-/// The scans of a reading and the robot's pose.
-struct PosedScans {
-  Scans scans;
-  mrpt::math::TPose2D pose;  ///< map frame
-  bool isMapped = false;     ///< used in an update: its beams and lines are in the map
-
-  template <class State>
-  void visit(State& state) {
-    state(scans, pose, isMapped);
-  }
-};
-
-/// A map made from scans at their poses, or by an earlier run.
-struct ScanMap {
-  OccupancyGrid grid;
-  LineDatabase lines;
-  FeatureDatabase features = {};  ///< not in `visit`: a run that continues the map collects new ones
-
-  template <class State>
-  void visit(State& state) {
-    state(grid, lines);
-  }
-};
-
-/// Builds maps from scans at their poses.
-class MapMaker {
- public:
-  explicit MapMaker(const FilterConfiguration& configuration);
-  /// @param base  map to insert the scans into; default: an empty map
-  ScanMap operator()(const std::vector<PosedScans>& scans, const std::optional<ScanMap>& base = {}) const;
-
- private:
-  ScanPreparation prepare_;
-  GridOptions grid_;
-  LineDatabaseOptions database_;
-  AssociationOptions association_;
-  FeatureOptions features_;
-};
 
 /// Closes the loops that a finished path leaves open, from its first update to its last. Assumes that no
 /// motion slipped.
@@ -66,20 +23,18 @@ std::vector<LoopClosure> closeLoops(std::vector<mrpt::math::TPose2D>& path, cons
 
 /// Matches every scan, also those between two updates, against the map that all of them and `base` make,
 /// `passes` times. A normal prior of 5 cm and 1 deg keeps each pose near its previous value; a match that
-/// fits less than `minFit` leaves it unchanged. The first pose is not fixed.
+/// fits less than [improved_proposal] min_fit leaves it unchanged. The first pose is not fixed.
 ///
 /// Where a scan shows little, as between two doors of a corridor, its pose follows the odometry. If that was
 /// wrong, the pose is wrong by more than a match corrects, although later scans show where the robot was. So
 /// each scan (but the first one without `base`) is also matched from the best pose up to half a metre ahead,
 /// behind, left and right. It moves there if it fits clearly better there, and the path then departs from the
 /// odometry by about as much as before; otherwise the scan may be right, and the walls of others wrong.
-/// @param minFit    in [0, 1]
-/// @param threads   0: all cores; does not affect the result
+/// @param base      map to insert the scans into; empty: none
 /// @param odometry  motion from each scan to the next, by the motion model (frame of the earlier scan's
 /// pose);
 ///                  empty: unknown, so that no scan moves that far
-void refine(std::vector<PosedScans>& scans, int passes, const GridOptions& grid,
-            const ScanMatcherOptions& matcher, double minFit, int threads,
+void refine(std::vector<PosedScans>& scans, int passes, const FilterConfiguration& configuration,
             const std::optional<ScanMap>& base = {}, const std::vector<MotionDistribution>& odometry = {});
 
 /// Moves all scans together so that the first one is at `pose`, as in a map that begins there.

@@ -29,8 +29,9 @@ std::vector<PosedScans> driven(std::vector<TPose2D>& truth) {
 /// Refines the poses with the settings of the room.
 void refineRoom(std::vector<PosedScans>& scans, int passes, int threads = 1,
                 const std::vector<MotionDistribution>& odometry = {}) {
-  const FilterConfiguration c = test::roomConfiguration();
-  refine(scans, passes, c.grid, c.matcher, c.improved.minFit, threads, std::nullopt, odometry);
+  FilterConfiguration c = test::roomConfiguration();
+  c.filter.threads = threads;
+  refine(scans, passes, c, std::nullopt, odometry);
 }
 
 /// The error of the motions from each scan to the next, m: it does not depend on the map frame.

@@ -62,9 +62,7 @@ TPose2D ScanOdometry::predicted(double duration) const {
 }
 
 ScanMatch ScanOdometry::match(const ScanBeams& beams, const TPose2D& expected) const {
-  const Eigen::Vector3d deviations(kStdXY, kStdXY, kStdPhi);
-  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
-  const Prior prior = [&](const TPose2D& pose) { return gaussianLogDensity(pose, expected, information); };
+  const Prior prior = normalPrior(expected, {kStdXY, kStdXY, kStdPhi});
   ScanMatch best = matcher_.match(beams, expected, map_, prior);
   for (const TPose2D& place : correlativeSearch(beams, expected, map_, kWindow, kPlaces)) {
     const ScanMatch match = matcher_.match(beams, place, map_, prior);

@@ -27,6 +27,13 @@ LogDensity gaussianLogDensity(const TPose2D& pose, const TPose2D& mean, const Ei
   return density;
 }
 
+Prior normalPrior(const TPose2D& expected, const Eigen::Vector3d& deviations) {
+  const Eigen::Matrix3d information = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+  return [expected, information](const TPose2D& pose) {
+    return gaussianLogDensity(pose, expected, information);
+  };
+}
+
 ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
 ScanLikelihood ScanMatcher::likelihood(const ScanBeams& scan, const OccupancyGrid& grid) const {

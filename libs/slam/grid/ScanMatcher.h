@@ -29,6 +29,8 @@ inline LogDensity noPrior(const mrpt::math::TPose2D&) { return {}; }
 /// The normal density around `mean` with the given information matrix (inverse covariance), up to a constant.
 LogDensity gaussianLogDensity(const mrpt::math::TPose2D& pose, const mrpt::math::TPose2D& mean,
                               const Eigen::Matrix3d& information);
+/// A normal prior around `expected` with these standard deviations in x, y (m) and heading (rad).
+Prior normalPrior(const mrpt::math::TPose2D& expected, const Eigen::Vector3d& deviations);
 
 /// Information of a scan on its pose (x, y, phi; map axes; 1/m^2, 1/(m rad), 1/rad^2): minus the second
 /// derivative of the log-likelihood, negative part removed, from gradients 1.5 cells (3/4 deg) to either

@@ -74,11 +74,7 @@ GlobalLocalization::GlobalLocalization(const GridWeightOptions& gridWeight, cons
 
 /// Corrects the pose and weighs the scan there.
 ScanEvidence GlobalLocalization::match(const PreparedScan& scan, TPose2D& pose) const {
-  const Eigen::Matrix3d information =
-      Eigen::Vector3d(kStdXY, kStdXY, kStdPhi).cwiseAbs2().cwiseInverse().asDiagonal();
-  const auto prior = [&, expected = pose](const TPose2D& at) {
-    return gaussianLogDensity(at, expected, information);
-  };
+  const Prior prior = normalPrior(pose, {kStdXY, kStdXY, kStdPhi});
   pose = matcher_.match(scan.matchedBeams, pose, grid_, prior).pose;
   return {gridWeight_.logWeight(scan.weighedBeams, scan.scans, pose, grid_),
           beamShares(scan.matchedBeams, pose, grid_)};

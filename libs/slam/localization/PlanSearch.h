@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/grid/GlobalSearch.h"
 #include "slam/lines/LineDatabase.h"
 #include "slam/localization/PlanFit.h"

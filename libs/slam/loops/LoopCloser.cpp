@@ -35,7 +35,8 @@ constexpr double kMaxWallAngle = 3 * kDegree, kWallSigma = 0.1 * kDegree;
 std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
   double length = 0;
   for (const LineSegment& line : lines) length += line.length;
-  if (length < 3) return std::nullopt;
+  constexpr double kLeastLength = 3;  // m
+  if (length < kLeastLength) return std::nullopt;
   return directionModuloRightAngle(lines);
 }
 
@@ -53,10 +54,11 @@ SearchWindow searchWindow(const Eigen::Matrix3d& covariance, double maxOffset) {
 
 /// Inverse of the covariance of a match, between these deviations and 5 cm and 0.25 deg. The matcher's
 /// information is tempered: its beams are not independent.
-Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& match, const Eigen::Vector3d& most) {
+Eigen::Matrix3d edgeInformation(const Eigen::Matrix3d& information, const Eigen::Vector3d& deviations) {
   const Eigen::Matrix3d least =
       Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.25 * kDegree * kDegree).asDiagonal();
-  const Eigen::Matrix3d regular = 0.1 * match + most.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix();
+  const Eigen::Matrix3d regular =
+      0.1 * information + deviations.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix();
   return (regular.inverse() + least).inverse();
 }
 
@@ -84,33 +86,33 @@ void LoopCloser::add(const TPose2D& motion, const LaserScans& scans, const std::
   motion_ = TPose2D(), variance_ = StepVariance();
 }
 
-LocalMap LoopCloser::newest(const Visit& visit, double length) const {
+LocalMap LoopCloser::newest(const Track& track, double length) const {
   const auto first =
-      std::lower_bound(visit.distances.begin(), visit.distances.end(), visit.distances.back() - length);
-  return localMap(keyframes_, visit.poses, static_cast<size_t>(first - visit.distances.begin()),
+      std::lower_bound(track.distances.begin(), track.distances.end(), track.distances.back() - length);
+  return localMap(keyframes_, track.poses, static_cast<size_t>(first - track.distances.begin()),
                   keyframes_.size(), grid_);
 }
 
-LocalMap LoopCloser::around(const Visit& visit, size_t keyframe, double reach, double length) const {
-  const auto& distances = visit.distances;
+LocalMap LoopCloser::around(const Track& track, size_t keyframe, double reach, double length) const {
+  const auto& distances = track.distances;
   const double end =
       std::min(distances[keyframe] + reach, distances.back() - std::max(options_.minDistance, length));
   const auto from = std::lower_bound(distances.begin(), distances.end(), distances[keyframe] - reach);
   const auto to = std::upper_bound(from, distances.end(), end);
-  return localMap(keyframes_, visit.poses, static_cast<size_t>(from - distances.begin()),
+  return localMap(keyframes_, track.poses, static_cast<size_t>(from - distances.begin()),
                   static_cast<size_t>(to - distances.begin()), grid_);
 }
 
-std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
+std::vector<size_t> LoopCloser::places(const Track& track, size_t here,
                                        const PathUncertainty& uncertainty) const {
   struct Place {
     double distance;
     size_t keyframe;
   };
   std::vector<Place> all;
-  for (size_t k = 0; k < visit.poses.size(); ++k) {
-    if (visit.distances[k] > visit.distances.back() - options_.stretch - options_.minDistance) break;
-    const double distance = distanceBetween(visit.poses[k], visit.poses[here]);
+  for (size_t k = 0; k < track.poses.size(); ++k) {
+    if (track.distances[k] > track.distances.back() - options_.stretch - options_.minDistance) break;
+    const double distance = distanceBetween(track.poses[k], track.poses[here]);
     if (distance < kNearby + options_.maxOffset) all.push_back({distance, k});
   }
   std::stable_sort(all.begin(), all.end(),
@@ -118,7 +120,7 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
   std::vector<size_t> chosen;
   for (const Place& place : all) {
     const bool isNew = std::none_of(chosen.begin(), chosen.end(), [&](size_t k) {
-      return std::abs(visit.distances[k] - visit.distances[place.keyframe]) < 2 * kReach;
+      return std::abs(track.distances[k] - track.distances[place.keyframe]) < 2 * kReach;
     });
     if (!isNew) continue;
     const Eigen::Matrix3d covariance = uncertainty.between(place.keyframe, here, known_);
@@ -129,7 +131,7 @@ std::vector<size_t> LoopCloser::places(const Visit& visit, size_t here,
   return chosen;
 }
 
-LoopCloser::Outcome LoopCloser::tryEarlierMap(const Visit& visit, const LocalMap& stretch,
+LoopCloser::Outcome LoopCloser::tryEarlierMap(const Track& track, const LocalMap& stretch,
                                               const PathUncertainty& uncertainty, const OccupancyGrid& map) {
   const size_t here = stretch.reference;
   const auto covariance = uncertainty.inMap(here, known_);
@@ -137,15 +139,15 @@ LoopCloser::Outcome LoopCloser::tryEarlierMap(const Visit& visit, const LocalMap
   double extent = 0;
   for (const ScanBeams::Ray& ray : stretch.ends.rays) extent = std::max(extent, ray.range);
   const double reach = extent + searchWindow(*covariance, options_.maxOffset).distance;
-  const TPose2D& pose = visit.poses[here];
-  return tryPlace(visit, stretch, localMap(map, {pose.x, pose.y}, reach, grid_.resolution), *covariance);
+  const TPose2D& pose = track.poses[here];
+  return tryPlace(track, stretch, localMap(map, {pose.x, pose.y}, reach, grid_.resolution), *covariance);
 }
 
-LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& stretch, const LocalMap& older,
+LoopCloser::Outcome LoopCloser::tryPlace(const Track& track, const LocalMap& stretch, const LocalMap& older,
                                          const Eigen::Matrix3d& covariance) {
   const size_t here = stretch.reference;
-  const TPose2D frame = visit.frame(older.reference);
-  const TPose2D expected = visit.poses[here] - frame;
+  const TPose2D frame = track.frame(older.reference);
+  const TPose2D expected = track.poses[here] - frame;
   const LoopMatch near = matchFrom(expected, stretch, older);
   const auto isWhereExpected = [&](const LoopMatch& match) {
     return isWithin(match.pose, expected, kSame, kSameAngle);
@@ -153,7 +155,7 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
     // The filter has closed this loop itself: hold the relative pose that it found.
-    hold(visit, {older.reference, here, expected,
+    hold(track, {older.reference, here, expected,
                  edgeInformation(informationOf(near.pose, stretch, older), kOfHeld)});
     candidates_.clear();
     return Outcome::held;
@@ -165,19 +167,21 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Visit& visit, const LocalMap& str
   if (isWhereExpected(*best)) return Outcome::none;
   // The correction under the uncertainty, which holds for the axes of the map.
   const TPose2D corrected = frame + best->pose;
-  const Eigen::Vector3d off(corrected.x - visit.poses[here].x, corrected.y - visit.poses[here].y,
-                            mrpt::math::wrapToPi(corrected.phi - visit.poses[here].phi));
+  const Eigen::Vector3d off(corrected.x - track.poses[here].x, corrected.y - track.poses[here].y,
+                            mrpt::math::wrapToPi(corrected.phi - track.poses[here].phi));
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
-  remember(visit, {{older.reference, here, best->pose,
+  remember(track, {{older.reference, here, best->pose,
                     edgeInformation(informationOf(best->pose, stretch, older), kOfMatch)},
                    best->agreement,
                    best->second});
   return Outcome::found;
 }
 
-void LoopCloser::hold(const Visit& visit, const PoseEdge& edge) {
+static_assert(PoseEdge::kMapFrame == KnownPair::kMapFrame);  // `hold` copies one to the other
+
+void LoopCloser::hold(const Track& track, const PoseEdge& edge) {
   loops_.push_back(edge);
-  known_.push_back({edge.from, edge.to, rotated(edge.information.inverse(), visit.frame(edge.from).phi)});
+  known_.push_back({edge.from, edge.to, rotated(edge.information.inverse(), track.frame(edge.from).phi)});
 }
 
 void LoopCloser::joinMap(double turn, const std::vector<TPose2D>& path) {
@@ -189,13 +193,13 @@ void LoopCloser::joinMap(double turn, const std::vector<TPose2D>& path) {
   known_.push_back({KnownPair::kMapFrame, last, covariance});
 }
 
-void LoopCloser::remember(const Visit& visit, const Candidate& candidate) {
+void LoopCloser::remember(const Track& track, const Candidate& candidate) {
   const size_t here = candidate.edge.to;
-  const TPose2D corrected = visit.frame(candidate.edge.from) + candidate.edge.relative;
+  const TPose2D corrected = track.frame(candidate.edge.from) + candidate.edge.relative;
   const bool agrees = std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& before) {
-    if (visit.distances[here] - visit.distances[before.edge.to] > kForget) return false;
-    const TPose2D byBefore = visit.frame(before.edge.from) + before.edge.relative +
-                             (visit.poses[here] - visit.poses[before.edge.to]);
+    if (track.distances[here] - track.distances[before.edge.to] > kForget) return false;
+    const TPose2D byBefore = track.frame(before.edge.from) + before.edge.relative +
+                             (track.poses[here] - track.poses[before.edge.to]);
     return isWithin(byBefore, corrected, kAgree, kAgreeAngle);
   });
   if (!agrees) candidates_.clear();
@@ -206,32 +210,32 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
                                              const std::optional<double>& direction,
                                              const OccupancyGrid* earlier) {
   toAttempt_ = kAttempt;
-  Visit visit;
+  Track track;
   for (const Keyframe& keyframe : keyframes_) {
     const TPose2D& pose = path.at(keyframe.update);
-    visit.distances.push_back(
-        visit.poses.empty() ? 0 : visit.distances.back() + distanceBetween(visit.poses.back(), pose));
-    visit.poses.push_back(pose);
+    track.distances.push_back(
+        track.poses.empty() ? 0 : track.distances.back() + distanceBetween(track.poses.back(), pose));
+    track.poses.push_back(pose);
   }
-  if (visit.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
-  const LocalMap stretch = newest(visit, options_.stretch);
-  const PathUncertainty uncertainty(visit.poses, variances_);
+  if (track.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
+  const LocalMap stretch = newest(track, options_.stretch);
+  const PathUncertainty uncertainty(track.poses, variances_);
   // Where several places fit, a longer stretch is tried.
   const auto attempt = [&](const auto& tried) {
     const Outcome outcome = tried(stretch, 1);
-    return outcome == Outcome::ambiguous ? tried(newest(visit, kLonger * options_.stretch), kLonger)
+    return outcome == Outcome::ambiguous ? tried(newest(track, kLonger * options_.stretch), kLonger)
                                          : outcome;
   };
   const auto isOver = [](Outcome outcome) { return outcome == Outcome::held || outcome == Outcome::found; };
   auto outcome = Outcome::none;
   if (earlier)
     outcome = attempt(
-        [&](const LocalMap& newer, double) { return tryEarlierMap(visit, newer, uncertainty, *earlier); });
+        [&](const LocalMap& newer, double) { return tryEarlierMap(track, newer, uncertainty, *earlier); });
   if (!isOver(outcome))
-    for (const size_t place : places(visit, stretch.reference, uncertainty)) {
+    for (const size_t place : places(track, stretch.reference, uncertainty)) {
       outcome = attempt([&](const LocalMap& newer, double longer) {
-        const LocalMap older = around(visit, place, longer * kReach, longer * options_.stretch);
-        return tryPlace(visit, newer, older, uncertainty.between(older.reference, newer.reference, known_));
+        const LocalMap older = around(track, place, longer * kReach, longer * options_.stretch);
+        return tryPlace(track, newer, older, uncertainty.between(older.reference, newer.reference, known_));
       });
       if (isOver(outcome)) break;
     }
@@ -240,7 +244,7 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
     return std::nullopt;
   }
   if (candidates_.size() < static_cast<size_t>(options_.agreeing)) return std::nullopt;
-  return optimise(path, visit, direction);
+  return optimise(path, track, direction);
 }
 
 std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) const {
@@ -257,18 +261,17 @@ std::vector<Revisit> LoopCloser::revisits(const std::vector<TPose2D>& poses) con
   return check.revisits();
 }
 
-std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path, const Visit& visit,
-                                                const std::optional<double>& direction) {
-  PoseGraph graph;
-  graph.poses = visit.poses;
+std::vector<PoseEdge> LoopCloser::motionEdges(const Track& track,
+                                              const std::optional<double>& direction) const {
   // How far the walls of a keyframe are off the direction of the others.
   const auto wallError = [&](size_t i) -> std::optional<double> {
     if (!direction || !wallDirections_[i]) return std::nullopt;
-    const double off = wrapToRightAngle(visit.poses[i].phi + *wallDirections_[i] - *direction);
+    const double off = wrapToRightAngle(track.poses[i].phi + *wallDirections_[i] - *direction);
     return std::abs(off) < kMaxWallAngle ? std::optional<double>(off) : std::nullopt;
   };
-  for (size_t i = 1; i < visit.poses.size(); ++i) {
-    TPose2D motion = visit.poses[i] - visit.poses[i - 1];
+  std::vector<PoseEdge> edges;
+  for (size_t i = 1; i < track.poses.size(); ++i) {
+    TPose2D motion = track.poses[i] - track.poses[i - 1];
     StepVariance variance = variances_[i];
     const auto before = wallError(i - 1), after = wallError(i);
     if (before && after) {
@@ -276,8 +279,16 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
       variance.heading = std::min(variance.heading, kWallSigma * kWallSigma);
     }
     const Eigen::Vector3d inverse(1 / variance.position, 1 / variance.position, 1 / variance.heading);
-    graph.motions.push_back({i - 1, i, motion, inverse.asDiagonal()});
+    edges.push_back({i - 1, i, motion, inverse.asDiagonal()});
   }
+  return edges;
+}
+
+std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path, const Track& track,
+                                                const std::optional<double>& direction) {
+  PoseGraph graph;
+  graph.poses = track.poses;
+  graph.motions = motionEdges(track, direction);
   graph.loops = loops_;
   for (const Candidate& candidate : candidates_) graph.loops.push_back(candidate.edge);
   const OptimizedGraph result = optimized(graph);
@@ -287,7 +298,7 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   const auto newMatches = result.isFalse.end() - static_cast<ptrdiff_t>(candidates_.size());
   const auto broken = std::count(result.isFalse.begin(), result.isFalse.end(), true);
   const bool holds = broken <= 1 && std::count(newMatches, result.isFalse.end(), true) == 0 &&
-                     !isMoreContradicted(revisits(visit.poses), revisits(result.poses));
+                     !isMoreContradicted(revisits(track.poses), revisits(result.poses));
   const std::vector<Candidate> candidates = std::move(candidates_);
   candidates_.clear();
   if (!holds) return std::nullopt;
@@ -313,7 +324,7 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
   for (const Candidate& candidate : candidates) {
     closure.fit = std::min(closure.fit, candidate.agreement.fit);
     closure.second = std::max(closure.second, candidate.second);
-    hold(visit, candidate.edge);
+    hold(track, candidate.edge);
   }
   closure.matches = candidates.size();
   return closure;

@@ -90,7 +90,8 @@ class LoopCloser {
       state(edge, agreement, second);
     }
   };
-  struct Visit {
+  /// The path of the keyframes.
+  struct Track {
     std::vector<mrpt::math::TPose2D> poses;  ///< of the keyframes, map frame
     std::vector<double> distances;           ///< m, along the path
     mrpt::math::TPose2D frame(size_t reference) const {
@@ -98,19 +99,21 @@ class LoopCloser {
     }
   };
   enum class Outcome { none, held, ambiguous, found };
-  Outcome tryEarlierMap(const Visit& visit, const LocalMap& stretch, const PathUncertainty& uncertainty,
+  Outcome tryEarlierMap(const Track& track, const LocalMap& stretch, const PathUncertainty& uncertainty,
                         const OccupancyGrid& map);
-  Outcome tryPlace(const Visit& visit, const LocalMap& stretch, const LocalMap& older,
+  Outcome tryPlace(const Track& track, const LocalMap& stretch, const LocalMap& older,
                    const Eigen::Matrix3d& covariance);
-  std::vector<size_t> places(const Visit& visit, size_t here, const PathUncertainty& uncertainty) const;
-  void hold(const Visit& visit, const PoseEdge& edge);
-  void remember(const Visit& visit, const Candidate& candidate);
+  std::vector<size_t> places(const Track& track, size_t here, const PathUncertainty& uncertainty) const;
+  void hold(const Track& track, const PoseEdge& edge);
+  void remember(const Track& track, const Candidate& candidate);
   /// The keyframes that return if they are at these poses; `update` is the index of a keyframe.
   std::vector<Revisit> revisits(const std::vector<mrpt::math::TPose2D>& poses) const;
-  std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Visit& visit,
+  /// The motions between keyframes, turned so that their walls have the same direction.
+  std::vector<PoseEdge> motionEdges(const Track& track, const std::optional<double>& direction) const;
+  std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Track& track,
                                       const std::optional<double>& direction);
-  LocalMap newest(const Visit& visit, double length) const;
-  LocalMap around(const Visit& visit, size_t keyframe, double reach, double length) const;
+  LocalMap newest(const Track& track, double length) const;
+  LocalMap around(const Track& track, size_t keyframe, double reach, double length) const;
 
   LoopClosingOptions options_;
   GridOptions grid_;  ///< coarse

@@ -1,6 +1,7 @@
 #include "slam/merging/MapMerging.h"
 
 #include "slam/filter/HybridFilter.h"
+#include "slam/filter/Refinement.h"
 #include "slam/grid/GlobalSearch.h"
 #include "slam/grid/ScanMatcher.h"
 #include "slam/merging/MapPatches.h"
@@ -75,8 +76,7 @@ MergedMap merged(const MapPart& older, const MapPart& newer, const MapPlacement&
   }
   result.newer = filteredIn(older.map, result.newer, newer.scans, configuration);
   append(scans, newer.scans, result.newer);
-  refine(scans, kPasses, configuration.grid, configuration.matcher, configuration.improved.minFit,
-         configuration.filter.threads, base);
+  refine(scans, kPasses, configuration, base);
   result.map = MapMaker(configuration)(scans, base);
   const size_t first = scans.size() - newer.scans.size();
   for (size_t i = 0; i < scans.size(); ++i)

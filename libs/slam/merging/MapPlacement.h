@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/loops/LoopMatch.h"
 
 namespace hybrid_slam {

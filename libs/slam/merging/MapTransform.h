@@ -2,7 +2,7 @@
 /// @brief Transforms a map to another frame and resolution.
 #pragma once
 
-#include "slam/filter/Refinement.h"
+#include "slam/filter/MapMaker.h"
 
 namespace hybrid_slam {
 

@@ -29,11 +29,11 @@ Lane::Lane(const run::Configuration& all, run::RunOptions::Method method, const 
 std::string Lane::finish(const std::string& file, const readings::RawlogSummary& log,
                          const std::string& target) {
   isFinished = true;
-  if (!finished) {
+  if (!results) {
     configuration.run.output = target;
-    finished = run.finish(file, log, nlohmann::ordered_json::object());
+    results = run.finish(file, log, nlohmann::ordered_json::object());
   }
-  return finished->whyMissing;
+  return results->whyMissing;
 }
 
 ReplayPass::ReplayPass(const run::Configuration& configuration, const std::vector<Method>& methods,

@@ -21,15 +21,15 @@ struct Lane {
 
   /// Writes the results to its folder, unless an earlier call has done so.
   /// @param target  final folder, for config.ini
-  /// @throws InputError if they cannot be written
   /// @return why some are missing; else empty
+  /// @throws InputError if they cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target);
 
   run::Configuration configuration;
   run::FilterRun run;
   FilterWatch watch;
-  bool isFinished = false;                   ///< accepts no more scans
-  std::optional<run::FinishedRun> finished;  ///< once its results are written
+  bool isFinished = false;                  ///< accepts no more scans
+  std::optional<run::FinishedRun> results;  ///< once they are written
 };
 
 /// The filters and how far they have come.
