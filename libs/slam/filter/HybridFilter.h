@@ -4,9 +4,9 @@
 
 #include "slam/filter/Filter.h"
 #include "slam/filter/FilterOptions.h"
+#include "slam/filter/MapMaker.h"
 #include "slam/filter/ParticleSet.h"
 #include "slam/filter/PathGrid.h"
-#include "slam/filter/MapMaker.h"
 #include "slam/loops/LoopCloser.h"
 #include "slam/loops/RevisitCheck.h"
 
