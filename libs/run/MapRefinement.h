@@ -35,12 +35,12 @@ struct FinishedMap {
 };
 
 /// Closes the remaining loops, distributes their errors, matches every scan of the log to the map of all, and
-/// rebuilds the map (slam/filter/MapMaker.h).
+/// rebuilds the map (slam/filter/Refinement.h).
 class MapRefinement {
  public:
   /// The references must outlive it.
-  /// @param uses  of each reading of the log
-  /// @param base  the earlier map that the run continues, whose loops stay as they are
+  /// @param uses       of each reading of the log
+  /// @param base       earlier map that the run continues: then no loops are closed
   /// @param mostBytes  of the scans
   MapRefinement(const Configuration& configuration, const TrajectoryRecorder& recorder,
                 const std::vector<ReadingUse>& uses, const std::optional<ScanMap>& base, double mostBytes)
