@@ -3,7 +3,7 @@
 # wing at 30 deg: a table of "Worlds that are not orthogonal" in doc/beyond-the-paper.md.
 #   scripts/wing.sh [OUT]     OUT defaults to out/wing
 # LOGS=30 simulated logs of each world, with noise of seed 1, 2, ... and the same seed of the filter; JOBS at a time (all
-# cores). Resumes after an interruption. Takes 40 minutes of one core.
+# cores). Resumes after an interruption. Takes 30 minutes of one core.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/wing}
 bin=build/release/bin
