@@ -75,7 +75,7 @@ std::vector<PosedScans> MapRefinement::read(LogAgain& log, const files::Trajecto
   return scans;
 }
 
-/// Changes the path of `best`.
+/// Changes path, `loops` and `isRelaxed` of `best`.
 /// @param scans  of each update
 void MapRefinement::closeLoops(FinishedMap& best, const std::vector<Scans>& scans) const {
   const FilterConfiguration& filter = configuration_.filter;

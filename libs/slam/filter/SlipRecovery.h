@@ -48,6 +48,7 @@ class SlipRecovery {
   /// Disables the search of the whole map for a robot that was carried.
   void searchOnlyNearby() { searchesMap_ = false; }
   /// Returns at least one hypothesis, the most likely first.
+  /// @param whole  the scan, beams at people included
   std::vector<StepMotion> motionsOf(const Particle& best, const mrpt::math::TPose2D& odometry,
                                     const PreparedScan& whole);
 
