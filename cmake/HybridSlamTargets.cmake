@@ -1,15 +1,14 @@
 # One CMake target per folder: libs/NAME -> hybrid_slam::NAME, its *_test.cpp -> hybrid_slam_NAME_test.
 
 include(GNUInstallDirs)
-include(GoogleTest)
 
 # Where the settings, the data and the pages go (HybridSlamInstall.cmake) and the programs look for them
 # (libs/files/InstalledFiles.h).
 set(hybrid_slam_data ${CMAKE_INSTALL_DATADIR}/hybrid_slam)
 set(hybrid_slam_pages ${CMAKE_INSTALL_DATAROOTDIR}/doc/hybrid-slam)
 
-# s for one test on a busy machine; ends one that hangs.
-set(hybrid_slam_test_timeout 300)
+# s for one test, or one suite of GoogleTest, on a busy machine; ends one that hangs.
+set(hybrid_slam_test_timeout 600)
 if(HYBRID_SLAM_SANITIZE)
   set(hybrid_slam_test_timeout 1200)
 endif()
@@ -68,28 +67,21 @@ function(hybrid_slam_library name)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/libs ${CMAKE_CURRENT_SOURCE_DIR})
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hybrid_slam/${folder} COMPONENT development)
   if(tests AND HYBRID_SLAM_TESTS)
-    hybrid_slam_test_program(${name} ${tests})
+    hybrid_slam_test(${name} ${tests})
     target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam::${name})
-    set(suites ${CMAKE_CURRENT_BINARY_DIR}/hybrid_slam_${name}_suites)
-    file(GENERATE OUTPUT ${suites}.cmake CONTENT "set(PROGRAM [[$<TARGET_FILE:hybrid_slam_${name}_test>]])
-set(LIST [[${suites}.txt]])\nset(TIMEOUT ${hybrid_slam_test_timeout})
-include([[${PROJECT_SOURCE_DIR}/cmake/GoogleTestSuites.cmake]])\n")
-    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites}.cmake)
   endif()
 endfunction()
 
-# hybrid_slam_test_program(NAME FILE...): one GoogleTest program.
-function(hybrid_slam_test_program name)
+# hybrid_slam_test(NAME FILE...): one GoogleTest program, its suites known to ctest one by one.
+function(hybrid_slam_test name)
   add_executable(hybrid_slam_${name}_test ${ARGN})
   target_include_directories(hybrid_slam_${name}_test PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/libs)
   target_link_libraries(hybrid_slam_${name}_test PRIVATE hybrid_slam_flags GTest::gmock GTest::gtest_main)
-endfunction()
-
-# hybrid_slam_test(NAME FILE...): one GoogleTest program, its cases known to ctest one by one.
-function(hybrid_slam_test name)
-  hybrid_slam_test_program(${name} ${ARGN})
-  gtest_discover_tests(hybrid_slam_${name}_test DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${hybrid_slam_test_timeout})
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/hybrid_slam_${name}_suites)
+  file(GENERATE OUTPUT ${suites}.cmake CONTENT "set(PROGRAM [[$<TARGET_FILE:hybrid_slam_${name}_test>]])
+set(LIST [[${suites}.txt]])\nset(TIMEOUT ${hybrid_slam_test_timeout})
+include([[${PROJECT_SOURCE_DIR}/cmake/GoogleTestSuites.cmake]])\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites}.cmake)
 endfunction()
 
 # hybrid_slam_app(NAME TARGET...): apps/NAME/main.cpp, with what is beside it in apps/ -> program NAME.

@@ -27,7 +27,9 @@ using testing::IsEmpty;
 using testing::MatchesRegex;
 using testing::UnorderedElementsAreArray;
 
-TEST_F(HybridSlam, WrongIni) {
+struct HybridSlamInput : HybridSlam {};
+
+TEST_F(HybridSlamInput, WrongIni) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   const auto replayWith = [&](const std::string& text) {
     ini = folder.write("wrong.ini", text);
@@ -47,7 +49,7 @@ TEST_F(HybridSlam, WrongIni) {
   expectError(replay(log), "not a file");
 }
 
-TEST_F(HybridSlam, WrongStockIni) {
+TEST_F(HybridSlamInput, WrongStockIni) {
   ini = folder.write("stock.ini", "[MappingApplication]\nsampleSize = 3\n");
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   EXPECT_EQ(replay(log, "-m stock"), 2);
@@ -58,7 +60,7 @@ TEST_F(HybridSlam, WrongStockIni) {
 
 // ---- logs
 
-TEST_F(HybridSlam, FilesOfKeysAndOptionsMayBeInstalledOnes) {
+TEST_F(HybridSlamInput, FilesOfKeysAndOptionsMayBeInstalledOnes) {
   const test::InstalledProgram installed(folder, HYBRID_SLAM);
   test::writeGzipped(installed.data("room.rawlog"), test::laps(4));
   std::ofstream(installed.data("no-session")) << "text";
@@ -78,7 +80,7 @@ TEST_F(HybridSlam, FilesOfKeysAndOptionsMayBeInstalledOnes) {
   EXPECT_THAT(results(), UnorderedElementsAreArray(kResults));
 }
 
-TEST_F(HybridSlam, WrongLog) {
+TEST_F(HybridSlamInput, WrongLog) {
   expectError(replay(folder.path("none.rawlog")), "no such file: " + folder.path("none.rawlog"));
   expectError(replay(folder.path("")), "not a file");
   expectError(replay(folder.write("empty", "")), "empty");
@@ -97,7 +99,7 @@ TEST_F(HybridSlam, WrongLog) {
   expectError(replay(tilted), "tilted");
 }
 
-TEST_F(HybridSlam, UnreadableLog) {
+TEST_F(HybridSlamInput, UnreadableLog) {
   const std::string log = test::writeGzipped(folder.path("log.rawlog"), test::laps(4));
   fs::permissions(log, fs::perms::none);
   if (access(log.c_str(), R_OK) == 0) GTEST_SKIP() << "run as root, who can read everything";
@@ -105,7 +107,7 @@ TEST_F(HybridSlam, UnreadableLog) {
 }
 
 /// The room's corners determine the pose; the robot moves by 0.13 m and 4.5 deg per scan.
-TEST_F(HybridSlam, ScansAreMatchedWhereThereIsNoOdometry) {
+TEST_F(HybridSlamInput, ScansAreMatchedWhereThereIsNoOdometry) {
   const auto expectMapped = [&](const std::optional<test::TPose2D>& odometry, const std::string& reason) {
     Log log;
     for (size_t i = 0; i < 60; ++i) {
@@ -126,14 +128,14 @@ TEST_F(HybridSlam, ScansAreMatchedWhereThereIsNoOdometry) {
   expectMapped(test::TPose2D(3, 4, 0.5), "= false: odometry that never changes");
 }
 
-TEST_F(HybridSlam, ARobotThatStandsStillStays) {
+TEST_F(HybridSlamInput, ARobotThatStandsStillStays) {
   expectDone(replay(test::Log{test::scan(1), test::scan(2), test::scan(3)}));
   const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
   EXPECT_EQ(trajectory.size(), 3u);
   for (const auto& row : trajectory) EXPECT_LT(row.pose.norm(), 0.2);
 }
 
-TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
+TEST_F(HybridSlamInput, ACutLogGivesResultsUpToTheCut) {
   std::vector<size_t> ends;
   const std::string bytes = test::contentOf(test::writePlain(folder.path("whole"), test::laps(40), &ends));
   ASSERT_EQ(replay(folder.write("part", bytes.substr(0, ends[41]))), 0) << err;
@@ -148,7 +150,7 @@ TEST_F(HybridSlam, ACutLogGivesResultsUpToTheCut) {
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 21u);
 }
 
-TEST_F(HybridSlam, ALogOfTinyslamIsMapped) {
+TEST_F(HybridSlamInput, ALogOfTinyslamIsMapped) {
   const std::string log = folder.write("exp.dat", test::tinyslamDrive(30)),
                     rawlog = folder.path("exp.rawlog");
   expectDone(run("'" + log + "' -o '" + output + "'"));
@@ -166,7 +168,7 @@ TEST_F(HybridSlam, ALogOfTinyslamIsMapped) {
   EXPECT_EQ(result("trajectory.tum"), expected);
 }
 
-TEST_F(HybridSlam, ARawlogMayBeCompressedInAnyWay) {
+TEST_F(HybridSlamInput, ARawlogMayBeCompressedInAnyWay) {
   const std::string plain = test::writePlain(folder.path("plain.rawlog"), test::laps(20));
   expectDone(replay(plain));
   const std::string expected = result("trajectory.tum");
@@ -177,7 +179,7 @@ TEST_F(HybridSlam, ARawlogMayBeCompressedInAnyWay) {
   }
 }
 
-TEST_F(HybridSlam, ACutGzippedLogGivesResultsUpToTheCut) {
+TEST_F(HybridSlamInput, ACutGzippedLogGivesResultsUpToTheCut) {
   const std::string bytes = test::contentOf(test::writeGzipped(folder.path("whole"), test::laps(40)));
   EXPECT_EQ(replay(folder.write("cut.rawlog", bytes.substr(0, bytes.size() / 2))), 1);
   EXPECT_THAT(err, AllOf(MatchesRegex(kErrorLine), HasSubstr("gzip file damaged or cut off: entry ")));

@@ -16,6 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
+struct HybridSlamReadings : HybridSlam {};
+
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Laps with some beams of each scan changed.
@@ -27,7 +29,7 @@ test::Log withBeams(const std::function<void(test::CObservation2DRangeScan&, siz
   return log;
 }
 
-TEST_F(HybridSlam, InvalidReadingsAreIgnoredBeamByBeam) {
+TEST_F(HybridSlamReadings, InvalidReadingsAreIgnoredBeamByBeam) {
   const test::Log marked = withBeams([](auto& scan, size_t i) { scan.setScanRangeValidity(i, false); });
   const float odd[] = {kNaN, HUGE_VALF, -HUGE_VALF, -3, 0, 20, 81.83f, 1e30f};
   const test::Log unmarked =
@@ -41,7 +43,7 @@ TEST_F(HybridSlam, InvalidReadingsAreIgnoredBeamByBeam) {
   }
 }
 
-TEST_F(HybridSlam, AllReadingsInvalid) {
+TEST_F(HybridSlamReadings, AllReadingsInvalid) {
   test::Log log = test::laps(10);
   for (auto& object : log)
     if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(object))
@@ -50,7 +52,7 @@ TEST_F(HybridSlam, AllReadingsInvalid) {
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 10u);
 }
 
-TEST_F(HybridSlam, ScansWithoutBeamsAreSkipped) {
+TEST_F(HybridSlamReadings, ScansWithoutBeamsAreSkipped) {
   test::Log log = test::laps(10);
   log[3] = test::scan(1000.2, {}, 0);
   expectDone(replay(log), "1 scan without beams (or aperture or sensor pose): first at entry 4 of " +
@@ -58,7 +60,7 @@ TEST_F(HybridSlam, ScansWithoutBeamsAreSkipped) {
   EXPECT_EQ(files::loadTum(output + "/trajectory.tum").size(), 9u);
 }
 
-TEST_F(HybridSlam, AnyNumberOfBeams) {
+TEST_F(HybridSlamReadings, AnyNumberOfBeams) {
   for (const size_t beams : {1u, 2u, 3u, 5000u}) {
     SCOPED_TRACE(beams);
     expectDone(replay(test::laps(10, 80, beams)));
@@ -71,7 +73,7 @@ TEST_F(HybridSlam, AnyNumberOfBeams) {
 }
 
 /// MRPT gives no weight to an action this uncertain.
-TEST_F(HybridSlam, OneLongStepDuringAGap) {
+TEST_F(HybridSlamReadings, OneLongStepDuringAGap) {
   test::Log log = test::laps(20);
   for (size_t i = 10; i < 20; ++i) {
     const mrpt::math::TPose2D pose = test::poseOnLap(i, 80);
@@ -91,7 +93,7 @@ TEST_F(HybridSlam, OneLongStepDuringAGap) {
   }
 }
 
-TEST_F(HybridSlam, AnotherNumberOfBeamsInMidLog) {
+TEST_F(HybridSlamReadings, AnotherNumberOfBeamsInMidLog) {
   test::Log log = test::laps(40);
   for (size_t i = 20; i < 40; ++i)
     log[2 * i + 1] = test::scan(1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80), 361);
@@ -113,7 +115,7 @@ test::Log withJump(double jump) {
   return log;
 }
 
-TEST_F(HybridSlam, OdometryThatJumps) {
+TEST_F(HybridSlamReadings, OdometryThatJumps) {
   for (const double jump : {60., 101., 1e5, 1e7}) {
     SCOPED_TRACE(jump);
     expectDone(replay(withJump(jump)),
@@ -126,7 +128,7 @@ TEST_F(HybridSlam, OdometryThatJumps) {
   }
 }
 
-TEST_F(HybridSlam, OdometryThatJumpsAllTheTimeLeavesTheMapInDoubt) {
+TEST_F(HybridSlamReadings, OdometryThatJumpsAllTheTimeLeavesTheMapInDoubt) {
   test::Log log;
   for (int i = 0; i < 40; ++i) {
     log.push_back(test::odometry(1000 + i, {i % 2 * 1e4, 0, 0}));
@@ -136,7 +138,7 @@ TEST_F(HybridSlam, OdometryThatJumpsAllTheTimeLeavesTheMapInDoubt) {
   EXPECT_THAT(out, HasSubstr("verdict: doubtful: 39 odometry readings are impossible or jump, in 40 scans"));
 }
 
-TEST_F(HybridSlam, ImpossibleOdometryIsSkipped) {
+TEST_F(HybridSlamReadings, ImpossibleOdometryIsSkipped) {
   for (const double jump : {1e9, 1e30, 1e300}) {
     SCOPED_TRACE(jump);
     EXPECT_EQ(replay(withJump(jump)), 0);
@@ -158,7 +160,7 @@ TEST_F(HybridSlam, ImpossibleOdometryIsSkipped) {
 }
 
 /// One of 40 scans is impossible.
-TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
+TEST_F(HybridSlamReadings, AScanThatCannotBeTrueIsSkipped) {
   const auto with = [](const mrpt::poses::CPose3D& sensor) {
     test::Log log = test::laps(40);
     std::dynamic_pointer_cast<test::CObservation2DRangeScan>(log[21])->sensorPose = sensor;
@@ -178,7 +180,7 @@ TEST_F(HybridSlam, AScanThatCannotBeTrueIsSkipped) {
 }
 
 /// One reading of any content prevents neither results nor bounded memory.
-TEST_F(HybridSlam, OneReadingOfAnyContentEndsNoRun) {
+TEST_F(HybridSlamReadings, OneReadingOfAnyContentEndsNoRun) {
   using Scan = test::CObservation2DRangeScan;
   const std::vector<std::function<void(Scan&, mrpt::obs::CObservationOdometry&)>> changes{
       [](Scan& scan, auto&) { scan.aperture = 1e30f; },
@@ -204,7 +206,7 @@ TEST_F(HybridSlam, OneReadingOfAnyContentEndsNoRun) {
   }
 }
 
-TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
+TEST_F(HybridSlamReadings, AnActionThatJumpsIsNoMotion) {
   test::Log log;
   for (size_t i = 0; i < 10; ++i) {
     log.push_back(test::action({0.1, 0, 0}));
@@ -217,7 +219,7 @@ TEST_F(HybridSlam, AnActionThatJumpsIsNoMotion) {
   expectDone(replay(log), "1 odometry jump of over 100 m or far above the robot's speed: first at entry 5");
 }
 
-TEST_F(HybridSlam, TimestampsMissingEqualOrBackwards) {
+TEST_F(HybridSlamReadings, TimestampsMissingEqualOrBackwards) {
   const auto timesOf = [this] {
     std::vector<double> times;
     for (const auto& row : files::loadTum(output + "/trajectory.tum")) times.push_back(row.timestamp - 1000);

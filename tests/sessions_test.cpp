@@ -95,6 +95,26 @@ TEST_F(Sessions, ResumingAFinishedRunWritesItsResults) {
   expectSame(expected, again);
 }
 
+/// The log ends between the scans of two lasers, and then grows.
+TEST_F(Sessions, ARunIsResumedWhereTheLogEndedWithinAReading) {
+  test::Log two;
+  for (const auto& object : test::laps(30)) {
+    two.push_back(object);
+    const auto front = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(object);
+    if (!front) continue;
+    const auto rear = mrpt::obs::CObservation2DRangeScan::Create(*front);
+    rear->sensorLabel = "REAR";
+    two.push_back(rear);
+  }
+  test::writeGzipped(log, test::Log(two.begin(), two.begin() + 60));  // without the front scan
+  ASSERT_EQ(replay(log), 0) << err;
+  test::writeGzipped(log, two);
+  const std::string first = folder.path("first"), second = folder.path("second");
+  ASSERT_EQ(run("--resume '" + session + "' -o '" + first + "'"), 0) << err;
+  EXPECT_EQ(files::loadTum(first + "/trajectory.tum").size(), 31u) << "the first is of the front laser alone";
+  EXPECT_EQ(run("--resume '" + first + "/session.hslam' -o '" + second + "'"), 0) << err;
+}
+
 TEST_F(Sessions, AnotherConfigurationLogOrMethodIsNamed) {
   ASSERT_EQ(replay(log), 0) << err;
   const std::string resume = "--resume '" + session + "' -o '" + folder.path("other") + "' ";
@@ -119,14 +139,14 @@ TEST_F(Sessions, AnotherConfigurationLogOrMethodIsNamed) {
 TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
   ASSERT_EQ(replay(log), 0) << err;
   const std::string bytes = contentOf(session), plain = files::readGzip(session, "", 1 << 28);
-  const auto expectRefused = [&](const std::string& file, const std::string& text) {
-    for (const std::string option : {"--resume", "--continue", "--localize"}) {
+  // --continue also takes other maps, and reads that of a session in the same way; --localize is the same.
+  const auto expectRefused = [&](const std::string& file, const std::string& text,
+                                 const std::string& ofMap = "") {
+    for (const std::string option : {"--resume", "--continue"}) {
       EXPECT_EQ(run("'" + log + "' -o '" + folder.path("other") + "' " + option + " '" + file + "'"), 2)
           << option << " " << text;
       EXPECT_THAT(err, testing::MatchesRegex(kErrorLine));
-      if (option == "--resume") {
-        EXPECT_THAT(err, HasSubstr(text));
-      }
+      EXPECT_THAT(err, HasSubstr(option == "--resume" || ofMap.empty() ? text : ofMap));
       EXPECT_FALSE(fs::exists(folder.path("other")));
     }
   };
@@ -134,10 +154,11 @@ TEST_F(Sessions, AFileThatIsNoSessionIsAnErrorLine) {
   expectRefused(folder.path("."), "a folder, not a file");
   ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0666), 0);
   expectRefused(folder.path("pipe"), "not a file");  // opening it would wait
-  expectRefused(write("empty", ""), "not a session file");
-  expectRefused(log, "not a session file");
-  expectRefused(write("text", "no session"), "not a session file");
-  expectRefused(write("zeros", files::gzipped(std::string(1000, '\0'))), "not a session file");
+  expectRefused(write("empty", ""), "not a session file", "grid map cut off");
+  expectRefused(log, "not a session file", "not a readable grid map");
+  expectRefused(write("text", "no session"), "not a session file", "not a map");
+  expectRefused(write("zeros", files::gzipped(std::string(1000, '\0'))), "not a session file",
+                "not a readable grid map");
   for (const size_t length : {bytes.size() / 100, bytes.size() / 2, bytes.size() - 4})
     expectRefused(write("cut", bytes.substr(0, length)), "cut");
   std::string damaged = bytes;

@@ -27,7 +27,9 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
+struct SlamCompareResume : SlamCompare {};
+
+TEST_F(SlamCompareResume, InterruptedAndResumedGivesTheSameTable) {
   ASSERT_EQ(run(kSmall + kTruth).status, 0);
   const std::string whole = untimedTable();
   fs::remove_all(folder.path("out"));
@@ -63,7 +65,7 @@ TEST_F(SlamCompare, InterruptedAndResumedGivesTheSameTable) {
 }
 
 /// The relations are a pipe, so that the program is outside the runs until the pipe is closed.
-TEST_F(SlamCompare, CtrlCOutsideTheRunsEndsIt) {
+TEST_F(SlamCompareResume, CtrlCOutsideTheRunsEndsIt) {
   const std::string pipe = folder.path("relations"), relation = "1 2 1 0 0 0 0 0\n";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const int second : {SIGHUP, SIGINT}) {
@@ -97,7 +99,7 @@ TEST_F(SlamCompare, CtrlCOutsideTheRunsEndsIt) {
   }
 }
 
-TEST_F(SlamCompare, ADamagedRunIsRunAgain) {
+TEST_F(SlamCompareResume, ADamagedRunIsRunAgain) {
   const std::string arguments = "--methods general --seeds 3 -q";
   ASSERT_EQ(run(arguments).status, 0);
   const std::string whole = untimedTable();
@@ -115,7 +117,7 @@ TEST_F(SlamCompare, ADamagedRunIsRunAgain) {
   EXPECT_EQ(untimedTable(), whole);
 }
 
-TEST_F(SlamCompare, MoreSeedsKeepExistingRuns) {
+TEST_F(SlamCompareResume, MoreSeedsKeepExistingRuns) {
   ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
   const auto before = fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json"));
   ASSERT_EQ(run("--methods general --seeds 2 -q").status, 0);
@@ -123,7 +125,7 @@ TEST_F(SlamCompare, MoreSeedsKeepExistingRuns) {
   EXPECT_EQ(fs::last_write_time(folder.path("out/runs/general-3-1/metrics.json")), before);
 }
 
-TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
+TEST_F(SlamCompareResume, AFinishedRunOfAnotherComparisonIsAnError) {
   ASSERT_EQ(run("--methods general --seeds 1 -q").status, 0);
   const std::string error = errorLine(run("--methods general --seeds 1 -q --set grid.resolution=0.1"));
   EXPECT_THAT(error, HasSubstr("out/runs/general-3-1"));
@@ -137,7 +139,7 @@ TEST_F(SlamCompare, AFinishedRunOfAnotherComparisonIsAnError) {
   EXPECT_THAT(errorLine(shell(withCopy)), HasSubstr("out2/runs/general-3-1"));
 }
 
-TEST_F(SlamCompare, ReportOnlyStartsNothing) {
+TEST_F(SlamCompareResume, ReportOnlyStartsNothing) {
   EXPECT_THAT(errorLine(run("--methods general --seeds 1 --report-only")),
               HasSubstr("no finished run: folder out; expected runs of this command"));
   EXPECT_FALSE(fs::exists(folder.path("out")));
@@ -152,7 +154,7 @@ TEST_F(SlamCompare, ReportOnlyStartsNothing) {
   report();
 }
 
-TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
+TEST_F(SlamCompareResume, ListedCommandsMakeTheSameRuns) {
   const Outcome list = run("--methods general --seeds 1 --list --set 'input.sensor_label='");
   ASSERT_EQ(list.status, 0) << list.err;
   ASSERT_THAT(list.out, StartsWith("general-3-1\t"));
@@ -164,14 +166,14 @@ TEST_F(SlamCompare, ListedCommandsMakeTheSameRuns) {
   EXPECT_EQ(table("results.csv").at(0).at("status"), "done");
 }
 
-TEST_F(SlamCompare, TwoProcessesInOneFolderAreAnError) {
+TEST_F(SlamCompareResume, TwoProcessesInOneFolderAreAnError) {
   fs::create_directories(folder.path("out"));
   EXPECT_THAT(errorLine(shell("flock out/.lock " + call("--methods general --seeds 1 -q"))),
               HasSubstr("another slam-compare is running"));
 }
 
 /// One report is of one log: that of another would be lost, and its runs counted with these.
-TEST_F(SlamCompare, AnotherLogNeedsAnotherFolder) {
+TEST_F(SlamCompareResume, AnotherLogNeedsAnotherFolder) {
   ASSERT_EQ(run(" --methods general --particles 4 --seeds 1 -q").status, 0);
   const std::string report = test::contentOf(folder.path("out/report.html"));
   fs::copy_file(kLog, folder.path("other.rawlog"));
@@ -185,7 +187,7 @@ TEST_F(SlamCompare, AnotherLogNeedsAnotherFolder) {
 }
 
 /// The runs of a comparison differ in their seeds alone. A single particle does not close the loop.
-TEST_F(SlamCompare, AContradictedRunIsNotRepeated) {
+TEST_F(SlamCompareResume, AContradictedRunIsNotRepeated) {
   config = folder.write("one.ini",
                         "[particle_filter]\nparticles = 0\nmin_particles = 1\nmax_particles = 1\n"
                         "proposal = standard\n");

@@ -15,6 +15,7 @@
 
 #include "Program.h"
 #include "SettingArguments.h"
+#include "base/Errors.h"
 #include "files/IniFile.h"
 #include "files/InstalledFiles.h"
 #include "files/PartialFile.h"
@@ -54,7 +55,8 @@ void writeTogether(const FilesAndWriters& filesAndWriters) {
     errno = 0;
     try {
       filesAndWriters[i].second(parts[i]->path());
-    } catch (const std::exception&) {
+    } catch (const std::exception& e) {
+      if (isOutOfMemory(e)) throw;
       parts[i]->fail(errno);
     }
   }

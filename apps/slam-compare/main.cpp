@@ -3,7 +3,6 @@
 /// (doc/slam-compare.md).
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "Program.h"
 #include "Stop.h"
 #include "files/InstalledFiles.h"
+#include "files/Locks.h"
 #include "files/OutputFolder.h"
 #include "readings/EndPointReader.h"
 #include "readings/LogWarnings.h"
@@ -106,7 +106,7 @@ class FolderLock {
  public:
   explicit FolderLock(const files::OutputFolder& folder)
       : file_(open(folder.path(".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0)
+    if (file_ >= 0 && files::lock(file_) == files::Lock::ofAnother)
       throw InputError("another slam-compare is running", "folder " + folder.path(""),
                        "expected a separate folder");
   }

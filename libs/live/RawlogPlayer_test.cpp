@@ -29,7 +29,7 @@ Played played(const test::Log& log, double cycleRate, size_t stopAfter = 1000000
   const files::TemporaryFolder folder;
   RawlogPlayer player(test::writePlain(folder.path("log"), log), cycleRate, kFast);
   Played out;
-  readings::ReadingAssembler assembler({}, true, 1);
+  readings::ReadingAssembler assembler({}, readings::OdometrySource::readings, 1);
   player.run(
       [&](const CSensoryFrame::Ptr& cycle) {
         ++out.cycles;

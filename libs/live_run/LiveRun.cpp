@@ -34,8 +34,9 @@ const std::string& recordingName(const LiveOptions& options) {
 }  // namespace
 
 LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet)
-    : assembler_(readings::labelsOf(configuration.input.sensorLabel), configuration.input.requireOdometry,
-                 configuration.input.maxOdometryGap, readings::sweepTimesOf(configuration.input, true),
+    : assembler_(readings::labelsOf(configuration.input.sensorLabel),
+                 readings::odometrySource(configuration.input, true), configuration.input.maxOdometryGap,
+                 readings::sweepTimesOf(configuration.input, true),
                  readings::laserPoseIn(configuration.input.laserPose)),
       configuration_(configuration),
       log_(log),
@@ -199,7 +200,7 @@ std::string LiveRun::finish(size_t lost, std::optional<double> patience) {
     std::rethrow_exception(failure_);
   }
   std::string incomplete = run_.placeNote();
-  if (!finished.whyMissing.empty()) incomplete = "results are missing: " + finished.whyMissing;
+  if (!finished.incomplete.empty()) incomplete = finished.incomplete;
   if (recorded.scans < run_.readings())
     incomplete = "the recording has " + std::to_string(recorded.scans) + " of " +
                  counted(run_.readings(), "scan(s): ") + recording_.path() + "; the map is not refined";

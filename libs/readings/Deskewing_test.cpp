@@ -16,8 +16,8 @@ using test::SweptLaser;
 TPose2D turning(double t) { return {0.5, 0.2, 1.5 * (t - 100)}; }
 TPose2D driving(double t) { return {0.5 * (t - 100), 0.4, 0.5}; }
 
-std::vector<Reading> readingsOf(const Log& log, bool hasOdometryReadings, const SweepTimes& sweeps = {}) {
-  ReadingAssembler assembler({}, hasOdometryReadings, 1, sweeps);
+std::vector<Reading> readingsOf(const Log& log, OdometrySource odometry, const SweepTimes& sweeps = {}) {
+  ReadingAssembler assembler({}, odometry, 1, sweeps);
   std::vector<Reading> all;
   for (const auto& object : log) assembler.take(object);
   assembler.finish();
@@ -66,7 +66,8 @@ TEST(Deskewing, BeamsEndOnTheWallsForATurningAndADrivingRobot) {
   for (const auto& motion : {turning, driving})
     for (const bool asPairs : {false, true}) {
       const Log log = asPairs ? pairs(motion) : observations(motion);
-      const auto raw = readingsOf(log, !asPairs), corrected = readingsOf(stating(0.1, log), !asPairs);
+      const OdometrySource odometry = asPairs ? OdometrySource::actions : OdometrySource::readings;
+      const auto raw = readingsOf(log, odometry), corrected = readingsOf(stating(0.1, log), odometry);
       ASSERT_EQ(raw.size(), 9);
       ASSERT_EQ(corrected.size(), 9);
       EXPECT_GT(worst(raw, motion), 0.015);
@@ -83,7 +84,7 @@ TEST(Deskewing, OfAScanThatBeginsBeforeTheOdometry) {
     Log log = observations(motion);
     log.erase(log.begin());  // now the first scan is the first object
     ASSERT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(log[0]));
-    const auto corrected = readingsOf(stating(0.1, log), true);
+    const auto corrected = readingsOf(stating(0.1, log), OdometrySource::readings);
     ASSERT_EQ(corrected.size(), 9);
     EXPECT_LT(test::farthestFromWalls(*corrected[0].scans[0], motion(100)), 2e-6);
     const TPose2D off = corrected[1].motion - (motion(100.13) - motion(100));
@@ -93,14 +94,17 @@ TEST(Deskewing, OfAScanThatBeginsBeforeTheOdometry) {
 }
 
 TEST(Deskewing, ByTheSettingWithoutAWordInTheLog) {
-  EXPECT_LT(worst(readingsOf(observations(turning), true, SweepTimes(0.1)), turning), 2e-6);
-  EXPECT_GT(worst(readingsOf(stating(0.1, observations(turning)), true, SweepTimes(0)), turning), 0.05);
+  EXPECT_LT(worst(readingsOf(observations(turning), OdometrySource::readings, SweepTimes(0.1)), turning),
+            2e-6);
+  EXPECT_GT(worst(readingsOf(stating(0.1, observations(turning)), OdometrySource::readings, SweepTimes(0)),
+                  turning),
+            0.05);
 }
 
 TEST(Deskewing, AnUnknownOrImpossibleTimeLeavesTheScansAsTheyAre) {
   for (const double seconds : {0.0, -0.1, 1e9, std::nan("")}) {
     const Log log = stating(seconds, observations(turning));
-    const std::vector<Reading> all = readingsOf(log, true);
+    const std::vector<Reading> all = readingsOf(log, OdometrySource::readings);
     ASSERT_GT(all.size(), 1u);
     for (const Reading& reading : all)
       EXPECT_NE(std::find(log.begin(), log.end(), reading.scans.back()), log.end())
@@ -113,21 +117,23 @@ TEST(Deskewing, UpsideDownAndReversed) {
     SweptLaser laser;
     laser.sensorPose = mrpt::poses::CPose3D(0.3, -0.1, 0.2, 0.4, 0, M_PI);
     laser.rightToLeft = rightToLeft;
-    EXPECT_LT(worst(readingsOf(stating(0.1, observations(turning, laser)), true), turning), 2e-6);
+    EXPECT_LT(
+        worst(readingsOf(stating(0.1, observations(turning, laser)), OdometrySource::readings), turning),
+        2e-6);
   }
 }
 
 TEST(Deskewing, AScanOfAStandingRobotIsNotCopied) {
   const auto stands = [](double) { return TPose2D(1, 0, 0.5); };
   const Log log = stating(0.1, observations(stands));
-  const std::vector<Reading> all = readingsOf(log, true);
+  const std::vector<Reading> all = readingsOf(log, OdometrySource::readings);
   ASSERT_GT(all.size(), 1u);
   for (const Reading& reading : all)
     EXPECT_NE(std::find(log.begin(), log.end(), reading.scans.back()), log.end());
 }
 
 TEST(Deskewing, WaitsForTheOdometryUpToTheLastBeam) {
-  ReadingAssembler assembler({}, true, 1, SweepTimes(0.1));
+  ReadingAssembler assembler({}, OdometrySource::readings, 1, SweepTimes(0.1));
   assembler.take(test::odometry(100, turning(100)));
   assembler.take(test::sweptScan({}, 100, turning));
   assembler.take(test::odometry(100.06, turning(100.06)));
@@ -141,14 +147,14 @@ TEST(Deskewing, WaitsForTheOdometryUpToTheLastBeam) {
 TEST(Deskewing, TheLastVelocityHoldsWhereTheLogEnds) {
   const Log log{test::odometry(99.95, turning(99.95)), test::odometry(100.01, turning(100.01)),
                 test::sweptScan({}, 100, turning)};
-  EXPECT_LT(worst(readingsOf(log, true, SweepTimes(0.1)), turning), 2e-6);
+  EXPECT_LT(worst(readingsOf(log, OdometrySource::readings, SweepTimes(0.1)), turning), 2e-6);
 }
 
 TEST(Deskewing, ScansOutsideTheOdometryAreNotCorrected) {
   const auto early = test::sweptScan({}, 99, turning), late = test::sweptScan({}, 105, turning);
   const auto all =
       readingsOf({early, test::odometry(100, turning(100)), test::odometry(100.5, turning(100.5)), late},
-                 true, SweepTimes(0.1));
+                 OdometrySource::readings, SweepTimes(0.1));
   ASSERT_EQ(all.size(), 2);
   EXPECT_EQ(all[0].scans.back(), early);
   EXPECT_EQ(all[1].scans.back(), late);
@@ -167,7 +173,7 @@ void expectTwoLasersCorrected(const SweptLaser& front, SweptLaser rear, const Sw
   }
   log.push_back(test::odometry(101.8, turning(101.8)));
   size_t both = 0;
-  for (const Reading& reading : readingsOf(log, true, sweeps))
+  for (const Reading& reading : readingsOf(log, OdometrySource::readings, sweeps))
     if (reading.scans.size() == 2) {
       ++both;
       for (const auto& scan : reading.scans)

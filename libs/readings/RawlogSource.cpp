@@ -87,6 +87,17 @@ SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
   return hasOdometry && options.requireOdometry ? SweepTimes(options.sweep()) : SweepTimes(0);
 }
 
+OdometrySource odometrySource(const InputOptions& options, bool hasReadings) {
+  if (!options.requireOdometry) return OdometrySource::none;
+  return hasReadings ? OdometrySource::readings : OdometrySource::actions;
+}
+
+void RawlogSummary::ignoreOdometry() {
+  scans += early.count;
+  early = {};
+  isDeskewed = false;
+}
+
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
                         const std::function<bool()>& isStopped) {
   RawlogSummary summary;
@@ -100,7 +111,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   SweepTimes sweeps(options.sweep());
   const auto laserPose = laserPoseIn(options.laserPose);
   ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
-  ReadingAssembler beginning(wanted, true, options.maxOdometryGap, SweepTimes(0),
+  ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap, SweepTimes(0),
                              laserPose);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
@@ -217,7 +228,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 }
 
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
-    : assembler_(labelsOf(options.sensorLabel), summary.hasOdometryReadings && options.requireOdometry,
+    : assembler_(labelsOf(options.sensorLabel), odometrySource(options, summary.hasOdometryReadings),
                  options.maxOdometryGap,
                  sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings),
                  laserPoseIn(options.laserPose)),

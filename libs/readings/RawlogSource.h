@@ -37,6 +37,9 @@ struct InputOptions : Options {
 /// Returns the times of the lasers' sweeps; none without odometry, which the correction of beams needs.
 SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry);
 
+/// Returns which odometry of a log is used, by whether it has observations of it.
+OdometrySource odometrySource(const InputOptions& options, bool hasReadings);
+
 /// Summary of a log, from one pass before the filter runs.
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
@@ -66,6 +69,8 @@ struct RawlogSummary {
   size_t skippedReadings() const {
     return early.count + empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
   }
+  /// Makes it the summary for InputOptions::requireOdometry = false, if that was set after the log was read.
+  void ignoreOdometry();
   /// Says where the defect is.
   std::string defectPlace(const std::string& file) const {
     return unit + " " + std::to_string(entries + 1) + " of " + file;

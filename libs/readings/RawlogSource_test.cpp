@@ -271,6 +271,20 @@ TEST(RawlogSource, NoOdometry) {
   EXPECT_FALSE(replayed(standing).summary.hasMotion);
 }
 
+TEST(RawlogSource, OdometryOfEitherFormIsIgnoredOnRequest) {
+  readings::InputOptions options;
+  options.requireOdometry = false;
+  for (const test::Log& log :
+       {test::Log{test::odometry(1, {}), scan(1), test::odometry(2, {1, 0, 0}), scan(2)},
+        test::Log{test::action({}), test::frame({scan(1)}), test::action({1, 0, 0}), test::frame({scan(2)})}})
+    EXPECT_THAT(replayed(log, options).x, areNear({0, 0}));
+  const Replayed apart = replayed({test::action({}), test::frame({scan(1, {}, 3, "FRONT")}),
+                                   test::action({20, 0, 0}), test::frame({scan(1.02, {}, 3, "REAR")})},
+                                  options);
+  ASSERT_EQ(apart.allScans.size(), 2u) << "a laser that is not known yet begins a reading";
+  for (const Scans& scans : apart.allScans) EXPECT_EQ(scans[0]->sensorPose.norm(), 0);
+}
+
 TEST(RawlogSource, EmptyActionsAreNoOdometry) {
   const auto nothing = mrpt::obs::CActionCollection::Create();
   EXPECT_FALSE(replayed({nothing, test::frame({scan(1)})}).summary.hasActions);

@@ -57,7 +57,7 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
          isFinite(TPose2D(scan.sensorPose.asTPose()));
 }
 
-ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings,
+ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry,
                                    double maxOdometryGap, SweepTimes sweeps,
                                    std::optional<mrpt::poses::CPose3D> laserPose)
     : grouper_(lasers, maxOdometryGap, laserPose.has_value()),
@@ -65,7 +65,7 @@ ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, bool 
       laserPose_(std::move(laserPose)),
       track_(maxOdometryGap),
       maxOdometryGap_(maxOdometryGap),
-      hasOdometryReadings_(hasOdometryReadings) {}
+      source_(odometry) {}
 
 std::optional<Reading> ReadingAssembler::next() {
   if (ready_.empty()) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<Reading> ReadingAssembler::next() {
 
 void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& object) {
   const auto increment = incrementOf(object);
-  if (increment && !hasOdometryReadings_ && isFinite(*increment)) {
+  if (increment && source_ == OdometrySource::actions && isFinite(*increment)) {
     if (isJump({}, *increment))
       ++jumps_;
     else
@@ -90,7 +90,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (hasOdometryReadings_ && isPossible(odometry->odometry.asTPose())) takeOdometry(*odometry);
+      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose())) takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
@@ -102,14 +102,14 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
     scan = copyOf(*scan);  // a recording has it as measured
     scan->sensorPose = *laserPose_;
   }
-  if (!hasOdometryReadings_ && !isInTrack_ && isStamped(*scan)) {
+  if (!hasOdometryReadings() && !isInTrack_ && isStamped(*scan)) {
     track_.add(seconds(scan->timestamp), travelled_);
     isInTrack_ = true;
     completeReady();
   }
   const size_t reading = grouper_.add(*scan);
   waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
-  if (hasOdometryReadings_ && !lastOdometry_) {
+  if (hasOdometryReadings() && !lastOdometry_) {
     while (waiting_.back().reading - waiting_.front().reading >= kMostEarly ||
            (waiting_.size() > 1 && hasManyBeams()))
       waiting_.pop_front();
@@ -118,14 +118,14 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   }
   const bool isFull = waiting_.size() >= kMostWaiting || hasManyBeams();
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
-  const bool mayLieBetween = hasOdometryReadings_ && age > 0 && age <= maxOdometryGap_;
+  const bool mayLieBetween = hasOdometryReadings() && age > 0 && age <= maxOdometryGap_;
   // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
   // count bounds it where time stands still.
-  const bool isLong = (hasOdometryReadings_ && age > maxOdometryGap_) || isFull;
+  const bool isLong = (hasOdometryReadings() && age > maxOdometryGap_) || isFull;
   if (isLong) return finishWaiting();
-  if (hasOdometryReadings_ && age < 0 && track_.contains(seconds(scan->timestamp)))  // after newer odometry
+  if (hasOdometryReadings() && age < 0 && track_.contains(seconds(scan->timestamp)))  // after newer odometry
     waiting_.back().odometry = track_.at(seconds(scan->timestamp));
-  else if (!hasOdometryReadings_ || (!mayLieBetween && waiting_.size() == 1))
+  else if (!hasOdometryReadings() || (!mayLieBetween && waiting_.size() == 1))
     waiting_.back().odometry = travelled_;
   completeReady();
 }
@@ -242,7 +242,7 @@ void ReadingAssembler::endReading() {
 }
 
 void ReadingAssembler::finish() {
-  if (hasOdometryReadings_ && !lastOdometry_) return;
+  if (hasOdometryReadings() && !lastOdometry_) return;
   finishWaiting();
   endReading();
 }

@@ -31,6 +31,13 @@ struct Reading {
   mrpt::math::TPose2D motion;  ///< m, rad
 };
 
+/// Where the odometry of a log is.
+enum class OdometrySource {
+  none,      ///< odometry is ignored: no motion
+  actions,   ///< the action of each action-observation pair; observations of odometry are ignored
+  readings,  ///< observations, which scans wait for; actions are ignored
+};
+
 /// Largest number of readings that are used before the first odometry reading: sensors do not start at the
 /// same time, but a robot may have moved since an earlier scan.
 constexpr size_t kMostEarly = 5;
@@ -54,13 +61,11 @@ constexpr size_t kMostEarly = 5;
 /// recording equals the live run.
 class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): there is one of it
  public:
-  /// @param lasers               labels of the lasers to use; none: all
-  /// @param hasOdometryReadings  whether odometry comes as observations: scans then wait for it, and actions
-  ///                             are ignored; else such observations are ignored
-  /// @param maxOdometryGap       s; odometry is interpolated between readings no farther apart
-  /// @param sweeps               durations of the scans; default: as the log states
-  /// @param laserPose            of the only laser on the robot; default: as the scans state
-  ReadingAssembler(const std::vector<std::string>& lasers, bool hasOdometryReadings, double maxOdometryGap,
+  /// @param lasers          labels of the lasers to use; none: all
+  /// @param maxOdometryGap  s; odometry is interpolated between readings no farther apart
+  /// @param sweeps          durations of the scans; default: as the log states
+  /// @param laserPose       of the only laser on the robot; default: as the scans state
+  ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry, double maxOdometryGap,
                    SweepTimes sweeps = {}, std::optional<mrpt::poses::CPose3D> laserPose = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
@@ -79,6 +84,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
 
  private:
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
+  bool hasOdometryReadings() const { return source_ == OdometrySource::readings; }
   bool hasManyBeams() const;
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
@@ -120,7 +126,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
   double lastTimestamp_ = 0;
   bool isInTrack_ = false;  ///< the odometry of this pair
-  bool hasOdometryReadings_;
+  OdometrySource source_;
   bool first_ = true;  ///< reading
 };
 

@@ -15,7 +15,7 @@ using test::scan;
 
 /// Assembles the readings of a log of single observations.
 std::vector<Reading> assembled(const test::Log& log) {
-  ReadingAssembler assembler({}, true, 1);
+  ReadingAssembler assembler({}, OdometrySource::readings, 1);
   std::vector<Reading> readings;
   const auto drain = [&] {
     while (auto reading = assembler.next()) readings.push_back(*reading);
@@ -77,7 +77,7 @@ TEST(ReadingAssembler, ALogInTheOrderOfArrival) {
 }
 
 TEST(ReadingAssembler, OdometryThatIsNotExpectedIsIgnored) {
-  ReadingAssembler assembler({}, false, 1);
+  ReadingAssembler assembler({}, OdometrySource::actions, 1);
   for (const auto& object : test::Log{scan(1, {}, 3, "front"), odometry(1, {0, 0, 0}),
                                       odometry(1.1, {50, 0, 0}), scan(1.1, {}, 3, "rear")})
     assembler.take(object);

@@ -86,6 +86,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
     filter_ = std::move(hybrid);
     if (map || !configuration.run.priorPlan.empty()) {
       search_.emplace(configuration, std::move(map));
+      place_ = PlaceInMap::searched;
       hybrid_->expectMap();
       if (const std::string warning = search_->warning(); !warning.empty()) notes_.push_back(warning);
     }
@@ -169,6 +170,7 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
   const std::optional<FoundPlace> found = search_->process(reading, *hybrid_, scans_);
   if (!search_->isOver()) return;
   search_.reset();
+  place_ = found ? PlaceInMap::known : PlaceInMap::notFound;
   if (!found) return hybrid_->expectNoMap();
   notes_.push_back(found->note);
   const double turn = hybrid_->joinMap(found->map, found->pose);
@@ -176,11 +178,11 @@ void FilterRun::searchPlace(const readings::Reading& reading) {
 }
 
 std::string FilterRun::placeNote() const {
-  if (hybrid_ && !configuration_.run.priorPlan.empty() && !hybrid_->base())
-    return "place not found in the floor plan " + configuration_.run.priorPlan + ": " +
-           counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
-  if (!search_) return {};
-  return "place not found in the map of " + configuration_.run.continueFrom + ": " +
+  if (place_ == PlaceInMap::known) return {};
+  const RunOptions& run = configuration_.run;
+  std::string map = run.continueFrom.empty() ? "floor plan" : "map of " + run.continueFrom;
+  if (!run.priorPlan.empty()) map += " " + run.priorPlan;  // a session does not name it
+  return "place not found in the " + map + ": " +
          counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
 }
 

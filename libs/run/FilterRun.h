@@ -33,6 +33,13 @@
 
 namespace hybrid_slam::run {
 
+/// Whether a run that began with an earlier map or a floor plan knows its place there. Saved in sessions.
+enum class PlaceInMap : uint8_t {
+  known,  ///< or there was neither
+  searched,
+  notFound,  ///< in a floor plan; the search is over
+};
+
 /// The map of a run is worse than that of another run over the log.
 struct WorseMap : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -42,9 +49,9 @@ struct WorseMap : std::runtime_error {
 struct FinishedRun {
   std::string summary;  ///< one line: scans, updates, time, real-time factor, place of the results
   Verdict verdict;
-  std::string whyMissing;      ///< for lack of memory or of the log; notes name the results; else empty
-  bool logHasChanged = false;  ///< since it was summarised, so that results may be of different readings
-  std::string mapNote;         ///< one line if the map files have coarser cells than the filter's; else empty
+  std::string whyMissing;  ///< for lack of memory or of the log; notes name the results; else empty
+  std::string incomplete;  ///< one line: results are missing, or the log has changed meanwhile; else empty
+  std::string mapNote;     ///< one line if the map files have coarser cells than the filter's; else empty
 };
 
 /// Writes the files of doc/results.md at the end. They appear together (files/StagedFolder.h); without
@@ -92,7 +99,7 @@ class FilterRun {
   /// Waits for the checkpoint that is being written.
   void finishCheckpoint();
   /// Returns whether this run, or the resumed one, continues an earlier map or began with a floor plan.
-  bool hasEarlierMap() const { return hybrid_ && hybrid_->base(); }
+  bool hasEarlierMap() const { return place_ == PlaceInMap::notFound || (hybrid_ && hybrid_->base()); }
   /// Says in one line that the place in the earlier map or floor plan has not been found; else empty.
   std::string placeNote() const;
 
@@ -122,7 +129,7 @@ class FilterRun {
   /// Where it would need more, it is left out, with a note.
   void limitRefinement(double bytes) { refinementBytes_ = bytes; }
   /// Lets `finish` write no results, but throw, if the map is worse than one of this verdict (WorseMap), or
-  /// if results are missing (FinishedRun::whyMissing) or the log has changed (std::runtime_error).
+  /// if the results are incomplete (std::runtime_error).
   void expectVerdict(const Verdict& worst) { worstVerdict_ = worst; }
   /// Writes the results. If an update has failed, there is no session; a note says so.
   /// @param file     the processed log, read again for map.simplemap.gz, the verdict and the refinement
@@ -173,10 +180,10 @@ class FilterRun {
   files::StagedFolder staged_;
   const files::OutputFolder& folder_;  ///< of staged_
   std::unique_ptr<Filter> filter_;
-  HybridFilter* hybrid_ = nullptr;               ///< filter_, if it is ours
-  Localizer* localizer_ = nullptr;               ///< filter_, if it localises
-  std::optional<PlaceSearch> search_;            ///< in an earlier map or a floor plan; until it is over
-  bool wasPlaceUnknown_ = false;                 ///< in the session that was read
+  HybridFilter* hybrid_ = nullptr;     ///< filter_, if it is ours
+  Localizer* localizer_ = nullptr;     ///< filter_, if it localises
+  std::optional<PlaceSearch> search_;  ///< in an earlier map or a floor plan; until it is over
+  PlaceInMap place_ = PlaceInMap::known;
   std::optional<ScanOdometry> scanOdometry_;     ///< replaces odometry
   std::optional<StuckOdometry> stuckOdometry_;   ///< replaces it where it stands still
   std::ostringstream steps_;                     ///< in memory: a disk that is full for a while costs no row

@@ -95,10 +95,13 @@ FinishedRun FilterRun::finish(const std::string& file, const readings::RawlogSum
   folder_.write("steps.csv", [&](std::ostream& out) { out << withLoops(steps_.str(), best.loops); });
   if (particles_) folder_.write("particles.csv", [&](std::ostream& out) { out << particles_->str(); });
   folder_.write("config.ini", [&](std::ostream& out) { out << configuration_.text(); });
-  finished.logHasChanged = hasChanged(file, log);
-  if (worstVerdict_ && !finished.whyMissing.empty())
-    throw std::runtime_error("results are missing: " + finished.whyMissing);
-  if (worstVerdict_ && finished.logHasChanged) throw std::runtime_error("the log has changed");
+  if (!finished.whyMissing.empty())
+    finished.incomplete = "results are missing: " + finished.whyMissing;
+  else if (hasChanged(file, log))
+    finished.incomplete =
+        "log has changed while it was read: " + file + "; results may be of both its states";
+  if (worstVerdict_ && !finished.incomplete.empty())
+    throw std::runtime_error(finished.whyMissing.empty() ? "the log has changed" : finished.incomplete);
   nlohmann::ordered_json all = metrics(finished, best, log);
   all.update(more);
   folder_.write("metrics.json", [&](std::ostream& out) { out << jsonText(all); });
@@ -237,7 +240,7 @@ nlohmann::ordered_json FilterRun::metrics(const FinishedRun& finished, const Fin
       {"doubtful_places", json(finished.verdict.places, updateTimes_)},
       {"lines", best.lines.size()},
       {"distance_m", recorder_.distance()},
-      {"complete", isWhole && log.defect.empty() && finished.whyMissing.empty() && !finished.logHasChanged},
+      {"complete", isWhole && log.defect.empty() && finished.incomplete.empty()},
       {"skipped_readings", log.skippedReadings()},
       {"versions", {{"hybrid_slam", HYBRID_SLAM_VERSION}, {"mrpt", mrpt::system::MRPT_getVersion()}}}};
   if (localizer_ && !best.path.empty())

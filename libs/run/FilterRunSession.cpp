@@ -8,6 +8,7 @@
 #include "base/Numbers.h"
 #include "files/DatedName.h"
 #include "files/PartialFile.h"
+#include "readings/Timestamps.h"
 #include "run/FilterRun.h"
 #include "run/Fingerprint.h"
 #include "run/MapFiles.h"
@@ -26,6 +27,18 @@ void visitTable(State& state, std::ostringstream& table) {
   if (!State::kIsReading) return;
   table.str("");
   table << text;
+}
+
+/// Returns whether the readings up to this one have a fingerprint. Where the log ended with the scans of some
+/// lasers, a grown log has those of the others in the same reading.
+bool isLast(const readings::Reading& reading, uint32_t before, uint32_t fingerprint) {
+  readings::Reading first;
+  for (const auto& scan : reading.scans) {
+    first.scans.push_back(scan);
+    first.timestamp = readings::isStamped(*scan) ? readings::seconds(scan->timestamp) : reading.timestamp;
+    if (fingerprintAfter(before, first) == fingerprint) return true;
+  }
+  return fingerprintAfter(before, reading) == fingerprint;
 }
 
 InputError otherLog(const std::string& log) {
@@ -61,8 +74,10 @@ void FilterRun::visit(State& state) {
                   particleCovariances_.size() == updates,
               "its readings do not belong to its path");
   if (stuckOdometry_) state(counts_.stuckScans, counts_.firstStuck, *stuckOdometry_);
-  wasPlaceUnknown_ = search_.has_value();
-  state(wasPlaceUnknown_);
+  auto place = static_cast<uint8_t>(place_);
+  state(place);
+  state.check(place <= static_cast<uint8_t>(PlaceInMap::notFound), "the place in the map has no state");
+  place_ = static_cast<PlaceInMap>(place);
 }
 
 std::string FilterRun::sessionWith(const ScanMap& map, const std::vector<mrpt::math::TPose2D>& poses) {
@@ -205,20 +220,24 @@ void FilterRun::resume(SessionReader& session) {
                      "expected method hybrid, general or linemap");
   updateTimes_ = session.header().times;
   session.readRest([this](StateReader& in) { visit(in); });
-  if (wasPlaceUnknown_)
+  if (place_ == PlaceInMap::searched)
     throw InputError("the run had not found its place in the earlier map or floor plan", session.file(),
                      "expected a session of a placed run; this one can be the map of --continue");
   files::PartialFile::removeLeft(session.file());  // what a killed run leaves of its next checkpoint
 }
 
 void FilterRun::passOver(readings::RawlogSource& source, const std::string& log) {
-  uint32_t found = 0;
+  uint32_t before = 0, found = 0;
+  std::optional<readings::Reading> last;
   for (const ReadingUse use : uses_) {
     const auto reading = source.next();
     if (!reading) throw otherLog(log);
-    if (use != ReadingUse::skipped) found = fingerprintAfter(found, *reading);
+    if (use == ReadingUse::skipped) continue;
+    before = std::exchange(found, fingerprintAfter(found, *reading));
+    last = reading;
   }
-  if (found != fingerprint_) throw otherLog(log);
+  if (found != fingerprint_ && !(last && isLast(*last, before, fingerprint_))) throw otherLog(log);
+  fingerprint_ = found;
 }
 
 }  // namespace hybrid_slam::run

@@ -313,6 +313,23 @@ TEST_F(SearchInAPlan, IsOverOnceTheRobotHasMovedFarAndTheRunSavesItself) {
   EXPECT_THAT(run.placeNote(), HasSubstr("place not found in the floor plan"));
 }
 
+TEST_F(SearchInAPlan, AResumedRunSaysThatThePlaceWasNotFound) {
+  {
+    Configuration c = configuration("out");
+    c.run.priorPlan = plan;
+    FilterRun run(c);
+    process(run, 241, turn);
+    EXPECT_TRUE(run.hasEarlierMap());
+    run.saveMapTo(folder.path("saved"));
+  }
+  SessionReader session(folder.path("saved/session.hslam"));
+  Configuration c = configuration("resumed");
+  FilterRun resumed(c);
+  resumed.resume(session);
+  EXPECT_THAT(resumed.placeNote(), HasSubstr("place not found in the floor plan: 241 scans"));
+  EXPECT_TRUE(resumed.hasEarlierMap());
+}
+
 TEST_F(SearchInAPlan, LeavesNoScansInMemory) {
   std::vector<size_t> bytes;
   for (const std::string& file : {plan, std::string()}) {

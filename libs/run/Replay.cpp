@@ -56,11 +56,7 @@ class LogPass {
     const FinishedRun finished = run.finish(file, log_, {{"second_run", isRepeated_}});
     outcome.summary = finished.summary;
     outcome.verdict = finished.verdict;
-    if (!finished.whyMissing.empty() && outcome.incomplete.empty())
-      outcome.incomplete = "results are missing: " + finished.whyMissing;
-    if (finished.logHasChanged && outcome.incomplete.empty())
-      outcome.incomplete =
-          "log has changed while it was read: " + file + "; results may be of both its states";
+    if (outcome.incomplete.empty()) outcome.incomplete = finished.incomplete;
     if (!finished.mapNote.empty()) outcome.warnings.push_back(finished.mapNote);
     if (run.folderNote() != place) progress_.say(run.folderNote());  // another run has finished there
     for (const std::string& note : run.takeNotes()) progress_.say(note);
@@ -93,7 +89,7 @@ class LogPass {
       return "run failed: " + messageOf(e) + ", " + source.place();
     }
     progress_.finish();
-    if (stop) return "interrupted: " + source.place();
+    if (stop && run.readings() < log_.scans) return "interrupted: " + source.place();
     if (run.readings() < log_.scans)
       return "log has become shorter while it was read: " + source.place() + ", after " +
              counted(run.readings(), "of " + std::to_string(log_.scans) + " scan(s)");
@@ -123,9 +119,10 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   std::optional<SessionReader> session;
   if (!configuration.run.resume.empty()) adopt(configuration, session.emplace(configuration.run.resume));
   const std::string& file = configuration.run.rawlog;
-  const readings::RawlogSummary log = summarise(file, configuration.input, [&stop] { return stop.load(); });
+  readings::RawlogSummary log = summarise(file, configuration.input, [&stop] { return stop.load(); });
   const std::vector<std::string> ofLog =
       applyLogSettings(readLogSettings(file, configuration.input, log), configuration);
+  if (!configuration.input.requireOdometry) log.ignoreOdometry();
   auto run = std::make_unique<FilterRun>(configuration, start);
   for (const std::string& line : ofLog)
     if (!isQuiet) std::cout << onOneLine(line) << "\n" << std::flush;

@@ -49,20 +49,28 @@ Localizer::Localizer(FilterConfiguration configuration, OccupancyGrid grid, Line
 void Localizer::process(const TPose2D& odometry, const Scans& scans) {
   expectFinite(odometry);
   odometry_ = odometry_ + odometry;
+  if (start_) start_ = *start_ + odometry;
   if (!scans.empty() && (path_.empty() || interval_.isOver(odometry_))) update(scans);
 }
 
 void Localizer::update(const Scans& scans) {
   const PreparedScan scan = prepare_(scans);
   const bool isRemembered = recent_.add(odometry_, scan);
-  if (path_.empty() && start_)
-    startTracking(global_.near(*start_, kStartWindow, recent_).pose);
+  if (start_)
+    trackFromStart(isRemembered);
   else if (isTracking_)
     track(scan, isRemembered);
   else
     search(isRemembered);
   path_.push_back(pose_);
   odometry_ = TPose2D();
+}
+
+// The first scans may have no returns.
+void Localizer::trackFromStart(bool isRemembered) {
+  if (!isRemembered || recent_.scans().back().scan.matchedBeams.rays.empty()) return summarise(*start_);
+  startTracking(global_.near(*start_, kStartWindow, recent_).pose);
+  start_.reset();
 }
 
 void Localizer::startTracking(const TPose2D& pose) {

@@ -21,8 +21,8 @@ class Localizer : public Filter {
  public:
   /// The resolution is that of the map, not `resolution` of [grid].
   /// @param lines  may be empty
-  /// @param start  pose of the robot (m, rad; map frame), right within 0.5 m and 15 deg; empty: anywhere in
-  ///               the map
+  /// @param start  pose of the robot (m, rad; map frame) at the first scan, right within 0.5 m and 15 deg;
+  ///               empty: anywhere in the map
   /// @throws InputError for incompatible settings
   Localizer(FilterConfiguration configuration, OccupancyGrid grid, LineDatabase lines,
             std::optional<mrpt::math::TPose2D> start);
@@ -49,6 +49,7 @@ class Localizer : public Filter {
   void track(const PreparedScan& scan, bool isRemembered);
   void check(const BeamShares& shares);
   void search(bool isRemembered);
+  void trackFromStart(bool isRemembered);
   void startTracking(const mrpt::math::TPose2D& pose);
   void summarise(const mrpt::math::TPose2D& best);
 
@@ -57,7 +58,7 @@ class Localizer : public Filter {
   uint64_t seed_;
   OccupancyGrid grid_;
   LineDatabase lines_;
-  std::optional<mrpt::math::TPose2D> start_;
+  std::optional<mrpt::math::TPose2D> start_;  ///< moved by the odometry; until tracking begins there
   ScanPreparation prepare_;
   ParticleSet particles_;
   GlobalLocalization global_;

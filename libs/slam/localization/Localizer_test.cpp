@@ -67,6 +67,29 @@ TEST(Localizer, TracksFromAGivenStart) {
     }
 }
 
+// As of a laser that warms up while the robot drives.
+TEST(Localizer, MovesTheStartAlongUntilAScanHasReturns) {
+  const RoomMap map = mapOf(room());
+  TPose2D at(1, 0, 0.4);
+  Localizer localizer(FilterConfiguration(), map.grid, map.lines, at);
+  const TPose2D motion(0.2, 0, 0.02);
+  RandomStream random(3, 0, 0);
+  for (int i = 0; i < 12; ++i) {
+    if (i > 0) at = at + motion;
+    const auto empty =
+        std::make_shared<mrpt::obs::CObservation2DRangeScan>(observationOf(room(), at, random));
+    for (size_t beam = 0; beam < empty->getScanSize(); ++beam) empty->setScanRangeValidity(beam, false);
+    localizer.process(i == 0 ? TPose2D() : motion, {empty});
+    EXPECT_FALSE(localizer.isLocalized());
+    EXPECT_LT(offBy(localizer.bestPath().back(), at), 0.01);
+  }
+  Drive drive(room(), at);
+  for (int i = 0; i < 10; ++i) drive.step(localizer, motion);
+  EXPECT_TRUE(localizer.isLocalized());
+  EXPECT_EQ(localizer.losses(), 0u);
+  EXPECT_LT(offBy(localizer.bestPath().back(), drive.at()), 0.1);
+}
+
 TEST(Localizer, FindsTheRobotInAnAsymmetricRoom) {
   const RoomMap map = mapOf(room());
   for (const bool hasLines : {true, false})

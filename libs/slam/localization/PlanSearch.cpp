@@ -139,6 +139,7 @@ bool PlanSearch::isOver() const { return found_ || added_ >= kLongestSearch; }
 void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   if (isOver()) return;
   odometry_ = odometry_ + odometry;
+  if (start_) start_ = *start_ + odometry;
   if (scans.empty()) return;
   if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
   if (start_) {

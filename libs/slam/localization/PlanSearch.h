@@ -22,8 +22,8 @@ namespace hybrid_slam {
 /// may be wrong in parts.
 class PlanSearch {
  public:
-  /// @param start  pose of the robot (m, rad; frame of the plan), right within 0.5 m and 15 deg; the first
-  ///               scan is then fitted there; empty: anywhere
+  /// @param start  pose of the robot (m, rad; frame of the plan) at the first scan, right within 0.5 m and
+  ///               15 deg; the first scan with returns is then fitted there; empty: anywhere
   /// @throws InputError for a plan without walls of 1 m or of more than 2^23 cells (2^25 with a start), and
   ///         for MRPT's auxiliary filters
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
@@ -55,10 +55,10 @@ class PlanSearch {
 
   double cell_, directionWindow_;  ///< m, rad
   std::vector<PlanLine> walls_;
-  std::optional<mrpt::math::TPose2D> start_;
-  OccupancyGrid grid_;             ///< of the plan as drawn; with a start
-  LineDatabase lines_;             ///< of the plan as drawn; without
-  std::vector<ScaledPlan> plans_;  ///< without
+  std::optional<mrpt::math::TPose2D> start_;  ///< moved by the odometry
+  OccupancyGrid grid_;                        ///< of the plan as drawn; with a start
+  LineDatabase lines_;                        ///< of the plan as drawn; without
+  std::vector<ScaledPlan> plans_;             ///< without
   ScanPreparation prepare_;
   RecentScans recent_;
   tbb::task_arena arena_;

@@ -134,6 +134,27 @@ TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
   expectNear(*search.found(), truth);
 }
 
+// As of a laser that warms up while the robot drives.
+TEST(PlanSearch, MovesTheStartAlongUntilAScanHasReturns) {
+  RandomStream random(1, 0, 0);
+  TPose2D at(1, 0.5, 0.4);
+  PlanSearch search(configuration(), drawn(test::room(), 1), TPose2D(3, -2, 0.7) + at);
+  const TPose2D motion(0.2, 0, 0.02);
+  for (int i = 0; i < 12; ++i) {
+    if (i > 0) at = at + motion;
+    const Scans empty = roomScan(at, random);
+    for (size_t beam = 0; beam < empty[0]->getScanSize(); ++beam) empty[0]->setScanRangeValidity(beam, false);
+    search.process(i == 0 ? TPose2D() : motion, empty);
+    EXPECT_FALSE(search.found());
+  }
+  while (!search.isOver()) {
+    at = at + motion;
+    search.process(motion, roomScan(at, random));
+  }
+  ASSERT_TRUE(search.found());
+  expectNear(*search.found(), TPose2D(3, -2, 0.7) + at);
+}
+
 /// Drives until the robot is found. @return its true pose then, frame of the walls
 TPose2D drive(PlanSearch& search, const std::vector<test::DrivenPose>& steps) {
   for (const test::DrivenPose& step : steps) {

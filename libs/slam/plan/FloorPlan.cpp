@@ -23,6 +23,7 @@ constexpr double kPassage = 0.5;                           // m, free on both si
 constexpr double kLeastWall = 0.3;                         // m, beside a door
 constexpr double kHidden = 0.6;                            // m: longest gap that is no opening, if not free
 constexpr double kShortest = 0.1;                          // m
+constexpr double kMoved = 0.35;                            // m: closeCorners moves the ends of walls by less
 // The error that all walls seen from the same poses share, measured on the simulated building.
 constexpr double kPoseOffset = 0.01, kPoseAngle = mrpt::DEG2RAD(0.025);  // m, rad
 
@@ -94,6 +95,23 @@ PlanWall wallOf(const Stretch& stretch, const LineEstimate& line) {
   return wall;
 }
 
+/// An opening, and the number of its line.
+struct Door {
+  Opening opening;
+  int group;
+};
+
+/// Returns whether there is a wall of its line at either end.
+bool isBetweenWalls(const Door& door, const std::vector<PlanWall>& walls) {
+  const auto isWall = [&](const TPoint2D& end) {
+    return std::any_of(walls.begin(), walls.end(), [&](const PlanWall& wall) {
+      return wall.group == door.group &&
+             std::min((wall.start - end).norm(), (wall.end - end).norm()) < kMoved;
+    });
+  };
+  return isWall(door.opening.start) && isWall(door.opening.end);
+}
+
 }  // namespace
 
 FloorPlan floorPlanOf(const std::vector<DatabaseLine>& lines, const OccupancyGrid& grid) {
@@ -106,13 +124,15 @@ FloorPlan floorPlanOf(const std::vector<DatabaseLine>& lines, const OccupancyGri
   const GridProbe probe(grid);
   const std::vector<BuildingDirection> directions = buildingDirections(groups);
   for (const BuildingDirection& direction : directions) plan.directions.push_back(direction.angle);
+  std::vector<Door> doors;
   for (size_t i = 0; i < groups.size(); ++i) {
     const bool isSnapped = snapTo(directions, groups[i].line);
     const LineEstimate& line = groups[i].line;
     const std::vector<Stretch> stretches = joined(groups[i], probe);
     for (size_t j = 0; j < stretches.size(); ++j) {
       if (j > 0 && isDoor(stretches[j - 1], stretches[j], line, probe))
-        plan.openings.push_back({line.point(stretches[j - 1].to), line.point(stretches[j].from)});
+        doors.push_back(
+            {{line.point(stretches[j - 1].to), line.point(stretches[j].from)}, static_cast<int>(i)});
       if (stretches[j].to - stretches[j].from < kShortest) continue;
       PlanWall& wall = plan.walls.emplace_back(wallOf(stretches[j], line));
       wall.group = static_cast<int>(i);
@@ -121,6 +141,8 @@ FloorPlan floorPlanOf(const std::vector<DatabaseLine>& lines, const OccupancyGri
   }
   closeCorners(plan.walls, probe);
   removeClutter(plan.walls);
+  for (const Door& door : doors)
+    if (isBetweenWalls(door, plan.walls)) plan.openings.push_back(door.opening);
   pairFaces(plan.walls, probe);
   return plan;
 }

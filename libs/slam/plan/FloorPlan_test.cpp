@@ -228,6 +228,31 @@ Face face(const TPoint2D& start, const TPoint2D& end) {
 }
 
 // This would take minutes if the number of comparisons grew quadratically.
+TEST(FloorPlan, ThereIsNoDoorBetweenPiecesOfClutter) {
+  PaintedGrid map;
+  map.free(-2, -2, 4, 2);
+  map.wall(0, 0, 0.6, kCell);
+  map.wall(1.15, 0, 1.75, kCell);
+  const FloorPlan plan = floorPlanOf({}, map.grid);
+  EXPECT_TRUE(plan.walls.empty());
+  EXPECT_TRUE(plan.openings.empty());
+}
+
+TEST(WallLines, TheStretchesOfADatabaseLineCountOnce) {
+  const auto faceOf = [](const LineEstimate& line, double from, double to) {
+    Face face;
+    face.start = {from, 0}, face.end = {to, 0};
+    face.line = line;
+    face.count = 20;
+    return face;
+  };
+  const LineEstimate a = lineThrough({5, 0}, 0, 10, 0.004), b = lineThrough({15, 0}, 0, 8, 0.004);
+  const std::vector<WallLine> groups =
+      wallLinesOf({faceOf(a, 0, 10), faceOf(b, 11, 14), faceOf(b, 15, 17), faceOf(b, 17.5, 19)}, kCell);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_LT((groups[0].line.covariance - fused(a, b).covariance).norm(), 1e-12);
+}
+
 TEST(WallLines, AHundredThousandFacesAreGrouped) {
   std::vector<Face> faces;
   std::mt19937 random(1);

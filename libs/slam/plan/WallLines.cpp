@@ -114,9 +114,11 @@ std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell) {
     } else {
       LineEstimate& line = groups[static_cast<size_t>(best)].line;
       // The stretches of a database line share its one estimate.
-      const Face& first = groups[static_cast<size_t>(best)].faces.front();
-      const bool isSame = face.count > 0 && (first.line.at - face.line.at).norm() < 1e-9;
-      if (!isSame)
+      const auto isSame = [&](const Face& other) {
+        return face.count > 0 && (other.line.at - face.line.at).norm() < 1e-9;
+      };
+      const std::vector<Face>& known = groups[static_cast<size_t>(best)].faces;
+      if (std::none_of(known.begin(), known.end(), isSame))
         line = fused(line, std::cos(line.angle - face.line.angle) < 0 ? face.line.reversed() : face.line);
     }
     groups[static_cast<size_t>(best)].faces.push_back(face);

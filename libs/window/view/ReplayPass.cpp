@@ -33,7 +33,7 @@ std::string Lane::finish(const std::string& file, const readings::RawlogSummary&
     configuration.run.output = target;
     results = run.finish(file, log, nlohmann::ordered_json::object());
   }
-  return results->whyMissing;
+  return results->incomplete;
 }
 
 ReplayPass::ReplayPass(const run::Configuration& configuration, const std::vector<Method>& methods,

@@ -21,7 +21,7 @@ struct Lane {
 
   /// Writes the results to its folder, unless an earlier call has done so.
   /// @param target  final folder, for config.ini
-  /// @return why some are missing; else empty
+  /// @return FinishedRun::incomplete
   /// @throws InputError if they cannot be written
   std::string finish(const std::string& file, const readings::RawlogSummary& log, const std::string& target);
 

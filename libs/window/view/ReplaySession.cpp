@@ -119,9 +119,12 @@ void ReplaySession::work() {
     try {
       runPass();
     } catch (const std::exception& e) {
-      tell(messageOf(e), true, State::failed);
       std::unique_lock<std::mutex> lock(mutex_);
-      wake_.wait(lock, [this] { return isClosing_ || wantsRestart_; });
+      do {  // there is nothing to export or save
+        exportTo_.reset(), saveTo_.reset();
+        tell(messageOf(e), true, State::failed);
+        wake_.wait(lock, [this] { return isClosing_ || wantsRestart_ || exportTo_ || saveTo_; });
+      } while (!isClosing_ && !wantsRestart_);
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     if (isClosing_) return;
@@ -138,6 +141,7 @@ void ReplaySession::readLog() {
   const auto ofLog =
       std::make_shared<const run::LogSettings>(run::readLogSettings(file, configuration_.input, summary));
   for (const std::string& line : applyLogSettings(*ofLog, configuration_)) event(line);
+  if (!configuration_.input.requireOdometry) summary.ignoreOdometry();
   for (const std::string& warning : configuration_.warnings) note("warning: " + warning);
   for (const std::string& warning : readings::warningsOf(summary, file)) note("warning: " + warning);
   snapshot_.change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
@@ -246,18 +250,18 @@ void ReplaySession::exportPass(ReplayPass& pass, const std::string& folder) {
     if (pass.scans == 0)
       throw InputError("no results yet", "before the first scan", "play or step the log first");
     files::StagedFolder staged(folder, pass.names(), false);
-    std::string whyMissing;
+    std::string incomplete;
     for (const auto& lane : pass.lanes) {
       const std::string name = nameOf(lane->configuration.run.method);
       const std::string why = lane->finish(pass.file, pass.log, staged.finalPath(name));
       std::filesystem::copy(pass.folder.path(name), staged.files().path(name));
-      if (!why.empty()) whyMissing = "; some are missing: " + why;
+      if (!why.empty()) incomplete = "; " + why;
     }
     staged.publish();
     for (const auto& lane : pass.lanes)
       if (const std::string place = lane->run.placeNote(); !place.empty()) note(place);
-    tell("Results of " + counted(pass.scans, "scan(s) written: ") + staged.folder() + whyMissing,
-         !whyMissing.empty(), State::ended);
+    tell("Results of " + counted(pass.scans, "scan(s) written: ") + staged.folder() + incomplete,
+         !incomplete.empty(), State::ended);
   } catch (const std::exception& e) {
     tell(messageOf(e), true, pass.isOver() ? State::ended : State::paused);
   }

@@ -333,7 +333,18 @@ TEST_F(ReplaySessionTest, AnInvalidLogFailsWithItsName) {
   ReplaySession session(configuration(folder.path("missing.rawlog")), {Method::hybrid});
   ASSERT_TRUE(test::happens([&] { return session.snapshot()->state == State::failed; }));
   EXPECT_THAT(session.snapshot()->message, HasSubstr("missing.rawlog"));
-  session.play();  // tries again, and can be closed
+  session.exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 2; }));
+  session.saveMap(folder.path("map"));
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 3; }));
+  EXPECT_THAT(session.snapshot()->message, HasSubstr("missing.rawlog"));
+  session.play();
+  ASSERT_TRUE(test::happens([&] { return session.snapshot()->messages == 4; }));
+  test::writeGzipped(folder.path("missing.rawlog"), test::laps(10));
+  session.setSpeed(0);
+  session.play();
+  EXPECT_TRUE(reaches(session, State::ended, 10)) << "the requests do not wait for this";
+  EXPECT_EQ(session.snapshot()->messages, 4u);
 }
 
 }  // namespace
