@@ -81,7 +81,7 @@ TEST(OutputFolder, AFolderInItMayHaveAnyName) {
   EXPECT_THAT(namesIn(root.path("out")), UnorderedElementsAre("probe", ".partial.probe"));
 }
 
-TEST(OutputFolder, NotWritable) {
+TEST(OutputFolderAsUser, NotWritable) {
   const TemporaryFolder root;
   fs::create_directory(root.path("out"));
   fs::permissions(root.path("out"), fs::perms::owner_read | fs::perms::owner_exec);

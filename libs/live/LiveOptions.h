@@ -13,12 +13,12 @@ namespace hybrid_slam::live {
 /// Section [live] of hybrid-slam-live.
 struct LiveOptions : Options {
   std::string server, tokenFile;
-  double timeout = 5;
-  double cycleRate = 5;
-  double sensorTimeout = 5;
-  int maxWaiting = 5;
+  double timeout = 5;        ///< s
+  double cycleRate = 5;      ///< 1/s
+  double sensorTimeout = 5;  ///< s
+  int maxWaiting = 5;        ///< scans
   std::string recording = "recording.rawlog";
-  double diskReserve = 1000;
+  double diskReserve = 1000;  ///< MB
   void describe(OptionTable& table) override;
 };
 
@@ -26,12 +26,12 @@ struct LiveOptions : Options {
 struct ServerOptions : Options {
   std::string address = "127.0.0.1", tokenFile;
   int port = 4550;
-  double cycleRate = 5;
-  double sensorTimeout = 5;
-  int queue = 50;
+  double cycleRate = 5;      ///< 1/s
+  double sensorTimeout = 5;  ///< s
+  int queue = 50;            ///< cycles
   int maxClients = 250;
   std::string rawlog;
-  double replayRate = 0;
+  double replayRate = 0;  ///< 1/s
   int waitForClients = 0;
   void describe(OptionTable& table) override;
 };

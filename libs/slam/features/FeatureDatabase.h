@@ -27,10 +27,11 @@ struct MapFeature : PointFeature {
 
 /// Returns the squared Mahalanobis distance between two observations of one feature, or an observation and a
 /// feature. Empty if they cannot be the same: kinds differ, directions of corners differ by more than 45 deg,
-/// or radii or positions by more than three standard deviations.
+/// positions by more than 2 m in x or y, or positions or radii by more than three standard deviations. That
+/// of a radius includes 10 % of it, by which arcs of few beams are off.
 std::optional<double> squaredMatchDistance(const PointFeature& seen, const PointFeature& known);
 
-/// Updates a feature by an observation (Kalman).
+/// Updates a feature's position and radius by an observation (Kalman). Its direction stays that of the first.
 MapFeature merged(const MapFeature& feature, const PointFeature& seen);
 
 /// The features of one particle, in the map frame.

@@ -35,9 +35,7 @@ std::optional<double> matchDistance(const LineSegment& segment, const LineSegmen
   // Most lines of a database have another direction: the cheap test first.
   if (std::abs(halfTurnDifference(segment.theta, reference.theta)) > options.maxTheta) return std::nullopt;
   const LineDifference d = difference(segment, reference);
-  if (std::abs(d.rho) > options.maxRho || std::abs(d.theta) > options.maxTheta ||
-      d.overlap < options.minOverlap)
-    return std::nullopt;
+  if (std::abs(d.rho) > options.maxRho || d.overlap < options.minOverlap) return std::nullopt;
   return std::hypot(d.rho, options.thetaWeight * d.theta);
 }
 

@@ -6,8 +6,9 @@
 
 namespace hybrid_slam {
 
-/// Standard deviations of the drift per sqrt(m) of path: in x and in y (m), and in heading (rad). Tuned on
-/// simulated logs: doc/verdict.md.
+/// Standard deviations of the drift per sqrt(m) of path: in x and in y (m), and in heading (rad). They are
+/// the usual ones, for covariances and as weights, tuned on simulated logs (doc/verdict.md); loop closing
+/// searches further (`stepVariance`).
 struct PathDrift {
   double position, heading;
 };

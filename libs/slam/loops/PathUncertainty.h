@@ -27,8 +27,9 @@ struct StepVariance {
   }
 };
 
-/// The error model: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a rotation. Another 0.3 m and
-/// 5 deg if the odometry slipped and a search replaced it.
+/// The error that loop closing allows for: a random walk of 5 cm and 0.25 deg per sqrt(m), and 1 % of a
+/// rotation. Another 0.3 m and 5 deg if the odometry slipped and a search replaced it. These bounds exceed
+/// the usual drift of a path (PathDrift), because a loop outside of them is not found.
 StepVariance stepVariance(const mrpt::math::TPose2D& motion, bool hasSlipped);
 
 /// Two poses of the path whose relative pose has been measured, or a pose measured in the map.

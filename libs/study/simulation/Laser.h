@@ -47,11 +47,11 @@ const LaserSpec& laserSpec(LaserType type);
 struct LaserOptions : Options {
   LaserType sensor = LaserType::lms100;
   double resolutionDeg = 0.5;
-  double rate = 5;
+  double rate = 5;      ///< Hz
   double scanTime = 0;  ///< s
   bool noise = true;
   bool mixedPixels = false;
-  double x = 0.15, y = 0, yaw = 0;
+  double x = 0.15, y = 0, yaw = 0;  ///< m, rad: on the robot
   void describe(OptionTable& table) override;
 };
 

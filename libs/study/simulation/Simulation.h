@@ -45,7 +45,7 @@ struct SimulationOptions : Options {
   int session = 1;
   int scans = 0;
   double startTime = 1287388800;  // 2010-10-18 08:00:00 UTC
-  double robotRadius = 0.27;
+  double robotRadius = 0.27;      ///< m
   void describe(OptionTable& table) override;
 };
 
