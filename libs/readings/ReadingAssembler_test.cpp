@@ -50,7 +50,8 @@ TEST(ReadingAssembler, OnlyTheLastScansBeforeTheFirstOdometryAreUsed) {
 TEST(ReadingAssembler, LargeScansBeforeTheFirstOdometryFillNoMemory) {
   test::Log log;
   for (int i = 0; i < 16; ++i) {
-    const auto large = scan(0.1 * (i / 4), {}, 3, "LASER" + std::to_string(i % 4));
+    const int cycle = i / 4;
+    const auto large = scan(0.1 * cycle, {}, 3, "LASER" + std::to_string(i % 4));
     large->resizeScan(1 << 20);
     log.push_back(large);
   }
