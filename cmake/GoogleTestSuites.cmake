@@ -26,8 +26,8 @@ foreach(line IN LISTS lines)
 endforeach()
 foreach(suite IN LISTS suites)
   add_test(${suite} "${PROGRAM}" --gtest_filter=${suite}.*)
-  set_tests_properties(${suite} PROPERTIES COST ${tests_${suite}})  # those with the most tests start first
-  # A suite counts as skipped if a test was skipped and none failed: failures would be listed last.
-  set_tests_properties(${suite} PROPERTIES TIMEOUT ${TIMEOUT}
+  # Those with the most tests start first. A suite counts as skipped if a test was skipped and none failed: failures
+  # would be listed last.
+  set_tests_properties(${suite} PROPERTIES TIMEOUT ${TIMEOUT} COST ${tests_${suite}}
     SKIP_REGULAR_EXPRESSION "\n\\[  SKIPPED \\] [^ \n]+\n*$" FAIL_REGULAR_EXPRESSION "\\[==========\\] Running 0 tests")
 endforeach()

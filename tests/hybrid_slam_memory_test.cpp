@@ -16,18 +16,24 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-struct HybridSlamMemory : HybridSlam {};
+struct HybridSlamMemory : HybridSlam {
+  /// Writes a log of a drive to the north-east; returns its path.
+  /// @param step  m in x and in y, between scans @param period  s
+  std::string northEast(int scans, double step, double period) const {
+    test::Log log;
+    for (int i = 0; i < scans; ++i) {
+      log.push_back(test::odometry(1000 + period * i, {step * i, step * i, 0}));
+      log.push_back(test::scan(1000 + period * i));
+    }
+    return test::writeGzipped(folder.path("log.rawlog"), log);
+  }
+};
 
 TEST_F(HybridSlamMemory, WhereTheMapsOfMrptsFilterFillTheMemoryTheResultsEndThere) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need their address space";
 #endif
-  test::Log log;
-  for (int i = 0; i < 60; ++i) {  // 40 m steps to the north-east
-    log.push_back(test::odometry(1000 + i, {28. * i, 28. * i, 0}));
-    log.push_back(test::scan(1000 + i));
-  }
-  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const std::string path = northEast(60, 28, 1);
   test::ChildProgram program(folder, "run",
                              {"/bin/sh", "-c",
                               "ulimit -v 1400000; exec '" HYBRID_SLAM "' -q -m stock -n 5 -o '" + output +
@@ -46,12 +52,7 @@ TEST_F(HybridSlamMemory, AResultThatNeedsTooMuchMemoryDoesNotCostTheOthers) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need their address space";
 #endif
-  test::Log log;
-  for (int i = 0; i < 60; ++i) {  // 20 m steps to the north-east
-    log.push_back(test::odometry(1000 + 20 * i, {14. * i, 14. * i, 0}));
-    log.push_back(test::scan(1000 + 20 * i));
-  }
-  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const std::string path = northEast(60, 14, 20);
   size_t incomplete = 0;
   for (const int megabytes : {450, 500, 550, 600, 700, 800}) {
     SCOPED_TRACE(megabytes);
@@ -77,12 +78,7 @@ TEST_F(HybridSlamMemory, WhereTheMemoryEndsThereAreResults) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need their address space";
 #endif
-  test::Log log;
-  for (int i = 0; i < 30; ++i) {  // 85 m steps to the north-east
-    log.push_back(test::odometry(1000 + 0.2 * i, {60. * i, 60. * i, 0}));
-    log.push_back(test::scan(1000 + 0.2 * i));
-  }
-  const std::string path = test::writeGzipped(folder.path("log.rawlog"), log);
+  const std::string path = northEast(30, 60, 0.2);
   for (const int megabytes : {560, 600, 640}) {
     SCOPED_TRACE(megabytes);
     fs::remove_all(output);

@@ -1,5 +1,6 @@
 #include "files/NumberTable.h"
 
+#include <mrpt/system/string_utils.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -17,13 +18,8 @@ namespace {
 
 // Not by streams, which take most of the time of a long trajectory.
 std::vector<std::string> words(const std::string& line) {
-  constexpr auto kBlanks = " \t\r\v\f";
   std::vector<std::string> result;
-  for (size_t from = line.find_first_not_of(kBlanks), to; from < line.size();
-       from = line.find_first_not_of(kBlanks, to)) {
-    to = std::min(line.find_first_of(kBlanks, from), line.size());
-    result.push_back(line.substr(from, to - from));
-  }
+  mrpt::system::tokenize(line, " \t\r\v\f", result);
   return result;
 }
 

@@ -227,7 +227,6 @@ Face face(const TPoint2D& start, const TPoint2D& end) {
   return result;
 }
 
-// This would take minutes if the number of comparisons grew quadratically.
 TEST(FloorPlan, ThereIsNoDoorBetweenPiecesOfClutter) {
   PaintedGrid map;
   map.free(-2, -2, 4, 2);
@@ -253,6 +252,7 @@ TEST(WallLines, TheStretchesOfADatabaseLineCountOnce) {
   EXPECT_LT((groups[0].line.covariance - fused(a, b).covariance).norm(), 1e-12);
 }
 
+// This would take minutes if the number of comparisons grew quadratically.
 TEST(WallLines, AHundredThousandFacesAreGrouped) {
   std::vector<Face> faces;
   std::mt19937 random(1);

@@ -114,11 +114,11 @@ std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell) {
     } else {
       LineEstimate& line = groups[static_cast<size_t>(best)].line;
       // The stretches of a database line share its one estimate.
-      const auto isSame = [&](const Face& other) {
-        return face.count > 0 && (other.line.at - face.line.at).norm() < 1e-9;
-      };
       const std::vector<Face>& known = groups[static_cast<size_t>(best)].faces;
-      if (std::none_of(known.begin(), known.end(), isSame))
+      const bool isFused = face.count > 0 && std::any_of(known.begin(), known.end(), [&](const Face& other) {
+                             return (other.line.at - face.line.at).norm() < 1e-9;
+                           });
+      if (!isFused)
         line = fused(line, std::cos(line.angle - face.line.angle) < 0 ? face.line.reversed() : face.line);
     }
     groups[static_cast<size_t>(best)].faces.push_back(face);
