@@ -107,7 +107,7 @@ double HybridFilter::joinMap(const ScanMap& map, const TPose2D& pose) {
   for (TPose2D& at : path) at = origin + at;
   for (PosedScans& known : known_) known.pose = origin + known.pose;
   continueFrom(path);
-  loopCloser_.joinMap(origin.phi, bestPath());
+  loopCloser_.joinMap(bestPath());
   expectNoMap();
   return origin.phi;
 }

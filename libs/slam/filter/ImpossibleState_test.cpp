@@ -74,26 +74,11 @@ TEST(ImpossibleState, LineThatWasSeenTooOften) {
 
 TEST(ImpossibleState, LineDatabaseOfImpossibleAge) {
   const auto canReadAt = [](int updates) {
-    return canRead(LineDatabase(), size_t{0}, std::optional<double>(), 0.0, updates);
+    return canRead(LineDatabase(), size_t{0}, updates);
   };
   EXPECT_TRUE(canReadAt(7));
   EXPECT_FALSE(canReadAt(kMost));
   EXPECT_FALSE(canReadAt(-1));
-}
-
-TEST(ImpossibleState, SumsOfLinesFollowFromTheLines) {
-  std::string bytes;
-  StateWriter out(bytes);
-  size_t lines = 0;
-  std::optional<double> direction = kInfinity;
-  double evidence = kInfinity;
-  int updates = 1;
-  out(lines, direction, evidence, updates);
-  LineDatabase database;
-  StateReader in(bytes);
-  in(database);
-  EXPECT_FALSE(database.dominatingDirection());
-  EXPECT_EQ(database.totalEvidence(), 0);
 }
 
 TEST(ImpossibleState, InformationThatIsNone) {
@@ -102,15 +87,6 @@ TEST(ImpossibleState, InformationThatIsNone) {
   for (const double wrong : {kInfinity, -1.0, 0.0, 1e300}) {
     edge.information(1, 1) = wrong;
     EXPECT_FALSE(canBeReadBack(edge)) << wrong;
-  }
-}
-
-TEST(ImpossibleState, CovarianceThatIsNone) {
-  KnownPair pair;
-  EXPECT_TRUE(canBeReadBack(pair));
-  for (const double wrong : {kInfinity, -1.0}) {
-    pair.covariance(2, 2) = wrong;
-    EXPECT_FALSE(canBeReadBack(pair)) << wrong;
   }
 }
 
@@ -156,7 +132,7 @@ TEST(ImpossibleState, BeamBeyondTheRange) {
   const auto canReadLoops = [&](double range, const StepVariance& variance) {
     return canRead(LoopCloser(LoopClosingOptions(), grid), std::vector<Keyframe>{{0, beamOf(range)}},
                    std::vector<StepVariance>{variance}, std::vector<std::optional<double>>(1),
-                   std::vector<PoseEdge>(), std::vector<KnownPair>(), size_t{0}, size_t{1}, TPose2D(),
+                   std::vector<PoseEdge>(), size_t{0}, size_t{1}, TPose2D(),
                    StepVariance(), 0.0);
   };
   const auto canReadRecent = [&](double range) {

@@ -109,7 +109,7 @@ class LineDatabase {
 
   template <class State>
   void visit(State& state) {
-    state(lines_, dominatingDirection_, totalEvidence_, updates_);
+    state(lines_, updates_);
     state.check(0 <= updates_ && updates_ <= kMostUpdates, "the lines have an impossible age");
     if constexpr (State::kIsReading) sum();
   }

@@ -123,7 +123,7 @@ std::vector<size_t> LoopCloser::places(const Track& track, size_t here,
       return std::abs(track.distances[k] - track.distances[place.keyframe]) < 2 * kReach;
     });
     if (!isNew) continue;
-    const Eigen::Matrix3d covariance = uncertainty.between(place.keyframe, here, known_);
+    const Eigen::Matrix3d covariance = uncertainty.between(place.keyframe, here, track.known);
     if (place.distance > kNearby + 3 * std::sqrt(covariance(0, 0) + covariance(1, 1))) continue;
     chosen.push_back(place.keyframe);
     if (chosen.size() == kPlaces) break;
@@ -134,7 +134,7 @@ std::vector<size_t> LoopCloser::places(const Track& track, size_t here,
 LoopCloser::Outcome LoopCloser::tryEarlierMap(const Track& track, const LocalMap& stretch,
                                               const PathUncertainty& uncertainty, const OccupancyGrid& map) {
   const size_t here = stretch.reference;
-  const auto covariance = uncertainty.inMap(here, known_);
+  const auto covariance = uncertainty.inMap(here, track.known);
   if (!covariance) return Outcome::none;
   double extent = 0;
   for (const ScanBeams::Ray& ray : stretch.ends.rays) extent = std::max(extent, ray.range);
@@ -155,8 +155,8 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Track& track, const LocalMap& str
   if (near.agreement.fit >= options_.minFit && isWhereExpected(near)) {
     if (near.agreement.overlap < kHeldOverlap) return Outcome::none;
     // The filter has closed this loop itself: hold the relative pose that it found.
-    hold(track, {older.reference, here, expected,
-                 edgeInformation(informationOf(near.pose, stretch, older), kOfHeld)});
+    loops_.push_back({older.reference, here, expected,
+                      edgeInformation(informationOf(near.pose, stretch, older), kOfHeld)});
     candidates_.clear();
     return Outcome::held;
   }
@@ -172,25 +172,16 @@ LoopCloser::Outcome LoopCloser::tryPlace(const Track& track, const LocalMap& str
   if (off.dot(covariance.inverse() * off) > kMaxChi2) return Outcome::none;
   remember(track, {{older.reference, here, best->pose,
                     edgeInformation(informationOf(best->pose, stretch, older), kOfMatch)},
-                   best->agreement,
+                   best->agreement.fit,
                    best->second});
   return Outcome::found;
 }
 
-static_assert(PoseEdge::kMapFrame == KnownPair::kMapFrame);  // `hold` copies one to the other
-
-void LoopCloser::hold(const Track& track, const PoseEdge& edge) {
-  loops_.push_back(edge);
-  known_.push_back({edge.from, edge.to, rotated(edge.information.inverse(), track.frame(edge.from).phi)});
-}
-
-void LoopCloser::joinMap(double turn, const std::vector<TPose2D>& path) {
-  for (KnownPair& pair : known_) pair.covariance = rotated(pair.covariance, turn);
+void LoopCloser::joinMap(const std::vector<TPose2D>& path) {
   if (keyframes_.empty()) return;
-  const Eigen::Matrix3d covariance = kOfJoin.cwiseAbs2().asDiagonal();
   const size_t last = keyframes_.size() - 1;
+  const Eigen::Matrix3d covariance = kOfJoin.cwiseAbs2().asDiagonal();
   loops_.push_back({PoseEdge::kMapFrame, last, path.at(keyframes_[last].update), covariance.inverse()});
-  known_.push_back({KnownPair::kMapFrame, last, covariance});
 }
 
 void LoopCloser::remember(const Track& track, const Candidate& candidate) {
@@ -206,10 +197,9 @@ void LoopCloser::remember(const Track& track, const Candidate& candidate) {
   candidates_.push_back(candidate);
 }
 
-std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
-                                             const std::optional<double>& direction,
-                                             const OccupancyGrid* earlier) {
-  toAttempt_ = kAttempt;
+static_assert(PoseEdge::kMapFrame == KnownPair::kMapFrame);  // `trackOf` copies one to the other
+
+LoopCloser::Track LoopCloser::trackOf(const std::vector<TPose2D>& path) const {
   Track track;
   for (const Keyframe& keyframe : keyframes_) {
     const TPose2D& pose = path.at(keyframe.update);
@@ -217,6 +207,17 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
         track.poses.empty() ? 0 : track.distances.back() + distanceBetween(track.poses.back(), pose));
     track.poses.push_back(pose);
   }
+  for (const PoseEdge& edge : loops_)
+    track.known.push_back(
+        {edge.from, edge.to, rotated(edge.information.inverse(), track.frame(edge.from).phi)});
+  return track;
+}
+
+std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
+                                             const std::optional<double>& direction,
+                                             const OccupancyGrid* earlier) {
+  toAttempt_ = kAttempt;
+  const Track track = trackOf(path);
   if (track.distances.back() < options_.stretch + options_.minDistance) return std::nullopt;
   const LocalMap stretch = newest(track, options_.stretch);
   const PathUncertainty uncertainty(track.poses, variances_);
@@ -235,7 +236,7 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
     for (const size_t place : places(track, stretch.reference, uncertainty)) {
       outcome = attempt([&](const LocalMap& newer, double longer) {
         const LocalMap older = around(track, place, longer * kReach, longer * options_.stretch);
-        return tryPlace(track, newer, older, uncertainty.between(older.reference, newer.reference, known_));
+        return tryPlace(track, newer, older, uncertainty.between(older.reference, newer.reference, track.known));
       });
       if (isOver(outcome)) break;
     }
@@ -312,19 +313,16 @@ std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path
     closure.turn = std::max(closure.turn, angleBetween(closure.path[i], path[i]));
   }
   for (size_t i = loops_.size(); i-- > 0;)
-    if (result.isFalse[i]) {
-      loops_.erase(loops_.begin() + static_cast<ptrdiff_t>(i));
-      known_.erase(known_.begin() + static_cast<ptrdiff_t>(i));
-    }
+    if (result.isFalse[i]) loops_.erase(loops_.begin() + static_cast<ptrdiff_t>(i));
   const PoseEdge& last = candidates.back().edge;
   if (last.from != PoseEdge::kMapFrame) closure.earlier = keyframes_[last.from].update;
   closure.later = keyframes_[last.to].update;
   closure.place = closure.path[closure.later];
   closure.fit = 1;
   for (const Candidate& candidate : candidates) {
-    closure.fit = std::min(closure.fit, candidate.agreement.fit);
+    closure.fit = std::min(closure.fit, candidate.fit);
     closure.second = std::max(closure.second, candidate.second);
-    hold(track, candidate.edge);
+    loops_.push_back(candidate.edge);
   }
   closure.matches = candidates.size();
   return closure;

@@ -53,17 +53,16 @@ class LoopCloser {
                                    const OccupancyGrid* earlier = nullptr);
 
   /// The robot has been found in the map of an earlier run, whose frame is now that of the path.
-  /// @param turn  rotation of the path (rad)
   /// @param path  transformed, a pose for each update
-  void joinMap(double turn, const std::vector<mrpt::math::TPose2D>& path);
+  void joinMap(const std::vector<mrpt::math::TPose2D>& path);
 
   template <class State>
   void visit(State& state) {
-    state(keyframes_, variances_, wallDirections_, loops_, known_, candidates_, updates_, motion_, variance_,
+    state(keyframes_, variances_, wallDirections_, loops_, candidates_, updates_, motion_, variance_,
           toAttempt_);
     const size_t count = keyframes_.size();
     bool isWhole =
-        variances_.size() == count && wallDirections_.size() == count && known_.size() == loops_.size();
+        variances_.size() == count && wallDirections_.size() == count;
     for (size_t i = 0; i < count && isWhole; ++i)
       isWhole = keyframes_[i].update < updates_ &&
                 (i == 0 || keyframes_[i - 1].update < keyframes_[i].update) && variances_[i].isOfMotion() &&
@@ -72,7 +71,6 @@ class LoopCloser {
       return (from < to || from == PoseEdge::kMapFrame) && to < count;
     };
     for (const PoseEdge& edge : loops_) isWhole = isWhole && isEdge(edge.from, edge.to);
-    for (const KnownPair& pair : known_) isWhole = isWhole && isEdge(pair.earlier, pair.later);
     for (const Candidate& candidate : candidates_)
       isWhole = isWhole && isEdge(candidate.edge.from, candidate.edge.to);
     state.check(isWhole, "the loops do not belong to the path");
@@ -82,29 +80,30 @@ class LoopCloser {
  private:
   struct Candidate {
     PoseEdge edge;
-    Agreement agreement;
-    double second;
+    double fit;     ///< share of agreeing walls
+    double second;  ///< score of another place, as a fraction of this one's
 
     template <class State>
     void visit(State& state) {
-      state(edge, agreement, second);
+      state(edge, fit, second);
     }
   };
   /// The path of the keyframes.
   struct Track {
     std::vector<mrpt::math::TPose2D> poses;  ///< of the keyframes, map frame
     std::vector<double> distances;           ///< m, along the path
+    std::vector<KnownPair> known;            ///< the pairs held or closed
     mrpt::math::TPose2D frame(size_t reference) const {
       return reference == PoseEdge::kMapFrame ? mrpt::math::TPose2D() : poses[reference];
     }
   };
   enum class Outcome { none, held, ambiguous, found };
+  Track trackOf(const std::vector<mrpt::math::TPose2D>& path) const;
   Outcome tryEarlierMap(const Track& track, const LocalMap& stretch, const PathUncertainty& uncertainty,
                         const OccupancyGrid& map);
   Outcome tryPlace(const Track& track, const LocalMap& stretch, const LocalMap& older,
                    const Eigen::Matrix3d& covariance);
   std::vector<size_t> places(const Track& track, size_t here, const PathUncertainty& uncertainty) const;
-  void hold(const Track& track, const PoseEdge& edge);
   void remember(const Track& track, const Candidate& candidate);
   /// The keyframes that return if they are at these poses; `update` is the index of a keyframe.
   std::vector<Revisit> revisits(const std::vector<mrpt::math::TPose2D>& poses) const;
@@ -121,7 +120,6 @@ class LoopCloser {
   std::vector<StepVariance> variances_;                ///< of the motions between keyframes
   std::vector<std::optional<double>> wallDirections_;  ///< of each keyframe, robot frame, modulo 90 deg
   std::vector<PoseEdge> loops_;                        ///< held or closed
-  std::vector<KnownPair> known_;                       ///< the same
   std::vector<Candidate> candidates_;                  ///< successive, in agreement
   size_t updates_ = 0;
   mrpt::math::TPose2D motion_;  ///< since the last keyframe

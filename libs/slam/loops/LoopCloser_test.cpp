@@ -105,7 +105,7 @@ Driven continued(const std::vector<DrivenPose>& drive, const OccupancyGrid& earl
     if (i == found) {
       const TPose2D origin = drive[i].truth + (TPose2D() - path.back());
       for (TPose2D& pose : path) pose = origin + pose;
-      closer.joinMap(origin.phi, path);
+      closer.joinMap(path);
     }
     if (!closer.isDue()) continue;
     if (auto closure = closer.close(path, std::nullopt, i >= found ? &earlier : nullptr)) {

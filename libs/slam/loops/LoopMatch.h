@@ -16,11 +16,6 @@ struct Agreement {
   double fit = 0;      ///< share of the compared walls on which both agree
   double overlap = 0;  ///< share of the newer map's walls that are compared
   double score() const { return fit * fit * overlap; }
-
-  template <class State>
-  void visit(State& state) {
-    state(fit, overlap);
-  }
 };
 
 /// The best place of one local map in another.

@@ -40,14 +40,6 @@ struct KnownPair {
   /// Whether its heading error displaces the poses beyond. Loop closing is tuned without: it knows a pair to
   /// 0.5 deg at best, so that distant poses would seem uncertain by metres.
   bool hasLever = false;
-
-  template <class State>
-  void visit(State& state) {
-    state(earlier, later, covariance);
-    state.check(covariance.allFinite() && covariance.diagonal().minCoeff() >= 0 &&
-                    covariance.diagonal().maxCoeff() <= StepVariance::kMost,
-                "a covariance is impossible");
-  }
 };
 
 /// Accumulates the errors of a path's motions. A heading error rotates the rest of the path about the place
