@@ -136,11 +136,12 @@ void LiveRun::tellState() {
   if (isQuiet_) return;
   const FilterStep& step = run_.view().lastStep();
   const auto place = run_.view().place();
+  const std::string map = verdict_ ? verdict_->name() : run::Verdict().name();
   log_.report("filter", std::to_string(latencies_.size()) + " scans, " +
                             std::to_string(run_.view().updates()) + " updates, " + std::to_string(skipped_) +
                             " skipped, spread " + fixedText(std::hypot(step.stdX, step.stdY), 2) +
                             " m, latency " + fixedText(latencies_.back(), 0) + " ms" +
-                            (place ? ", " + describe(*place) : ", map " + verdict_.name()));
+                            (place ? ", " + describe(*place) : ", map " + map));
 }
 
 // The verdict is found in another thread, so that no scan waits for it. The run does not need it.
@@ -148,10 +149,12 @@ void LiveRun::tellVerdict() try {
   if (run_.view().place() || run_.view().updates() == 0) return;
   if (nextVerdict_.valid()) {
     if (nextVerdict_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    run::Verdict next = nextVerdict_.get();
-    if (next.level != verdict_.level) log_.report("map", next.line());
+    auto next = std::make_shared<const run::Verdict>(nextVerdict_.get());
+    if (next->level != (verdict_ ? verdict_->level : run::Verdict().level)) log_.report("map", next->line());
     verdict_ = std::move(next);
   }
+  if (run_.view().updates() == judged_) return;
+  judged_ = run_.view().updates();
   nextVerdict_ = std::async(std::launch::async, mapSoFar_.judge(run_.view()));
 } catch (const std::exception& e) {
   log_.report("map", "not judged: " + messageOf(e));

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -57,6 +58,8 @@ class LiveRun {
   const FilterView& view() const { return run_.view(); }
   /// Returns whether the filter has failed; further cycles are useless then.
   bool hasFailed() const { return hasFailed_; }
+  /// Returns the last verdict on the map so far; null before the first. For the watcher.
+  std::shared_ptr<const run::Verdict> verdict() const { return verdict_; }
 
   /// Filters the waiting readings, of those after `patience` the newest, then writes all results; if the
   /// recording cannot be read (full disk), those that do not need it.
@@ -100,8 +103,9 @@ class LiveRun {
   Clock::time_point lastState_ = Clock::now();
   double stateInterval_ = 10;  ///< s
   run::RunningVerdict mapSoFar_;
-  run::Verdict verdict_;  ///< on the map so far
+  std::shared_ptr<const run::Verdict> verdict_;
   std::future<run::Verdict> nextVerdict_;
+  size_t judged_ = 0;  ///< updates of the next verdict
   std::atomic<size_t> skipped_{0};
   size_t toldSkipped_ = 0;
   std::exception_ptr failure_;

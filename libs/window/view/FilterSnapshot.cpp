@@ -74,7 +74,7 @@ std::shared_ptr<FilterSnapshot> FilterWatch::snapshot(const FilterView& view, bo
   out->ellipse = uncertaintyOf(out->particles);
   out->plot = plot_;
   if (view.updates() > 0) out->step = view.lastStep();
-  if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = judge(view)();
+  if (withVerdict && judges_ && out->updates > 0 && !out->place) out->verdict = mapSoFar_.judge(view)();
   if (scans_.empty() || out->path.empty()) return out;
   const LineDatabase before(linesBefore_);
   const mrpt::math::TPose2D& pose = out->path.back();

@@ -4,7 +4,6 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,7 +63,7 @@ struct FilterSnapshot {
 class FilterWatch {
  public:
   /// @param configuration  of the filter
-  /// @param judges         keeps the scans, for verdicts
+  /// @param judges         keeps the scans for `withVerdict`
   explicit FilterWatch(const run::Configuration& configuration, bool judges = false);
 
   /// Call after each scan. @param isUpdate  whether it caused an update
@@ -72,8 +71,6 @@ class FilterWatch {
   /// Copies the grid, which takes some ms: call only when needed for display.
   /// @param withVerdict  compares the scans along the path, which may take 0.1 s
   std::shared_ptr<FilterSnapshot> snapshot(const FilterView& view, bool withVerdict = false) const;
-  /// Returns a function that judges the path so far. Any thread may call it.
-  std::function<run::Verdict()> judge(const FilterView& view) const { return mapSoFar_.judge(view); }
 
  private:
   std::string method_;

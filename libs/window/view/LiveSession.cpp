@@ -1,8 +1,6 @@
 #include "window/view/LiveSession.h"
 
 #include <chrono>
-#include <functional>
-#include <future>
 #include <utility>
 
 #include "base/Errors.h"
@@ -14,30 +12,8 @@ namespace hybrid_slam::window {
 namespace {
 
 constexpr size_t kEvents = 200;
-
-/// Finds the verdict on the map so far in another thread, so that no scan waits for it. At most once per
-/// second, since showing it takes a copy of the map.
-class LiveVerdict {
- public:
-  using Show = std::function<void(const run::Verdict&)>;
-  explicit LiveVerdict(Show show) : show_(std::move(show)) {}
-
-  /// Called after each scan of a filter that maps.
-  void follow(const FilterView& view, const FilterWatch& watch) {
-    const auto now = std::chrono::steady_clock::now();
-    if (view.place() || view.updates() == judged_ || now - last_ < std::chrono::seconds(1)) return;
-    if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    judged_ = view.updates();
-    last_ = now;
-    next_ = std::async(std::launch::async, [this, judge = watch.judge(view)] { show_(judge()); });
-  }
-
- private:
-  Show show_;
-  size_t judged_ = 0;  ///< updates
-  std::chrono::steady_clock::time_point last_;
-  std::future<void> next_;  ///< its destructor waits
-};
+constexpr double kVerdicts = 0.5;  // s, between two on the map so far
+constexpr auto kPictures = std::chrono::milliseconds(200);
 
 }  // namespace
 
@@ -73,43 +49,37 @@ void LiveSession::work() {
   }
 }
 
-/// Sets the verdict in the snapshot on display; later snapshots keep it.
-void LiveSession::showVerdict(const run::Verdict& verdict) {
-  snapshot_.change([&](LiveSnapshot& next) {
-    if (!next.filter) return;
-    const auto judged = std::make_shared<FilterSnapshot>(*next.filter);
-    judged->verdict = verdict;
-    next.filter = judged;
-  });
-}
-
 std::string LiveSession::run() {
   for (const std::string& warning : configuration_.warnings) log_.report("warning", warning);
-  FilterWatch watch(configuration_, true);
-  LiveVerdict verdict([this](const run::Verdict& found) { showVerdict(found); });
-  auto lastPicture = std::chrono::steady_clock::time_point{};
-  bool isOutdated = false;
   live::ObservationClient client({server_.first, server_.second, options_.timeout,
                                   live::readToken(options_.tokenFile, "section [live], key `token_file`")},
                                  log_);
+  FilterWatch watch(configuration_);
+  std::shared_ptr<const run::Verdict> verdict;
+  auto lastPicture = std::chrono::steady_clock::time_point{};
+  bool isOutdated = false;
+  const auto picture = [&watch, &verdict](const FilterView& view) {
+    const auto taken = watch.snapshot(view);
+    if (verdict && !taken->place) taken->verdict = *verdict;
+    return taken;
+  };
   live::LiveRun live(configuration_, options_, log_, true);
+  live.setStateInterval(kVerdicts);
   live.setWatcher([&](const FilterView& view, const readings::Reading& reading, bool isUpdate) {
     watch.saw(view, reading, isUpdate);
-    isOutdated |= isUpdate;
+    isOutdated |= isUpdate || verdict != live.verdict();
+    verdict = live.verdict();
     const auto now = std::chrono::steady_clock::now();
-    std::shared_ptr<FilterSnapshot> picture;
-    if (isOutdated && now - lastPicture > std::chrono::milliseconds(200)) {
-      picture = watch.snapshot(view);
+    std::shared_ptr<FilterSnapshot> next;
+    if (isOutdated && now - lastPicture > kPictures) {
+      next = picture(view);
       lastPicture = now;
       isOutdated = false;
     }
-    snapshot_.change([&](LiveSnapshot& next) {
-      ++next.scans;
-      if (!picture) return;
-      if (next.filter && !picture->place) picture->verdict = next.filter->verdict;
-      next.filter = picture;
+    snapshot_.change([&next](LiveSnapshot& shown) {
+      ++shown.scans;
+      if (next) shown.filter = next;
     });
-    verdict.follow(view, watch);
   });
   try {
     client.run([&](const mrpt::obs::CSensoryFrame::Ptr& cycle) { live.take(cycle); },
@@ -129,12 +99,10 @@ std::string LiveSession::run() {
   }
   snapshot_.change([](LiveSnapshot& next) { next.state = LiveSnapshot::State::finishing; });
   const std::string summary = live.finish(client.lost(), live::kPatience);
-  const auto last = isOutdated ? watch.snapshot(live.view()) : nullptr;
-  snapshot_.change([&](LiveSnapshot& next) {
-    next.recording = live.recording();
-    if (!last) return;
-    if (next.filter && !last->place) last->verdict = next.filter->verdict;
-    next.filter = last;
+  const auto last = isOutdated ? picture(live.view()) : nullptr;
+  snapshot_.change([&](LiveSnapshot& shown) {
+    shown.recording = live.recording();
+    if (last) shown.filter = last;
   });
   return summary;
 }

@@ -50,7 +50,6 @@ class LiveSession {
  private:
   void work();
   std::string run();
-  void showVerdict(const run::Verdict& verdict);
 
   run::Configuration configuration_;
   live::LiveOptions options_;
