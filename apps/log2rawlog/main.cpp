@@ -22,6 +22,13 @@ namespace {
 
 using namespace hybrid_slam;
 
+struct CommandLine {
+  std::string input, output, format, time = "ipc";
+  readings::LogConversionOptions options;
+  std::optional<double> angularStepDeg;
+  TopicArguments topics;
+};
+
 void printSummary(const std::string& output, const readings::LogSummary& s) {
   std::printf("%s: %s%s, %zu scans, %zu odometry readings, %.1f s, path %.1f m", output.c_str(),
               s.format.c_str(), s.unit == "line" ? " log" : "", s.scans, s.odometryReadings,
@@ -70,98 +77,103 @@ void warnOfWrongSweeps(const std::string& input, const readings::LogSummary& s) 
           "; they will not be corrected for the robot's motion"});
 }
 
-int convert(int argc, char** argv) {
-  std::string input, output;
-  readings::LogConversionOptions options;
-  std::optional<double> angularStepDeg;
-  std::string format, time = "ipc";
+void warnOf(const readings::LogSummary& summary, const CommandLine& line) {
+  warn(summary.notes);
+  if (!summary.defect.empty())
+    warn({summary.format + " " + summary.defect + ": " + line.input + "; converted up to this point"});
+  warnOfNoReturns(line.input, summary.longestRange);
+  if (line.options.maxRange) warnOfShortRange(line.input, summary, *line.options.maxRange);
+  warnOfOddities(line.input, summary);
+  warnOfWrongSweeps(line.input, summary);
+}
 
+void describe(CLI::App& app, CommandLine& line) {
   std::vector<std::string> keys;
   for (const readings::LogFormat* known : readings::logFormats()) keys.push_back(known->key);
-
-  TopicArguments topics;
-  CLI::App app{"Converts a robot's log into a rawlog, or a rawlog into one of the other form."};
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
-  app.add_option("input", input, logMeans())->required()->type_name("in.clf[.gz]|in.bag|...");
-  app.add_option("output", output, "the rawlog to write")->type_name("out.rawlog");
-  topics.add(app);
-  app.add_option("--format", format, "log format (default: detected from the content)")
+  app.add_option("input", line.input, logMeans())->required()->type_name("in.clf[.gz]|in.bag|...");
+  app.add_option("output", line.output, "the rawlog to write")->type_name("out.rawlog");
+  line.topics.add(app);
+  app.add_option("--format", line.format, "log format (default: detected from the content)")
       ->check(CLI::IsMember(keys));
-  app.add_option("--time", time,
+  app.add_option("--time", line.time,
                  "CARMEN: use the message's own timestamp (ipc) or its arrival at the logger (logger)")
       ->capture_default_str()
       ->check(CLI::IsMember({"ipc", "logger"}));
-  app.add_option("--period", options.period, "DP-SLAM, whose logs have no timestamps: time between scans, s")
+  app.add_option("--period", line.options.period,
+                 "DP-SLAM, whose logs have no timestamps: time between scans, s")
       ->capture_default_str()
       ->type_name("S")
       ->check(within(1e-6, 1e4));
-  app.add_option("--max-range", options.maxRange,
+  app.add_option("--max-range", line.options.maxRange,
                  "readings at or beyond this are no returns, m (default: " + readings::defaultMaxRanges() +
                      "; bags, rawlogs: as each scan states)")
       ->type_name("M")
       ->check(within(0.01, 1e4));
-  app.add_option("--angular-step", angularStepDeg,
+  app.add_option("--angular-step", line.angularStepDeg,
                  "angle between beams, deg (default: from the number of beams: 1 for 180 and 181, 0.5 for "
                  "360 and 361, ...); ROBOTLASER1 rows state their own")
       ->type_name("DEG")
       ->check(within(1e-3, 90.));
   app.add_option(
-         "--laser-x", options.laserX,
+         "--laser-x", line.options.laserX,
          "front laser ahead of the robot's centre, m (default: PARAM robot_frontlaser_offset, else 0)")
       ->type_name("M")
       ->check(within(-100., 100.));
   CLI::Option* const scanTime =
-      app.add_option("--scan-time", options.sweep.seconds,
+      app.add_option("--scan-time", line.options.sweep.seconds,
                      "time from the first beam of a scan to the last, s, for the correction by the robot's "
                      "motion; 0: no correction (default: as a bag or rawlog states; unknown for text logs)")
           ->type_name("S")
           ->check(within(0, readings::kLongestSweep));
   app.add_option(
-         "--scan-rate", options.sweep.rate,
+         "--scan-rate", line.options.sweep.rate,
          "turns of the lasers per second, instead of --scan-time: a scan over A deg takes A / 360 / HZ "
          "seconds")
       ->type_name("HZ")
       ->check(within(readings::kLowestRate, readings::kHighestRate))
       ->excludes(scanTime);
-  app.add_flag("--action-observation", options.actionObservation,
+  app.add_flag("--action-observation", line.options.actionObservation,
                "write (action, sensory frame) pairs, which rbpf-slam needs, instead of single observations");
-  app.add_flag("--strict", options.strict,
+  app.add_flag("--strict", line.options.strict,
                "fail at the first broken line or message, or where a bag or rawlog is cut off");
+}
 
-  if (const auto code = parse(app, argc, argv)) return *code;
-  stopOnSignals();
-  options.isStopped = [] { return stop.load(); };
-  options.format = readings::formatNamed(format);  // null: detected
-  options.time = time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
-  if (angularStepDeg) options.angularStep = mrpt::DEG2RAD(*angularStepDeg);
-
-  files::findInputFiles({&input});
-  if (topics.wantsList) {
-    printTopics(input);
-    return 0;
-  }
-  if (output.empty())
-    throw InputError("output is required", "command line", "expected log2rawlog LOG out.rawlog");
-
-  const std::string unit = bags::isBag(input) ? "message" : "line";  // a rawlog has no broken entries
-  // A file of another format has thousands.
+/// Warns of the first broken lines or messages. A file of another format has thousands.
+readings::BrokenLineReport brokenReport(const std::string& input) {
   constexpr size_t kMostReports = 10;
-  size_t broken = 0;
-  const auto report = [&](size_t number, const std::string& why) {
+  const std::string unit = bags::isBag(input) ? "message" : "line";  // a rawlog has no broken entries
+  return [=, broken = size_t{0}](size_t number, const std::string& why) mutable {
     if (++broken <= kMostReports)
       warn({"broken " + unit + ": " + input + ", " + unit + " " + std::to_string(number) + "; " + why});
     else if (broken == kMostReports + 1)
       warn({"more broken " + unit + "s: " + input + "; only counted from here on"});
   };
-  const auto summary = readings::convertLog(input, output, options, report, topics.bag);
-  warn(summary.notes);
-  if (!summary.defect.empty())
-    warn({summary.format + " " + summary.defect + ": " + input + "; converted up to this point"});
-  warnOfNoReturns(input, summary.longestRange);
-  if (options.maxRange) warnOfShortRange(input, summary, *options.maxRange);
-  warnOfOddities(input, summary);
-  warnOfWrongSweeps(input, summary);
-  printSummary(output, summary);
+}
+
+int convert(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app{"Converts a robot's log into a rawlog, or a rawlog into one of the other form."};
+  describe(app, line);
+  if (const auto code = parse(app, argc, argv)) return *code;
+  stopOnSignals();
+  files::findInputFiles({&line.input});
+  if (line.topics.wantsList) {
+    printTopics(line.input);
+    return 0;
+  }
+  if (line.output.empty())
+    throw InputError("output is required", "command line", "expected log2rawlog LOG out.rawlog");
+
+  readings::LogConversionOptions& options = line.options;
+  options.isStopped = [] { return stop.load(); };
+  options.format = readings::formatNamed(line.format);  // null: detected
+  options.time = line.time == "ipc" ? readings::LogTime::ipc : readings::LogTime::logger;
+  if (line.angularStepDeg) options.angularStep = mrpt::DEG2RAD(*line.angularStepDeg);
+  const readings::LogSummary summary =
+      readings::convertLog(line.input, line.output, options, brokenReport(line.input), line.topics.bag);
+  warnOf(summary, line);
+  printSummary(line.output, summary);
   return 0;
 }
 

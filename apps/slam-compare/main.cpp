@@ -120,12 +120,14 @@ class FolderLock {
   int file_;
 };
 
-/// Rejects tables that would replace other files.
+/// Rejects a file in place of the folder of the runs, and tables that would replace other files.
 void expectFree(const CommandLine& line, const std::vector<comparison::Group>& groups, const fs::path& runs) {
   std::vector<std::string> inputs = {line.files.config, line.files.log, line.reference,
                                      line.relations,    line.odometry,  line.floorplan};
   for (const comparison::Group& group : groups) inputs.push_back(group.variant.iniFile);
   std::error_code none;
+  if (fs::exists(runs, none) && !fs::is_directory(runs, none))
+    throw InputError("not a folder", runs.string(), "expected the folder of the runs");
   for (const char* report : {"results.csv", "summary.csv", "summary.json", "report.html"}) {
     const fs::path file = fs::path(line.output) / report;
     if (!fs::exists(runs, none) && fs::exists(file, none))
@@ -232,6 +234,17 @@ void write(const comparison::ReportInput& report, const files::OutputFolder& fol
     std::cerr << "slam-compare: warning: report.html without plots: " << missing << std::endl;
 }
 
+/// @return the exit code, if Ctrl-C ended the runs
+std::optional<int> runAll(const CommandLine& line, const ComparisonRuns& sweep) {
+  const size_t jobs =
+      line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
+  const comparison::SweepOutcome outcome =
+      comparison::runSweep(sweep, jobs, stop, Progress(sweep, line.isQuiet));
+  if (!outcome.isInterrupted) return std::nullopt;
+  return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
+                     " of " + std::to_string(sweep.size()) + " runs are finished; the same command continues");
+}
+
 int execute(const CommandLine& line, const std::string& command) {
   check(line);
   warn(run::Configuration(line.files.config, line.settings).warnings);
@@ -256,23 +269,11 @@ int execute(const CommandLine& line, const std::string& command) {
   if (line.isReportOnly && std::none_of(sweep.begin(), sweep.end(), isFinished))
     throw InputError("no finished run", "folder " + line.output, "expected runs of this command");
   expectFree(line, groups, runs);
-  std::error_code none;
   const files::OutputFolder folder(line.output);
   const FolderLock lock(folder);
-  if (fs::exists(runs, none) && !fs::is_directory(runs, none))
-    throw InputError("not a folder", runs.string(), "expected the folder of the runs");
   checkFinished(line, sweep);
-
-  if (!line.isReportOnly) {
-    const size_t jobs =
-        line.jobs > 0 ? static_cast<size_t>(line.jobs) : std::max(1u, std::thread::hardware_concurrency());
-    const comparison::SweepOutcome outcome =
-        comparison::runSweep(sweep, jobs, stop, Progress(sweep, line.isQuiet));
-    if (outcome.isInterrupted)
-      return fail(1, "interrupted: folder " + line.output + ", " +
-                         std::to_string(outcome.kept + outcome.done) + " of " + std::to_string(sweep.size()) +
-                         " runs are finished; the same command continues");
-  }
+  if (!line.isReportOnly)
+    if (const std::optional<int> code = runAll(line, sweep)) return *code;
   comparison::ReportInput report{command,
                                  HYBRID_SLAM_VERSION,
                                  line.files.config,

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "CommandLine.h"
 #include "Program.h"
 #include "base/Numbers.h"
 #include "files/Trajectory.h"
@@ -36,19 +36,6 @@ using namespace hybrid_slam;
 using Json = nlohmann::ordered_json;
 
 constexpr double kRadToDeg = mrpt::RAD2DEG(1.0);
-
-struct CommandLine {
-  std::string trajectory, relations, odometry, reference, rawlog, covariances;
-  std::string run;
-  double noise = 0, noiseDegrees = 0;  // of the relations, m and deg
-  std::string plan, truth;
-  bool aligns = false;
-  std::string delta = "1m";
-  double relationTolerance = 0.006;  // s
-  double referenceTolerance = 0.02;  // s
-  evaluation::RevisitOptions revisits;
-  double maxRange = std::numeric_limits<double>::infinity();  // m
-};
 
 /// Parses "1.5s" or "0.5m".
 evaluation::RpeDelta parseDelta(const std::string& text) {
@@ -225,88 +212,18 @@ int evaluate(int argc, char** argv) {
   CommandLine line;
   CLI::App app("Evaluates a trajectory against a reference or itself; prints JSON. Manual: doc/slam-eval.md.",
                "slam-eval");
-  app.set_version_flag("--version", "slam-eval " HYBRID_SLAM_VERSION);
-  app.set_help_all_flag("--help-all", "Print the options of every subcommand and exit");
-  app.require_subcommand(1);
-
-  auto* relations = app.add_subcommand("relations", "relations metric of Kuemmerle et al. 2009");
-  auto* ate = app.add_subcommand("ate", "absolute trajectory error after rigid alignment");
-  auto* rpe = app.add_subcommand("rpe", "relative pose error over a fixed time or distance");
-  auto* revisits =
-      app.add_subcommand("revisits", "disagreement of scans at revisited places; needs no reference");
-  auto* nees = app.add_subcommand("nees", "normalised estimation error squared (NEES) of covariances");
-  auto* neesRelations =
-      app.add_subcommand("nees-relations", "NEES against relations: covariances between two poses");
-  for (CLI::App* command : {relations, ate, rpe, revisits, nees})
-    command->add_option("--trajectory", line.trajectory, "trajectory to evaluate, TUM file")->required();
-  for (CLI::App* command : {relations, neesRelations}) {
-    command->add_option("--relations", line.relations, "file `t1 t2 x y z roll pitch yaw`")->required();
-    command->add_option("--odometry", line.odometry,
-                        "file `t x y theta`, in log order, to interpolate between the trajectory's poses");
-    command
-        ->add_option("--tolerance", line.relationTolerance,
-                     "largest time difference between a relation and a pose, s; with odometry at most 0.006")
-        ->capture_default_str();
-  }
-  neesRelations->add_option("--run", line.run, "folder with the results of a run")->required();
-  neesRelations->add_option("--rawlog", line.rawlog, "log of this run")->required();
-  neesRelations->add_option("--noise", line.noise, "standard deviation of the relations in x and in y, m")
-      ->capture_default_str();
-  neesRelations->add_option("--noise-deg", line.noiseDegrees, "standard deviation of their rotation, deg")
-      ->capture_default_str();
-  nees->add_option("--covariances", line.covariances, "covariance.csv of the same run")->required();
-  for (CLI::App* command : {ate, rpe, nees}) {
-    command->add_option("--reference", line.reference, "reference trajectory, TUM file")->required();
-    command
-        ->add_option("--tolerance", line.referenceTolerance,
-                     "largest time difference between a pose and its reference pose, s")
-        ->capture_default_str();
-  }
-  rpe->add_option("--delta", line.delta, "time or distance between the poses, `1s` or `0.5m`")
-      ->capture_default_str();
-  revisits->add_option("--rawlog", line.rawlog, "log the trajectory was estimated from")->required();
-  revisits
-      ->add_option("--distance", line.revisits.distance,
-                   "largest distance between the poses of two scans at one place, m")
-      ->capture_default_str();
-  revisits->add_option("--path", line.revisits.path, "least distance driven between the two scans, m")
-      ->capture_default_str();
-  revisits->add_option("--max-range", line.maxRange,
-                       "largest range of the beams used, m (default: the log's)");
-
-  auto* plan = app.add_subcommand("plan", "a floor plan against the true one");
-  plan->add_option("--plan", line.plan, "plan to evaluate: .geojson, .dxf or .svg")->required();
-  plan->add_option("--truth", line.truth, "true plan: the same, or a floor plan of simul-floorplan")
-      ->required();
-  plan->add_flag("--align", line.aligns, "first move the plan rigidly onto the truth");
-  plan->add_option("--rawlog", line.rawlog, "log of the laser, for the part of the true walls that it saw");
-  plan->add_option("--reference", line.reference, "its true poses in the frame of the true plan, TUM file");
-  plan->add_option("--max-range", line.maxRange, "largest range of the beams used, m (default: the log's)");
-
+  const Commands commands = describe(app, line);
   if (const auto code = parse(app, argc, argv)) return *code;
-
   files::findInputFiles({&line.trajectory, &line.relations, &line.odometry, &line.reference, &line.rawlog,
                          &line.covariances, &line.plan, &line.truth});
-  for (const double tolerance : {line.relationTolerance, line.referenceTolerance})
-    if (!(tolerance >= 0))
-      throw InputError("wrong value", "option --tolerance", "expected a number of seconds, 0 or more");
-  for (const auto& [option, deviation] :
-       {std::pair("--noise", line.noise), {"--noise-deg", line.noiseDegrees}})
-    if (!(deviation >= 0 && deviation <= 1e7))
-      throw InputError("wrong value", std::string("option ") + option, "expected a number in 0..1e7");
-  for (const auto& [option, metres] : {std::pair("--distance", line.revisits.distance),
-                                       {"--path", line.revisits.path},
-                                       {"--max-range", line.maxRange}})
-    if (!(metres > 0))
-      throw InputError("wrong value", std::string("option ") + option, "expected a number of metres above 0");
-
-  const Json json = *relations       ? relationsJson(line)
-                    : *ate           ? ateJson(line)
-                    : *revisits      ? revisitsJson(line)
-                    : *nees          ? neesJson(line)
-                    : *neesRelations ? neesRelationsJson(line)
-                    : *plan          ? planJson(line)
-                                     : rpeJson(line);
+  check(line);
+  const Json json = *commands.relations       ? relationsJson(line)
+                    : *commands.ate           ? ateJson(line)
+                    : *commands.revisits      ? revisitsJson(line)
+                    : *commands.nees          ? neesJson(line)
+                    : *commands.neesRelations ? neesRelationsJson(line)
+                    : *commands.plan          ? planJson(line)
+                                              : rpeJson(line);
   std::cout << run::jsonText(json) << std::flush;
   if (!std::cout)
     throw std::runtime_error("cannot write: standard output; expected free disk space or an open pipe");
