@@ -26,6 +26,7 @@
 #include "run/LogSettings.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/GridConversion.h"
+#include "slam/lines/WallDirections.h"
 #include "slam/localization/Localizer.h"
 #include "study/evaluation/AbsoluteTrajectoryError.h"
 #include "study/evaluation/StampIndex.h"

@@ -11,6 +11,7 @@
 #include "slam/filter/PathRelaxation.h"
 #include "slam/filter/Refinement.h"
 #include "slam/grid/GridConversion.h"
+#include "slam/lines/WallDirections.h"
 #include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {

@@ -5,6 +5,7 @@
 
 #include "base/PoseOffset.h"
 #include "slam/filter/HybridFilter.h"
+#include "slam/lines/WallDirections.h"
 #include "testing/MappedRoom.h"
 #include "testing/RingDrive.h"
 

@@ -7,6 +7,7 @@
 
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/GlobalSearch.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/lines/LineDatabase.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 

@@ -7,6 +7,7 @@
 
 #include "base/Degree.h"
 #include "slam/lines/LineDatabase.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 namespace {

@@ -29,27 +29,6 @@ double weigh(PointRange points, const FittedLine& line, double near, std::vector
   return sum;
 }
 
-/// Weighted orthogonal least squares.
-/// @param sum  of the weights, above 0
-FittedLine fitWeighted(PointRange points, const std::vector<double>& weights, double sum) {
-  double meanX = 0, meanY = 0, xx = 0, xy = 0, yy = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    meanX += weights[i] / sum * points.first[i].x;
-    meanY += weights[i] / sum * points.first[i].y;
-  }
-  for (size_t i = 0; i < points.size(); ++i) {
-    const double x = points.first[i].x - meanX, y = points.first[i].y - meanY;
-    xx += weights[i] * x * x;
-    xy += weights[i] * x * y;
-    yy += weights[i] * y * y;
-  }
-  FittedLine line;
-  line.theta = 0.5 * std::atan2(2 * xy, xx - yy) + M_PI / 2;
-  line.rho = signedDistance({meanX, meanY}, 0, line.theta);
-  normalise(line.rho, line.theta);
-  return line;
-}
-
 std::optional<FittedLine> findByExpectation(PointRange points, double near, RandomStream& random) {
   std::optional<FittedLine> best;
   double most = 0;
@@ -60,7 +39,7 @@ std::optional<FittedLine> findByExpectation(PointRange points, double near, Rand
     double sum = weigh(points, *line, near, weights);
     for (int step = 0; step < kMostSteps && sum > 0; ++step) {
       const double before = sum;
-      line = fitWeighted(points, weights, sum);
+      line = fitOrthogonal(points, weights).value_or(*line);
       sum = weigh(points, *line, near, weights);
       if (std::abs(sum - before) < kConverged) break;
     }

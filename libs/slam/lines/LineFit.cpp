@@ -18,28 +18,42 @@ void LineFitOptions::describe(OptionTable& table) {
   table.add("max_error", maxError, 0, 1e6, "m^2", "method paper: largest error, eq. (5), of a segment");
 }
 
-std::optional<FittedLine> fitOrthogonal(PointRange points) {
-  if (points.size() < 2) return std::nullopt;
-  double meanX = 0, meanY = 0;
-  for (const TPoint2D& p : points) {
-    meanX += p.x;
-    meanY += p.y;
+namespace {
+
+/// @param weightOf  weight of the point of an index
+template <class Weight>
+std::optional<FittedLine> fitWeighted(PointRange points, const Weight& weightOf) {
+  double sum = 0, meanX = 0, meanY = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    sum += weightOf(i);
+    meanX += weightOf(i) * points.first[i].x;
+    meanY += weightOf(i) * points.first[i].y;
   }
-  meanX /= static_cast<double>(points.size());
-  meanY /= static_cast<double>(points.size());
+  meanX /= sum;
+  meanY /= sum;
   double xx = 0, xy = 0, yy = 0;  // about the mean, to avoid cancellation far from the origin
-  for (const TPoint2D& p : points) {
-    const double x = p.x - meanX, y = p.y - meanY;
-    xx += x * x;
-    xy += x * y;
-    yy += y * y;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double x = points.first[i].x - meanX, y = points.first[i].y - meanY;
+    xx += weightOf(i) * x * x;
+    xy += weightOf(i) * x * y;
+    yy += weightOf(i) * y * y;
   }
-  if (xx + yy <= 0) return std::nullopt;
+  if (!(xx + yy > 0)) return std::nullopt;
   FittedLine line;
   line.theta = 0.5 * std::atan2(2 * xy, xx - yy) + M_PI / 2;  // the axis of least inertia, then its normal
   line.rho = signedDistance({meanX, meanY}, 0, line.theta);
   normalise(line.rho, line.theta);
   return line;
+}
+
+}  // namespace
+
+std::optional<FittedLine> fitOrthogonal(PointRange points) {
+  return fitWeighted(points, [](size_t) { return 1.0; });
+}
+
+std::optional<FittedLine> fitOrthogonal(PointRange points, const std::vector<double>& weights) {
+  return fitWeighted(points, [&weights](size_t i) { return weights[i]; });
 }
 
 double rmsDistance(PointRange points, const FittedLine& line) {

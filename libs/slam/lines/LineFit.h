@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/Options.h"
 #include "slam/lines/Segmentation.h"
@@ -44,6 +45,8 @@ class IsNear {
 
 /// Orthogonal least squares. Empty for fewer than two distinct points.
 std::optional<FittedLine> fitOrthogonal(PointRange points);
+/// The same with a weight for each point, 0 or more.
+std::optional<FittedLine> fitOrthogonal(PointRange points, const std::vector<double>& weights);
 /// Root mean square orthogonal distance of the points from the line, m.
 double rmsDistance(PointRange points, const FittedLine& line);
 

@@ -73,6 +73,23 @@ TEST(OrthogonalFit, NoLineThroughFewerThanTwoDistinctPoints) {
   EXPECT_TRUE(fitOrthogonal(test::range(std::vector<TPoint2D>{{1, 2}, {1, 3}})));
 }
 
+TEST(OrthogonalFit, AWeightCountsAPointThatManyTimes) {
+  RandomStream random(3, 0, 1);
+  for (int i = 0; i < 100; ++i) {
+    const auto points = test::pointsOnLine(2, test::uniform(random, -M_PI, M_PI), -1, 2, 12, 0.1, random);
+    std::vector<double> weights;
+    std::vector<TPoint2D> repeated;
+    for (size_t k = 0; k < points.size(); ++k) {
+      weights.push_back(static_cast<double>(k % 4));
+      repeated.insert(repeated.end(), k % 4, points[k]);
+    }
+    const auto line = fitOrthogonal(test::range(points), weights),
+               expected = fitOrthogonal(test::range(repeated));
+    ASSERT_TRUE(line && expected);
+    EXPECT_NEAR(test::lineDistance(line->rho, line->theta, expected->rho, expected->theta), 0, 1e-9);
+  }
+}
+
 /// eq. (2)-(4) by hand for (1, 1), (2, 3), (4, 4): sums x 7, y 8, xx 21, yy 26, xy 23.
 TEST(PaperFit, CoefficientsByHand) {
   const std::vector<TPoint2D> points{{1, 1}, {2, 3}, {4, 4}};

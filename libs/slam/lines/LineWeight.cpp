@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "slam/lines/DirectionFrames.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 namespace {

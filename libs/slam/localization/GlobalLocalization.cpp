@@ -8,6 +8,7 @@
 #include "base/PoseDistance.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/CorrelativeSearch.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 

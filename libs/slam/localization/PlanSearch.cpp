@@ -9,6 +9,7 @@
 #include "base/Errors.h"
 #include "slam/filter/Threads.h"
 #include "slam/grid/CorrelativeSearch.h"
+#include "slam/lines/WallDirections.h"
 #include "slam/localization/GlobalLocalization.h"
 
 namespace hybrid_slam {

@@ -8,6 +8,7 @@
 #include "base/Degree.h"
 #include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
+#include "slam/lines/WallDirections.h"
 #include "slam/loops/PathCorrection.h"
 
 namespace hybrid_slam {
@@ -236,7 +237,8 @@ std::optional<LoopClosure> LoopCloser::close(const std::vector<TPose2D>& path,
     for (const size_t place : places(track, stretch.reference, uncertainty)) {
       outcome = attempt([&](const LocalMap& newer, double longer) {
         const LocalMap older = around(track, place, longer * kReach, longer * options_.stretch);
-        return tryPlace(track, newer, older, uncertainty.between(older.reference, newer.reference, track.known));
+        return tryPlace(track, newer, older,
+                        uncertainty.between(older.reference, newer.reference, track.known));
       });
       if (isOver(outcome)) break;
     }

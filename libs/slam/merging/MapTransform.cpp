@@ -1,4 +1,5 @@
 #include "slam/merging/MapTransform.h"
+#include "slam/lines/WallDirections.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/lines/WallDirections.h"
 #include "testing/FilteredDrive.h"
 #include "testing/TestRoom.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/PoseRotation.h"
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 

@@ -1,4 +1,5 @@
 #include "slam/plan/BuildingFrame.h"
+#include "slam/lines/WallDirections.h"
 
 #include <mrpt/core/bits_math.h>
 

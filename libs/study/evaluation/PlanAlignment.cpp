@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/lines/LineDatabase.h"
+#include "slam/lines/WallDirections.h"
 #include "study/evaluation/PlanComparison.h"
 #include "study/evaluation/WallSearch.h"
 

@@ -1,4 +1,5 @@
 #include "window/view/FilterSnapshot.h"
+#include "slam/lines/WallDirections.h"
 
 #include <algorithm>
 #include <cmath>
