@@ -131,6 +131,9 @@ int learn(const CommandLine& line, run::Configuration configuration) {
       learnMotionModel(configuration.filter.motion, eStep, line.iterations, line.files.log, report);
   for (const auto& [keys, why] : learnt.determined.lacks)
     warn({"prior kept for " + keys + " of distance, drift and turn: " + line.files.log + "; " + why});
+  if (learnt.best.number == 0)
+    warn({"nothing learnt, the prior is kept: " + line.files.log +
+          "; no iteration makes the log more likely"});
   output.stream() << run::motionModelSection(learnt.best.model, comments(line, configuration, prior, learnt));
   output.finish();
   if (!line.isQuiet)

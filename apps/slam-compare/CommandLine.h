@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,7 +91,8 @@ inline void check(const CommandLine& line) {
     if (!isRight) throw InputError("wrong value", "option " + option, expected);
   };
   expect(line.seeds >= 1 && line.seeds <= 1000, "--seeds", "expected 1..1000");
-  expect(line.firstSeed >= 0, "--first-seed", "expected 0 or more");
+  expect(line.firstSeed >= 0 && line.firstSeed <= std::numeric_limits<int>::max() - line.seeds + 1,
+         "--first-seed", "expected 0 or more, and a last seed of at most 2147483647");
   expect(line.jobs >= 0, "--jobs", "expected 0 or more");
   expect(line.criterion.returnTrans > 0, "--success-trans", "expected a number of metres above 0");
   expect(line.criterion.returnRot > 0, "--success-rot", "expected a number of degrees above 0");

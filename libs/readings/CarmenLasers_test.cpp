@@ -9,6 +9,7 @@
 namespace hybrid_slam::readings {
 namespace {
 
+using mrpt::math::TPose2D;
 using test::expectPose;
 using test::kFlaser;
 using test::parseAs;
@@ -52,6 +53,58 @@ TEST(LogParserCarmen, CorrectedRowsDoNotTellTheMounting) {
   expectPose(parseAs<LaserRecord>(*parser, facingLeft("0 0", "0 0")).laserPose, 0, 0, 0);
   expectPose(parseAs<LaserRecord>(*parser, facingLeft("1 0", "1.01 0")).laserPose, 0.4, 0, 0);
   expectPose(parseAs<LaserRecord>(*parser, facingLeft("2 0", "2 0")).laserPose, 0.4, 0, 0);
+}
+
+/// A row of three beams with two poses.
+std::string posedRow(const std::string& name, const TPose2D& laser, const TPose2D& robot) {
+  const auto text = [](const TPose2D& p) {
+    return std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.phi);
+  };
+  const std::string poses = text(laser) + " " + text(robot);
+  return name == "ROBOTLASER1"
+             ? "ROBOTLASER1 0 -1.0 2.0 0.5 30.0 0.01 0 3 4 5 6 0 " + poses + " 0 0 1 1 1 5 host 1"
+             : name + " 3 1 2 3 " + poses + " 5 host 1";
+}
+
+/// The robot's poses as it drives along a curve.
+std::vector<TPose2D> drive() {
+  std::vector<TPose2D> poses{{1, 2, 0.5}};
+  while (poses.size() < 40) poses.push_back(poses.back() + TPose2D(0.2, 0, 0.03));
+  return poses;
+}
+
+TEST(LogParserCarmen, MostRowsTellTheMounting) {
+  const TPose2D mounting(0.4, 0.1, 0.2), odd(1.4, 0, 0);
+  for (const std::string name : {"FLASER", "RLASER", "ROBOTLASER1"}) {
+    const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+    parser->parse("PARAM robot_rearlaser_offset -0.4 nohost 0");
+    std::vector<std::string> rows;
+    for (const TPose2D& robot : drive())
+      rows.push_back(posedRow(name, robot + (rows.size() == 3 ? odd : mounting), robot));
+    for (const std::string& row : rows) parser->preview(row);
+    for (const std::string& row : rows) {
+      const TPose2D pose = parseAs<LaserRecord>(*parser, row).laserPose;
+      EXPECT_NEAR(pose.x, 0.4, 1e-5);
+      EXPECT_NEAR(pose.y, 0.1, 1e-5);
+      EXPECT_NEAR(std::remainder(pose.phi - (name == "RLASER" ? M_PI : 0.2), 2 * M_PI), 0, 1e-5);
+    }
+  }
+}
+
+TEST(LogParserCarmen, APathCorrectedByAMapperIsNoMounting) {
+  for (const std::string name : {"FLASER", "RLASER", "ROBOTLASER1"}) {
+    const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+    parser->parse("PARAM robot_frontlaser_offset 0.4 nohost 0");
+    parser->parse("PARAM robot_rearlaser_offset -0.3 nohost 0");
+    std::vector<std::string> rows;
+    for (const TPose2D& robot : drive())  // it began 0.5 m off and drifts
+      rows.push_back(posedRow(name, TPose2D(0.5, 0, 0.02 * static_cast<double>(rows.size())) + robot, robot));
+    for (const std::string& row : rows) parser->preview(row);
+    for (const std::string& row : rows) {
+      const TPose2D pose = parseAs<LaserRecord>(*parser, row).laserPose;
+      expectPose(pose, name == "RLASER" ? -0.3 : 0.4, 0, name == "RLASER" ? M_PI : 0);
+    }
+  }
 }
 
 TEST(LogParserCarmen, LaserXOverridesTheFrontOffsetAlone) {

@@ -2,35 +2,16 @@
 /// @brief Logs of CARMEN's logger: rows `ODOM`, `PARAM` and those of the lasers.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
+#include "readings/LaserMounting.h"
 #include "readings/LogFields.h"
 #include "readings/LogFormats.h"
 
 namespace hybrid_slam::readings {
 namespace {
-
-/// The front laser's pose on the robot, from the two poses of its rows. CARMEN writes the current mounting
-/// into every row, so rows that agree take precedence over `PARAM`, which may be of another robot. In a
-/// corrected log, a mapper's pose replaces the laser's: its rows soon disagree.
-class FrontLaserMounting {
- public:
-  /// Returns the mounting; empty once the rows have disagreed.
-  std::optional<mrpt::math::TPose2D> of(const mrpt::math::TPose2D& laser, const mrpt::math::TPose2D& robot) {
-    const mrpt::math::TPose2D mounting = laser - robot;
-    if (!first_) first_ = mounting;
-    const mrpt::math::TPose2D change = mounting - *first_;
-    constexpr double kFarthest = 2, kDistance = 0.005, kAngle = 0.005;  // m, m, rad
-    if (mounting.norm() > kFarthest || change.norm() > kDistance || std::abs(change.phi) > kAngle)
-      agree_ = false;
-    return agree_ ? first_ : std::nullopt;
-  }
-
- private:
-  std::optional<mrpt::math::TPose2D> first_;
-  bool agree_ = true;
-};
 
 /// Kinds of a laser's rows, the most useful first. A log may hold the same scan in rows of two kinds.
 enum class Rows {
@@ -68,11 +49,14 @@ class CarmenParser : public LogParser {
   LogRecord laser(std::string_view name, LogFields& fields);
   LogRecord plainLaser(std::string_view name, LogFields& fields) const;
   LogRecord rawLaser(std::string_view name, LogFields& fields) const;
-  LogRecord robotLaser(std::string_view name, LogFields& fields) const;
+  LogRecord robotLaser(std::string_view name, LogFields& fields);
   /// Reads the laser's configuration and ranges, up to its remissions.
   static LaserRecord configuredScan(std::string_view name, LogFields& fields);
   /// Returns the pose of the laser with this number.
   mrpt::math::TPose2D mounting(int number) const;
+  /// Returns the pose of the rear laser; `PARAM` has the x where the rows have none.
+  mrpt::math::TPose2D rearMounting(const mrpt::math::TPose2D& laser, const mrpt::math::TPose2D& robot);
+  void previewMounting(std::string_view name, std::string_view line);
   void parameter(LogFields& fields);
   double time(LogFields& fields) const;
 
@@ -80,7 +64,7 @@ class CarmenParser : public LogParser {
   std::set<int> usedLasers_;                 ///< numbers
   std::set<std::string> skippedRows_;        ///< names
   double frontOffset_ = 0, rearOffset_ = 0;  ///< m, x of the lasers on the robot, by `PARAM`
-  FrontLaserMounting frontMounting_;
+  std::map<std::string, LaserMounting, std::less<>> mountings_;  ///< by the name of the rows
 };
 
 LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
@@ -109,8 +93,31 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
 }
 
 void CarmenParser::preview(std::string_view line) {
-  LogFields fields(line);
-  if (const auto rows = fields.empty() ? std::nullopt : rowsOf(fields.word())) used_ = std::min(used_, *rows);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const std::string_view name = line.substr(0, line.find_first_of(" \t"));
+  const auto rows = rowsOf(name);
+  if (!rows) return;
+  used_ = std::min(used_, *rows);
+  if (rows == Rows::posed) previewMounting(name, line);
+}
+
+void CarmenParser::previewMounting(std::string_view name, std::string_view line) try {
+  LaserMounting& mounting = mountings_.try_emplace(std::string(name)).first->second;
+  if (mounting.isPreviewed()) return;
+  LogFields fields(line.substr(name.size()));
+  if (name == "FLASER" || name == "RLASER") {
+    const size_t beams = fields.count(1);
+    if (fields.left() != beams + 9) return;
+    fields.skip(beams);
+  } else {
+    configuredScan(name, fields);
+    fields.skip(fields.count(0));
+    if (fields.left() != 14) return;
+  }
+  const mrpt::math::TPose2D laser = fields.pose(), robot = fields.pose();
+  mounting.preview(laser, robot);
+} catch (const BrokenLine&) {
+  // Reading the log will report it.
 }
 
 std::vector<std::string> CarmenParser::ignoredLasers() const {
@@ -138,9 +145,8 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
                                      " ranges, the laser's and the robot's pose, "
                                      "ipc_time host logger_time");
   LaserRecord record = scan(name, beams, fields);
-  // Logs differ in whether the heading of a rear laser's row includes the half turn: PARAM states where it
-  // is.
-  record.laserPose = mounting(name == "RLASER" ? 2 : 1);
+  // Logs differ in whether the heading of a rear laser's row includes the half turn.
+  record.laserPose = mounting(numberOf(name));
   if (!hasRobot) {
     // The log of Orebro has the odometry in place of the laser's pose.
     record.odometry = fields.pose();
@@ -151,9 +157,20 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
-  if (name == "FLASER" && !options_.laserX)
-    record.laserPose = frontMounting_.of(laser, *record.odometry).value_or(record.laserPose);
+  if (name == "RLASER")
+    record.laserPose = rearMounting(laser, *record.odometry);
+  else if (!options_.laserX)
+    record.laserPose = mountings_["FLASER"].of(laser, *record.odometry).value_or(record.laserPose);
   return record;
+}
+
+mrpt::math::TPose2D CarmenParser::rearMounting(const mrpt::math::TPose2D& laser,
+                                               const mrpt::math::TPose2D& robot) {
+  constexpr double kLeast = 0.02;  // m: rows with the robot's pose twice do not state the mounting
+  LaserMounting& rows = mountings_["RLASER"];
+  const auto pose = rows.of(laser, robot);
+  if (rows.agreement() != LaserMounting::Agreement::agreed || pose->norm() < kLeast) return mounting(2);
+  return {pose->x, pose->y, M_PI};
 }
 
 LogRecord CarmenParser::plainLaser(std::string_view name, LogFields& fields) const {
@@ -192,7 +209,7 @@ LaserRecord CarmenParser::configuredScan(std::string_view name, LogFields& field
   return record;
 }
 
-LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) const {
+LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) {
   LaserRecord record = configuredScan(name, fields);
   const size_t remissions = fields.count(0);
   fields.expectLeft(remissions + 14, std::to_string(remissions) +
@@ -201,7 +218,10 @@ LogRecord CarmenParser::robotLaser(std::string_view name, LogFields& fields) con
   fields.skip(remissions);
   const mrpt::math::TPose2D sensor = fields.pose();
   record.odometry = fields.pose();
-  record.laserPose = sensor - *record.odometry;
+  LaserMounting& rows = mountings_.try_emplace(std::string(name)).first->second;
+  record.laserPose = rows.agreement() == LaserMounting::Agreement::unknown  // it may pan
+                         ? sensor - *record.odometry
+                         : rows.of(sensor, *record.odometry).value_or(mounting(numberOf(name)));
   for (int i = 0; i < 5; ++i) fields.number();  // velocities and safety distances
   record.time = time(fields);
   return record;

@@ -75,7 +75,7 @@ class LogParser {
   LogRecord parse(std::string_view line);
   /// Called for the first lines of a log (kPreviewLines), before they are parsed.
   virtual void preview(std::string_view /*line*/) {}
-  static constexpr size_t kPreviewLines = 2000;
+  static constexpr size_t kPreviewLines = 10'000;
   /// Returns a line for each laser of which no row has been used: its name in the log and the reason.
   virtual std::vector<std::string> ignoredLasers() const { return {}; }
 

@@ -120,6 +120,27 @@ TEST(ReadingAssembler, OfScansFarApartTheLatestAreTheReading) {
 }
 
 /// The reading after a wrong first one begins the path; map coordinates are no error.
+/// The rear laser is known after the first reading only.
+TEST(ReadingAssembler, ScansOfTwoLasersAtOneTimeAreOneReadingWhereverTheLogBegins) {
+  for (const bool isRearFirst : {false, true}) {
+    test::Log log;
+    for (int i = 0; i < 20; ++i) {
+      const double time = 0.8 * i;
+      log.push_back(odometry(time, {0.5 * time, 0, 0}));
+      const auto front = scan(time, {}, 3, "FRONT"), rear = scan(time, {}, 3, "REAR");
+      if (isRearFirst && i > 0) log.push_back(rear);
+      log.push_back(front);
+      if (!isRearFirst) log.push_back(rear);
+    }
+    const std::vector<Reading> readings = assembled(log);
+    size_t together = 0;
+    for (const Reading& reading : readings)
+      together += reading.scans.size() == 2 && reading.scans[0]->timestamp == reading.scans[1]->timestamp;
+    EXPECT_GE(together, 18u) << isRearFirst;
+    EXPECT_LE(readings.size(), 22u) << isRearFirst;
+  }
+}
+
 TEST(ReadingAssembler, ImpossibleOdometryIsSkipped) {
   const auto readings = assembled(
       {odometry(1, {1e20, 0, 0}), scan(1), odometry(2, {5, 0, 0}), scan(2), odometry(3, {6, 0, 0}), scan(3)});

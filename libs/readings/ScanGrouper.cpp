@@ -8,6 +8,14 @@
 
 namespace hybrid_slam::readings {
 
+namespace {
+
+/// Of the time between two scans of a laser: scans further apart are of different cycles. If a log begins
+/// within a cycle, the readings would else have one laser's scan of each cycle and the other's of the next.
+constexpr double kSameCycle = 0.6;
+
+}  // namespace
+
 std::vector<std::string> labelsOf(const std::string& list) {
   constexpr const char* kBlanks = " \t";
   std::vector<std::string> labels;
@@ -40,8 +48,11 @@ size_t ScanGrouper::add(const mrpt::obs::CObservation2DRangeScan& scan) {
   const double time =
       scan.timestamp == INVALID_TIMESTAMP ? firstTime_ : mrpt::Clock::toDouble(scan.timestamp);
   expect(scan.sensorLabel);
-  const bool isNew =
-      isComplete_ || present_.count(scan.sensorLabel) > 0 || std::abs(time - firstTime_) > maxGap_;
+  const double gap = std::abs(time - firstTime_);
+  const auto before = times_.find(scan.sensorLabel);
+  const bool isNextCycle = before != times_.end() && gap > kSameCycle * std::abs(time - before->second);
+  const bool isNew = isComplete_ || present_.count(scan.sensorLabel) > 0 || gap > maxGap_ || isNextCycle;
+  times_[scan.sensorLabel] = time;
   if (isNew) {
     ++readings_;
     present_.clear();

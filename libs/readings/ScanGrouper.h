@@ -4,6 +4,7 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,8 +13,8 @@
 namespace hybrid_slam::readings {
 
 /// A reading has at most one scan of each laser. It ends when all lasers seen so far have scanned, when one
-/// of them scans again, or before a scan that is more than `maxGap` later than its first. With one laser
-/// every scan is a reading.
+/// of them scans again, or before a scan that is more than `maxGap`, or most of its laser's cycle, later than
+/// its first. With one laser every scan is a reading.
 class ScanGrouper {
  public:
   /// @param lasers  labels of the lasers to use; none: the first kMaxLasers that are mounted horizontally
@@ -42,7 +43,8 @@ class ScanGrouper {
   std::set<std::string> known_, present_;  ///< in the log so far, in the current reading
   size_t readings_ = 0;
   bool isComplete_ = true;
-  double firstTime_ = 0;  ///< s, of the current reading
+  double firstTime_ = 0;                 ///< s, of the current reading
+  std::map<std::string, double> times_;  ///< s, of each laser's last scan
 };
 
 /// Returns the reason why a laser is not used, for the user.

@@ -26,18 +26,19 @@ struct EmIteration {
 
 /// The result of learning.
 struct LearntMotionModel {
-  EmIteration best;          ///< highest likelihood
+  EmIteration best;          ///< highest likelihood; 0: no iteration exceeds the prior, which is the model
   bool isConverged = false;  ///< false: the likelihood was still rising
   Determination determined;  ///< which parameters were learnt; the others keep the prior
 };
 
 /// Alternates E-step and M-step until two iterations in a row fail to exceed the best likelihood by 1e-4 nats
 /// per step. Two, because a particle filter's likelihood is a noisy estimate.
-/// @param prior       initial model; undetermined parameters keep its values. Means are treated as known
-/// (mean_std = 0), before and after learning
+/// @param prior       initial model; undetermined parameters keep its values. The iterations treat the means
+/// as
+///                    known (mean_std = 0), as does the result if both were learnt; else it keeps the prior's
 /// @param report      called for the prior and after each iteration
 /// @throws InputError  if the log determines no parameter; @param where  names the log
-LearntMotionModel learnMotionModel(MotionModelOptions prior, const EStep& eStep, int maxIterations,
+LearntMotionModel learnMotionModel(const MotionModelOptions& prior, const EStep& eStep, int maxIterations,
                                    const std::string& where,
                                    const std::function<void(const EmIteration&)>& report);
 

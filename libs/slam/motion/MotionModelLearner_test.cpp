@@ -117,6 +117,28 @@ TEST(MotionModelLearner, KeepsTheBestIterationWhenTheLikelihoodFalls) {
   EXPECT_EQ(run.learnt.best.model.distance.meanD, run.iterations[3].model.distance.meanD);
 }
 
+TEST(MotionModelLearner, KeepsTheUncertaintyOfMeansThatWereNotLearnt) {
+  MotionModelOptions prior;
+  prior.distance.meanStd = 0.01, prior.drift.meanStd = 0.02, prior.turn.meanStd = 0.03;
+  HiddenMotions motions(test::trueModel(), 200, 1);
+  double likelihood = 0;
+  const EStep expectFalling = [&](const MotionModelOptions& model) {
+    EXPECT_EQ(model.turn.meanStd, 0) << "an iteration takes the means as known";
+    Expectation e = motions.expect(model);
+    e.logLikelihood = --likelihood;
+    return e;
+  };
+  const MotionModelOptions kept = learn(expectFalling, 10, prior).learnt.best.model;
+  EXPECT_EQ(test::parametersOf(kept.turn), test::parametersOf(prior.turn));
+  EXPECT_EQ(kept.distance.meanStd, 0.01);
+  EXPECT_EQ(kept.turn.meanStd, 0.03);
+
+  const EStep expect = [&](const MotionModelOptions& model) { return motions.expect(model); };
+  EXPECT_EQ(learn(expect, 10, prior).learnt.best.model.turn.meanStd, 0);
+  for (TPose2D& step : motions.odometry) step = {step.x, 0, 0};
+  EXPECT_EQ(learn(expect, 10, prior).learnt.best.model.turn.meanStd, 0.03) << "no turn to learn from";
+}
+
 TEST(MotionModelLearner, EndsAfterTheMaximumNumberOfIterations) {
   const HiddenMotions motions(test::trueModel(), 100, 1);
   double likelihood = 0;

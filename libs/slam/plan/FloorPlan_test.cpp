@@ -252,6 +252,16 @@ TEST(WallLines, TheStretchesOfADatabaseLineCountOnce) {
   EXPECT_LT((groups[0].line.covariance - fused(a, b).covariance).norm(), 1e-12);
 }
 
+TEST(WallLines, TwoImagesOfAWallAreOneLine) {
+  const Face wall = face({0, 0}, {10, 0});
+  EXPECT_EQ(wallLinesOf({wall, face({1, 0.04}, {8, 0.06})}, kCell).size(), 1u)
+      << "too far for their covariances";
+  EXPECT_EQ(wallLinesOf({wall, face({8, 0.06}, {1, 0.04})}, kCell).size(), 2u) << "its other side";
+  EXPECT_EQ(wallLinesOf({wall, face({1, 0.2}, {8, 0.2})}, kCell).size(), 2u) << "another wall";
+  EXPECT_EQ(wallLinesOf({wall, face({9, 0.06}, {16, 0.06})}, kCell).size(), 2u)
+      << "it goes on with an offset";
+}
+
 // This would take minutes if the number of comparisons grew quadratically.
 TEST(WallLines, AHundredThousandFacesAreGrouped) {
   std::vector<Face> faces;

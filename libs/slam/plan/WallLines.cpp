@@ -48,6 +48,47 @@ int freedom(const GridProbe& probe, const TPoint2D& a, const TPoint2D& b, const 
   return sum;
 }
 
+/// Returns whether two faces are images of one: of the same side, one behind the other along half of `b`, and
+/// nowhere there further apart than `farthest` (m).
+bool areOneFace(const Face& a, const Face& b, double farthest) {
+  if (std::cos(a.line.angle - b.line.angle) < std::cos(kSteepest)) return false;
+  const double length = a.length(), start = a.line.along(b.start) - a.line.along(a.start),
+               end = a.line.along(b.end) - a.line.along(a.start);
+  if (std::min(end, length) - std::max(start, 0.0) < b.length() / 2) return false;
+  return std::max(std::abs(a.line.offset(b.start)), std::abs(a.line.offset(b.end))) < farthest;
+}
+
+/// Moves faces to an earlier line that has them already. Two images of one wall, some centimetres apart, may
+/// be further apart than the covariances of their lines allow.
+void joinDoubles(std::vector<WallLine>& groups, double cell) {
+  struct Known {
+    size_t group;
+    Face face;
+  };
+  std::vector<Known> all;
+  PointIndex index(kDoor);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    std::vector<Face>& faces = groups[g].faces;
+    const auto moves = [&](const Face& face) {
+      size_t twin = g;
+      index.near((face.start + face.end) * 0.5, [&](int i) {
+        const Known& known = all[static_cast<size_t>(i)];
+        if (known.group < twin && areOneFace(known.face, face, 2 * cell)) twin = known.group;
+      });
+      if (twin < g) groups[twin].faces.push_back(face);
+      return twin < g;
+    };
+    faces.erase(std::remove_if(faces.begin(), faces.end(), moves), faces.end());
+    for (const Face& face : faces) {
+      index.add(face.start, face.end, static_cast<int>(all.size()));
+      all.push_back({g, face});
+    }
+  }
+  groups.erase(
+      std::remove_if(groups.begin(), groups.end(), [](const WallLine& group) { return group.faces.empty(); }),
+      groups.end());
+}
+
 }  // namespace
 
 std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid) {
@@ -124,6 +165,7 @@ std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell) {
     groups[static_cast<size_t>(best)].faces.push_back(face);
     index.add(face.start, face.end, best);
   }
+  joinDoubles(groups, cell);
   return groups;
 }
 

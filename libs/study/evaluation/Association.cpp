@@ -10,11 +10,11 @@ namespace hybrid_slam::evaluation {
 
 std::vector<PosePair> associate(const files::Trajectory& estimate, const files::Trajectory& reference,
                                 double tolerance) {
-  const StampIndex index(reference);
+  StampSequence rows(reference, tolerance);
   std::vector<PosePair> pairs;
-  for (const files::StampedPose& p : estimate)
-    if (const auto row = index.nearest(p.timestamp, tolerance))
-      pairs.push_back({p.timestamp, p.pose, reference[*row].pose});
+  for (size_t i = 0; i < estimate.size(); ++i)
+    if (const auto row = rows.next(estimate[i].timestamp))
+      pairs.push_back({estimate[i].timestamp, estimate[i].pose, reference[*row].pose, i, *row});
   if (pairs.empty())
     throw InputError("the reference does not overlap the trajectory in time",
                      "trajectory " + timeSpan(estimate) + ", reference " + timeSpan(reference),

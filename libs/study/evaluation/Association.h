@@ -15,10 +15,11 @@ namespace hybrid_slam::evaluation {
 struct PosePair {
   double timestamp = 0;                         ///< of the estimate, s
   mrpt::math::TPose2D estimate{}, reference{};  ///< each in its trajectory's frame; m, rad
+  size_t estimateRow = 0, referenceRow = 0;     ///< of the trajectories
 };
 
-/// Each estimated pose, in file order, with the reference pose nearest in time; poses without one within the
-/// tolerance (s) are skipped.
+/// Each estimated pose, in file order, with the reference pose nearest in time (StampSequence); poses without
+/// one within the tolerance (s) are skipped.
 /// @throws InputError if there is no pair: the trajectories do not overlap in time.
 std::vector<PosePair> associate(const files::Trajectory& estimate, const files::Trajectory& reference,
                                 double tolerance);

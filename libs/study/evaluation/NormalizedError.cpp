@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "base/PoseRotation.h"
 #include "files/NumberTable.h"
 #include "study/evaluation/Association.h"
 #include "study/evaluation/ErrorStatistics.h"
-#include "study/evaluation/StampIndex.h"
 
 namespace hybrid_slam::evaluation {
 
@@ -80,13 +80,13 @@ NormalizedErrors normalizedErrors(const files::Trajectory& estimate,
   if (covariances.size() != estimate.size())
     throw InputError("wrong number of covariances", std::to_string(covariances.size()) + " rows",
                      "expected " + std::to_string(estimate.size()) + ", one for each pose");
-  const PosePair first = associate(estimate, reference, tolerance).front();
-  const StampIndex index(reference);
+  const std::vector<PosePair> pairs = associate(estimate, reference, tolerance);
+  const PosePair& first = pairs.front();
   SquaredErrors errors;
-  for (size_t i = 0; i < estimate.size(); ++i)
-    if (const auto row = index.nearest(estimate[i].timestamp, tolerance))
-      errors.add(estimate[i].pose - first.estimate, reference[*row].pose - first.reference, covariances[i],
-                 "row " + std::to_string(i + 1));
+  for (const PosePair& pair : pairs)
+    errors.add(pair.estimate - first.estimate, pair.reference - first.reference,
+               rotated(covariances[pair.estimateRow], -first.estimate.phi),
+               "row " + std::to_string(pair.estimateRow + 1));
   return errors.result();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/Errors.h"
+#include "base/PoseRotation.h"
 #include "files/TemporaryFolder.h"
 #include "testing/ErrorOf.h"
 
@@ -35,6 +36,24 @@ TEST(NormalizedError, FramesBeginAtTheFirstPose) {
   const Eigen::Matrix3d covariance = 0.01 * Eigen::Matrix3d::Identity();
   EXPECT_NEAR(normalizedErrors(line(4, 0), std::vector<Eigen::Matrix3d>(4, covariance), moved, 0.01).mean, 0,
               1e-9);
+}
+
+TEST(NormalizedError, DoesNotDependOnTheMapFrame) {
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.01).asDiagonal();
+  const double turn = 1.2;
+  files::Trajectory turned = line(4, 0.6);
+  for (auto& stamped : turned) stamped.pose = mrpt::math::TPose2D(5, -2, turn) + stamped.pose;
+  const auto meanOf = [](const files::Trajectory& estimate, const Eigen::Matrix3d& ofEach) {
+    return normalizedErrors(estimate, std::vector<Eigen::Matrix3d>(4, ofEach), line(4, 0), 0.01).mean;
+  };
+  EXPECT_NEAR(meanOf(turned, rotated(covariance, turn)), meanOf(line(4, 0.6), covariance), 1e-9);
+}
+
+TEST(NormalizedError, RepeatedTimestampsArePairedInOrder) {
+  files::Trajectory stands = line(4, 0);
+  for (auto& stamped : stands) stamped.timestamp = 1;
+  const std::vector<Eigen::Matrix3d> covariances(4, Eigen::Matrix3d::Identity());
+  EXPECT_EQ(normalizedErrors(stands, covariances, stands, 0.01).mean, 0);
 }
 
 TEST(NormalizedError, WrongCovariances) {

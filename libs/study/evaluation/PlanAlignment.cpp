@@ -94,10 +94,19 @@ Fit refined(TPose2D pose, const std::vector<WallPoint>& plan, const WallSearch& 
   return fit;
 }
 
-}  // namespace
+/// The middle of the walls' extent.
+TPose2D middleOf(const std::vector<PlanLine>& walls) {
+  TPoint2D low = walls.front().start, high = low;
+  for (const PlanLine& wall : walls)
+    for (const TPoint2D& p : {wall.start, wall.end}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  return {(low.x + high.x) / 2, (low.y + high.y) / 2, 0};
+}
 
-TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth) {
-  if (plan.empty() || truth.empty()) return {};
+/// The motion of a plan onto the truth, both about the origin.
+TPose2D alignmentNearOrigin(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth) {
   const std::vector<WallPoint> points = pointsOn(plan, kAlignedStep),
                                truePoints = pointsOn(truth, kAlignedStep);
   const double frame = directionOf(truth), turn = frame - directionOf(plan);
@@ -123,8 +132,18 @@ TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLin
     const Fit fit = refined(refined({place.x, place.y, heading}, points, coarse).pose, points, fine);
     if (quarter == 0 || fit.agreeing > best.agreeing) best = fit;
   }
-  best.pose.normalizePhi();
   return best.pose;
+}
+
+}  // namespace
+
+TPose2D alignmentOf(const std::vector<PlanLine>& plan, const std::vector<PlanLine>& truth) {
+  if (plan.empty() || truth.empty()) return {};
+  // A plan in the coordinates of a country is as large as its building.
+  const TPose2D from = TPose2D() - middleOf(plan), to = middleOf(truth);
+  TPose2D alignment = to + alignmentNearOrigin(moved(plan, from), moved(truth, TPose2D() - to)) + from;
+  alignment.normalizePhi();
+  return alignment;
 }
 
 }  // namespace hybrid_slam::evaluation

@@ -52,10 +52,10 @@ std::vector<bool> seen(const std::vector<WallPoint>& points, const std::vector<T
 
 std::vector<TPoint2D> placedEndPoints(const std::vector<readings::EndPoints>& scans,
                                       const files::Trajectory& reference) {
-  const StampIndex index(reference);
+  StampSequence rows(reference, kTimeTolerance);
   std::vector<TPoint2D> placed;
   for (const readings::EndPoints& scan : scans)
-    if (const auto row = index.nearest(scan.timestamp, kTimeTolerance))
+    if (const auto row = rows.next(scan.timestamp))
       for (const TPoint2D& p : scan.points) placed.push_back(reference[*row].pose.composePoint(p));
   return placed;
 }

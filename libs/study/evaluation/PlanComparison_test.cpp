@@ -47,6 +47,12 @@ TEST(PlanComparison, MissingAndFalseWallsCountByLength) {
   EXPECT_EQ(comparePlans({}, truth, {}).wrong, 0);
 }
 
+TEST(PlanComparison, ManyShortWallsCountByLength) {
+  Walls truth{{{0, 0}, {10, 0}}};
+  for (int i = 0; i < 500; ++i) truth.push_back({{0.1 * i, 5}, {0.1 * i + 0.002, 5}});  // 1 m
+  EXPECT_NEAR(comparePlans({{{0, 0}, {10, 0}}}, truth, {}).found, 100 * 10 / 11., 0.2);
+}
+
 TEST(PlanComparison, OnlyWhatTheLaserSawMustBeFound) {
   std::vector<mrpt::math::TPoint2D> ends;
   for (int i = 0; i < 300; ++i) ends.emplace_back(i * 0.01, 0.01);  // 3 of 8 m
@@ -67,6 +73,15 @@ TEST(PlanComparison, AlignmentFindsAnyRigidMotion) {
     EXPECT_NEAR(found.y, motion.y, 1e-3);
     EXPECT_NEAR(std::remainder(found.phi - motion.phi, 2 * M_PI), 0, 1e-4);
   }
+}
+
+TEST(PlanComparison, AlignmentDoesNotDependOnTheOrigin) {
+  const TPose2D motion(0.3, -0.2, 0.4), far(5'000'000, 1'000'000, 0);
+  const Walls plan = moved(building(), TPose2D() - motion);
+  const TPose2D found = alignmentOf(plan, moved(building(), far));
+  EXPECT_NEAR(found.x, far.x + motion.x, 1e-3);
+  EXPECT_NEAR(found.y, far.y + motion.y, 1e-3);
+  EXPECT_NEAR(std::remainder(found.phi - motion.phi, 2 * M_PI), 0, 1e-4);
 }
 
 TEST(PlanComparison, EmptyPlansAlign) {

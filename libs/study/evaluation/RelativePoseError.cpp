@@ -7,22 +7,27 @@
 
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "base/PoseDistance.h"
 #include "study/evaluation/Association.h"
 
 namespace hybrid_slam::evaluation {
 namespace {
 
 /// Time (s) or distance along the reference (m) at each pair; ascending.
-std::vector<double> progressAlong(const std::vector<PosePair>& pairs, RpeDelta::Unit unit) {
+std::vector<double> progressAlong(const std::vector<PosePair>& pairs, const files::Trajectory& reference,
+                                  RpeDelta::Unit unit) {
   std::vector<double> result;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const mrpt::math::TPose2D& here = pairs[i].reference;
-    const mrpt::math::TPose2D& before = pairs[i > 0 ? i - 1 : 0].reference;
-    if (unit == RpeDelta::Unit::seconds)
-      result.push_back(pairs[i].timestamp);
-    else
-      result.push_back((i > 0 ? result.back() : 0) + std::hypot(here.x - before.x, here.y - before.y));
+  if (unit == RpeDelta::Unit::seconds) {
+    for (const PosePair& pair : pairs) result.push_back(pair.timestamp);
+    return result;
   }
+  std::vector<mrpt::math::TPose2D> path;
+  for (const files::StampedPose& pose : reference) path.push_back(pose.pose);
+  const std::vector<double> lengths = lengthsAlong(path);
+  for (size_t i = 0; i < pairs.size(); ++i)
+    result.push_back(i == 0 ? 0
+                            : result.back() + std::abs(lengths[pairs[i].referenceRow] -
+                                                       lengths[pairs[i - 1].referenceRow]));
   return result;
 }
 
@@ -45,7 +50,7 @@ RpeErrors relativePoseError(const files::Trajectory& estimate, const files::Traj
   if (delta.unit == RpeDelta::Unit::seconds)
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const PosePair& a, const PosePair& b) { return a.timestamp < b.timestamp; });
-  const std::vector<double> at = progressAlong(pairs, delta.unit);
+  const std::vector<double> at = progressAlong(pairs, reference, delta.unit);
 
   std::vector<double> translations, rotations;
   for (size_t i = 0; i + 1 < pairs.size(); ++i) {

@@ -56,6 +56,17 @@ TEST(RelativePoseError, ScaleDriftOnACircleIsThatOfTheChord) {
   expectAll(e.rotation, 0, 1e-12);
 }
 
+TEST(RelativePoseError, DistanceIsAlongTheReferenceAlsoBetweenPosesFarApart) {
+  files::Trajectory reference, sparse;
+  for (int i = 0; i <= 400; ++i) {
+    const double a = M_PI * i / 200;
+    reference.push_back({i * 0.1, {std::sin(a), 1 - std::cos(a), a}});
+    if (i % 100 == 0) sparse.push_back(reference.back());
+  }
+  EXPECT_EQ(relativePoseError(sparse, reference, {1.57, Unit::metres}, 0.01).pairs, 4u);
+  EXPECT_THROW(relativePoseError(sparse, reference, {1.41, Unit::metres}, 0.01), InputError);
+}
+
 TEST(RelativePoseError, HeadingDriftPerMetre) {
   const files::Trajectory reference = straight(101);
   files::Trajectory estimate{reference[0]};

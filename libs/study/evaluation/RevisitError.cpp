@@ -84,10 +84,10 @@ double distanceToWall(const TPoint2D& p, const PlacedPoints& points, const Place
 
 std::vector<PlacedScan> place(const files::Trajectory& trajectory,
                               const std::vector<readings::EndPoints>& scans, PlacedPoints& points) {
-  const StampIndex index(trajectory);
+  StampSequence rows(trajectory, kTimeTolerance);
   std::vector<PlacedScan> placed;
   for (const readings::EndPoints& scan : scans) {
-    const auto row = index.nearest(scan.timestamp, kTimeTolerance);
+    const auto row = rows.next(scan.timestamp);
     if (!row) continue;
     PlacedScan here;
     here.pose = trajectory[*row].pose;

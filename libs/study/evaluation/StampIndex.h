@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,7 +24,26 @@ class StampIndex {
   std::optional<size_t> nearest(double timestamp, double tolerance) const;
 
  private:
-  std::vector<std::pair<double, size_t>> stamps_;
+  friend class StampSequence;
+  using Stamps = std::vector<std::pair<double, size_t>>;
+  Stamps::const_iterator find(double timestamp, double tolerance) const;
+
+  Stamps stamps_;
+};
+
+/// Finds the row nearest in time for each of a sequence of timestamps. If a timestamp repeats, so does that
+/// of the rows: each time it is the next of them, and the last of them from then on.
+class StampSequence {
+ public:
+  /// @param tolerance  s
+  StampSequence(const files::Trajectory& trajectory, double tolerance)
+      : index_(trajectory), tolerance_(tolerance) {}
+  std::optional<size_t> next(double timestamp);
+
+ private:
+  StampIndex index_;
+  double tolerance_;
+  std::map<double, std::ptrdiff_t> times_;  ///< that a timestamp has occurred
 };
 
 }  // namespace hybrid_slam::evaluation

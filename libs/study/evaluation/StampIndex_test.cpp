@@ -41,6 +41,16 @@ TEST(StampIndex, TiesAsDocumented) {
   EXPECT_EQ(index.nearest(2, 1), 3u);
 }
 
+TEST(StampSequence, RowsOfATimestampFollowInOrder) {
+  StampSequence rows(withStamps({1, 2, 2, 3}), 0.5);
+  EXPECT_EQ(rows.next(2), 1u);
+  EXPECT_EQ(rows.next(1), 0u);
+  EXPECT_EQ(rows.next(2), 2u);
+  EXPECT_EQ(rows.next(2), 2u) << "no third one";
+  EXPECT_EQ(rows.next(2.1), 1u) << "another timestamp";
+  EXPECT_EQ(rows.next(5), std::nullopt);
+}
+
 TEST(StampIndex, AnEmptyIndexFindsNothing) {
   EXPECT_EQ(StampIndex(files::Trajectory()).nearest(0, 1e9), std::nullopt);
 }

@@ -10,11 +10,13 @@ using mrpt::math::TPoint2D;
 
 std::vector<WallPoint> pointsOn(const std::vector<PlanLine>& walls, double step) {
   std::vector<WallPoint> points;
+  double next = step / 2;  // m along the wall
   for (const PlanLine& wall : walls) {
     const TPoint2D d = wall.end - wall.start;
-    const int pieces = std::max(1, static_cast<int>(std::lround(d.norm() / step)));
-    for (int i = 0; i < pieces; ++i)
-      points.push_back({wall.start + d * ((i + 0.5) / pieces), std::atan2(d.y, d.x)});
+    const double length = d.norm();
+    for (; next < length; next += step)
+      points.push_back({wall.start + d * (next / length), std::atan2(d.y, d.x)});
+    next -= length;
   }
   return points;
 }

@@ -17,7 +17,7 @@ struct WallPoint {
   double angle;
 };
 
-/// Points in the middle of pieces of a wall of `step` (m).
+/// Points `step` (m) apart along the walls, which are laid end to end: each stands for the same length.
 std::vector<WallPoint> pointsOn(const std::vector<PlanLine>& walls, double step);
 
 /// The walls of one plan, to be searched.
