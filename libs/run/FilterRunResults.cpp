@@ -181,7 +181,10 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const s
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = counts_.slips;
   evidence.updates = updateTimes_.size();
-  if (!scanOdometry_) evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
+  if (!scanOdometry_) {
+    evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
+    evidence.turns = turnsOf(recorder_.motionsOfUpdates(), best.path);
+  }
   evidence.scans = log.scans;
   finished.verdict = verdictOf(evidence);
   // The poses of a relaxed path are matches to the map of all scans; the particles knew the earlier ones.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/Degree.h"
 #include "base/Numbers.h"
 
 namespace hybrid_slam::run {
@@ -28,8 +29,10 @@ constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
 constexpr double kSlips = 0.5;     // share of the updates
 constexpr size_t kFewestSlips = 10;
-constexpr double kFaults = 0.1;   // of the odometry, per scan
-constexpr double kFewBeams = 30;  // wrong maps of fewer agree with themselves
+constexpr double kTurn = 3 * kDegree;
+constexpr size_t kFewestTurns = 10;  // against the odometry
+constexpr double kFaults = 0.1;      // of the odometry, per scan
+constexpr double kFewBeams = 30;     // wrong maps of fewer agree with themselves
 
 using Stretch = std::vector<const Revisit*>;
 
@@ -139,6 +142,18 @@ std::string Verdict::line() const {
   return line;
 }
 
+// A mirrored map agrees with itself.
+Turns turnsOf(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& path) {
+  Turns turns;
+  for (size_t i = 1; i < std::min(odometry.size(), path.size()); ++i) {
+    const double expected = odometry[i].phi, turn = (path[i] - path[i - 1]).phi;
+    if (std::abs(expected) < kTurn) continue;
+    ++turns.all;
+    turns.against += turn * expected < -0.5 * expected * expected;
+  }
+  return turns;
+}
+
 Verdict verdictOf(const Evidence& evidence) {
   const Verdict strict = byScans(evidence.returning, evidence.recent);
   Verdict verdict = byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent));
@@ -161,6 +176,12 @@ Verdict verdictOf(const Evidence& evidence) {
     find(Level::doubtful, std::to_string(evidence.odometryFaults) +
                               " odometry readings are impossible or jump, in " +
                               counted(evidence.scans, "scan(s)"));
+  const Turns& turns = evidence.turns;
+  if (turns.against >= kFewestTurns && 2 * turns.against > turns.all)
+    find(Level::doubtful,
+         "the scans turn against the odometry, " + std::to_string(turns.against) + " of " +
+             std::to_string(turns.all) +
+             " times: the map may be mirrored; input.laser_pose can say that the laser is upside down");
   if (evidence.beams < kFewBeams)
     find(Level::doubtful,
          "scans have too few beams to judge the map: " + fixedText(evidence.beams, 0) + " on average");

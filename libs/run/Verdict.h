@@ -37,6 +37,15 @@ struct Verdict {
   std::string line() const;
 };
 
+/// Turns of over 3 deg between two updates, by the odometry.
+struct Turns {
+  size_t all = 0;
+  size_t against = 0;  ///< the path turns at least half as far in the other direction
+};
+/// @param odometry  motion from each update to the next one, at the index of the next
+/// @param path      a pose for each update
+Turns turnsOf(const std::vector<mrpt::math::TPose2D>& odometry, const std::vector<mrpt::math::TPose2D>& path);
+
 /// Evidence that a verdict is based on.
 struct Evidence {
   std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
@@ -45,6 +54,7 @@ struct Evidence {
   double spread = 0;               ///< m, standard deviation of the particles at the end
   size_t slips = 0, updates = 0;   ///< updates whose odometry was rejected, and all
   size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps
+  Turns turns;                     ///< in both directions
   size_t scans = 0;                ///< of the log
   double beams = NAN;              ///< mean number of beams compared in a scan, at most 90; NaN: no scan
   std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were

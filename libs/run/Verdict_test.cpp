@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/Degree.h"
+
 namespace hybrid_slam::run {
 namespace {
 
+using mrpt::math::TPose2D;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -226,6 +229,31 @@ TEST(Verdict, SlipsAreListedWithAnyOtherReason) {
     EXPECT_EQ(verdictOf(evidence).reasons.size(), 2u);
     EXPECT_EQ(verdictOf(evidence).reasons.back(), "odometry rejected in 1 update");
   }
+}
+
+TEST(Verdict, AMapThatIsMirroredIsDoubtful) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.turns = {100, 50};
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
+  evidence.turns = {17, 9};
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent") << "few turns";
+  evidence.turns = {100, 51};
+  EXPECT_EQ(verdictOf(evidence).line(),
+            "verdict: doubtful: the scans turn against the odometry, 51 of 100 times: the map may be "
+            "mirrored; input.laser_pose can say that the laser is upside down");
+}
+
+TEST(Verdict, TurnsOfTheOdometryAreComparedWithThoseOfThePath) {
+  const auto turn = [](double degrees) { return TPose2D(0.3, 0, degrees * kDegree); };
+  std::vector<TPose2D> odometry{{}}, path{{1, 2, 3}};
+  const auto move = [&](double byOdometry, double byPath) {
+    odometry.push_back(turn(byOdometry));
+    path.push_back(path.back() + turn(byPath));
+  };
+  move(10, 9), move(-10, -12), move(2, -2), move(10, -1), move(10, -9), move(-4, 4), move(-40, 30);
+  const Turns turns = turnsOf(odometry, path);
+  EXPECT_EQ(turns.all, 6u);
+  EXPECT_EQ(turns.against, 3u);
 }
 
 TEST(Verdict, OdometryThatIsMostlyRejectedIsDoubtful) {
