@@ -254,11 +254,11 @@ TEST(WallLines, TheStretchesOfADatabaseLineCountOnce) {
 
 TEST(WallLines, TwoImagesOfAWallAreOneLine) {
   const Face wall = face({0, 0}, {10, 0});
-  EXPECT_EQ(wallLinesOf({wall, face({1, 0.04}, {8, 0.06})}, kCell).size(), 1u)
+  EXPECT_EQ(wallLinesOf({wall, face({1, 0.035}, {8, 0.045})}, kCell).size(), 1u)
       << "too far for their covariances";
-  EXPECT_EQ(wallLinesOf({wall, face({8, 0.06}, {1, 0.04})}, kCell).size(), 2u) << "its other side";
-  EXPECT_EQ(wallLinesOf({wall, face({1, 0.2}, {8, 0.2})}, kCell).size(), 2u) << "another wall";
-  EXPECT_EQ(wallLinesOf({wall, face({9, 0.06}, {16, 0.06})}, kCell).size(), 2u)
+  EXPECT_EQ(wallLinesOf({wall, face({8, 0.045}, {1, 0.035})}, kCell).size(), 2u) << "its other side";
+  EXPECT_EQ(wallLinesOf({wall, face({1, 0.1}, {8, 0.1})}, kCell).size(), 2u) << "another wall";
+  EXPECT_EQ(wallLinesOf({wall, face({9, 0.045}, {16, 0.045})}, kCell).size(), 2u)
       << "it goes on with an offset";
 }
 

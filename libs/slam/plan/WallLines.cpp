@@ -73,7 +73,7 @@ void joinDoubles(std::vector<WallLine>& groups, double cell) {
       size_t twin = g;
       index.near((face.start + face.end) * 0.5, [&](int i) {
         const Known& known = all[static_cast<size_t>(i)];
-        if (known.group < twin && areOneFace(known.face, face, 2 * cell)) twin = known.group;
+        if (known.group < twin && areOneFace(known.face, face, cell)) twin = known.group;
       });
       if (twin < g) groups[twin].faces.push_back(face);
       return twin < g;

@@ -21,7 +21,7 @@ std::vector<Face> facesOf(const DatabaseLine& line, const OccupancyGrid& grid);
 
 /// Groups faces whose lines agree (squared Mahalanobis distance with 2 degrees of freedom below 13.8, the
 /// 99.9 % quantile) and which are at most a door apart. The longest faces come first. A face is on the line
-/// of a longer one that lies before or behind it, of the same side and less than two cells away.
+/// of a longer one that lies before or behind it, of the same side and less than a cell away.
 /// @param cell  m, of the grid
 std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell);
 
