@@ -242,7 +242,8 @@ std::optional<int> runAll(const CommandLine& line, const ComparisonRuns& sweep) 
       comparison::runSweep(sweep, jobs, stop, Progress(sweep, line.isQuiet));
   if (!outcome.isInterrupted) return std::nullopt;
   return fail(1, "interrupted: folder " + line.output + ", " + std::to_string(outcome.kept + outcome.done) +
-                     " of " + std::to_string(sweep.size()) + " runs are finished; the same command continues");
+                     " of " + std::to_string(sweep.size()) +
+                     " runs are finished; the same command continues");
 }
 
 int execute(const CommandLine& line, const std::string& command) {

@@ -73,9 +73,7 @@ TEST(ImpossibleState, LineThatWasSeenTooOften) {
 }
 
 TEST(ImpossibleState, LineDatabaseOfImpossibleAge) {
-  const auto canReadAt = [](int updates) {
-    return canRead(LineDatabase(), size_t{0}, updates);
-  };
+  const auto canReadAt = [](int updates) { return canRead(LineDatabase(), size_t{0}, updates); };
   EXPECT_TRUE(canReadAt(7));
   EXPECT_FALSE(canReadAt(kMost));
   EXPECT_FALSE(canReadAt(-1));
@@ -132,8 +130,7 @@ TEST(ImpossibleState, BeamBeyondTheRange) {
   const auto canReadLoops = [&](double range, const StepVariance& variance) {
     return canRead(LoopCloser(LoopClosingOptions(), grid), std::vector<Keyframe>{{0, beamOf(range)}},
                    std::vector<StepVariance>{variance}, std::vector<std::optional<double>>(1),
-                   std::vector<PoseEdge>(), size_t{0}, size_t{1}, TPose2D(),
-                   StepVariance(), 0.0);
+                   std::vector<PoseEdge>(), size_t{0}, size_t{1}, TPose2D(), StepVariance(), 0.0);
   };
   const auto canReadRecent = [&](double range) {
     return canRead(RecentMap(grid), std::deque<ScanBeams>{beamOf(range)});

@@ -61,8 +61,7 @@ class LoopCloser {
     state(keyframes_, variances_, wallDirections_, loops_, candidates_, updates_, motion_, variance_,
           toAttempt_);
     const size_t count = keyframes_.size();
-    bool isWhole =
-        variances_.size() == count && wallDirections_.size() == count;
+    bool isWhole = variances_.size() == count && wallDirections_.size() == count;
     for (size_t i = 0; i < count && isWhole; ++i)
       isWhole = keyframes_[i].update < updates_ &&
                 (i == 0 || keyframes_[i - 1].update < keyframes_[i].update) && variances_[i].isOfMotion() &&
