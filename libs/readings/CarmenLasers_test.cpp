@@ -107,6 +107,20 @@ TEST(LogParserCarmen, APathCorrectedByAMapperIsNoMounting) {
   }
 }
 
+TEST(LogParserCarmen, ZerosInPlaceOfThePosesAreNoOdometry) {
+  const std::string zeros = posedRow("FLASER", {}, {}), moved = posedRow("FLASER", {1, 0, 0}, {1, 0, 0}),
+                    odometry = "ODOM 1 2 0.5 0 0 0 5 host 1";
+  const auto parser = [&](const std::vector<std::string>& rows) {
+    auto made = formatNamed("carmen")->makeParser(threeBeamOptions());
+    for (const std::string& row : rows) made->preview(row);
+    return made;
+  };
+  EXPECT_FALSE(parseAs<LaserRecord>(*parser({zeros, odometry}), zeros).odometry);
+  EXPECT_TRUE(parseAs<LaserRecord>(*parser({zeros, odometry, moved}), zeros).odometry);
+  EXPECT_TRUE(parseAs<LaserRecord>(*parser({zeros, "ODOM 0 0 0 0 0 0 5 host 1"}), zeros).odometry)
+      << "it stands";
+}
+
 TEST(LogParserCarmen, LaserXOverridesTheFrontOffsetAlone) {
   LogParserOptions options = threeBeamOptions();
   options.laserX = 0.1;

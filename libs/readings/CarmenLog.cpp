@@ -61,6 +61,8 @@ class CarmenParser : public LogParser {
   double time(LogFields& fields) const;
 
   Rows used_ = Rows::unmounted;              ///< rows of later kinds are skipped
+  bool odometryMoves_ = false;               ///< an `ODOM` row among the first ones is not zero
+  bool laserRowsMove_ = false;               ///< the robot's pose in a laser's row is not
   std::set<int> usedLasers_;                 ///< numbers
   std::set<std::string> skippedRows_;        ///< names
   double frontOffset_ = 0, rearOffset_ = 0;  ///< m, x of the lasers on the robot, by `PARAM`
@@ -95,6 +97,10 @@ LogRecord CarmenParser::record(std::string_view name, LogFields& fields) {
 void CarmenParser::preview(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const std::string_view name = line.substr(0, line.find_first_of(" \t"));
+  if (name == "ODOM" && !odometryMoves_) {
+    LogFields fields(line.substr(name.size()));
+    odometryMoves_ = fields.left() == 9 && !fields.isZero(0, 3);
+  }
   const auto rows = rowsOf(name);
   if (!rows) return;
   used_ = std::min(used_, *rows);
@@ -116,6 +122,7 @@ void CarmenParser::previewMounting(std::string_view name, std::string_view line)
   }
   const mrpt::math::TPose2D laser = fields.pose(), robot = fields.pose();
   mounting.preview(laser, robot);
+  laserRowsMove_ = laserRowsMove_ || robot != mrpt::math::TPose2D();
 } catch (const BrokenLine&) {
   // Reading the log will report it.
 }
@@ -157,6 +164,10 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
+  if (odometryMoves_ && !laserRowsMove_) {  // zeros in place of both poses
+    record.odometry.reset();
+    return record;
+  }
   if (name == "RLASER")
     record.laserPose = rearMounting(laser, *record.odometry);
   else if (!options_.laserX)
