@@ -262,6 +262,14 @@ TEST(WallLines, TwoImagesOfAWallAreOneLine) {
       << "it goes on with an offset";
 }
 
+TEST(WallLines, WhatIsBeyondADoorMovesWithItsDouble) {
+  const Face wall = face({0, 0}, {10, 0}), image = face({4, 0.04}, {9, 0.04}),
+             beyond = face({10, 0.04}, {11, 0.04});
+  const auto groups = wallLinesOf({wall, image, beyond}, kCell);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0].faces.size(), 3u);
+}
+
 // This would take minutes if the number of comparisons grew quadratically.
 TEST(WallLines, AHundredThousandFacesAreGrouped) {
   std::vector<Face> faces;

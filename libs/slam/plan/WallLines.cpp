@@ -58,36 +58,64 @@ bool areOneFace(const Face& a, const Face& b, double farthest) {
   return std::max(std::abs(a.line.offset(b.start)), std::abs(a.line.offset(b.end))) < farthest;
 }
 
+/// Returns whether a face is on a line, to within a cell; the other face of a thin wall, to within half of
+/// one.
+bool isOn(const LineEstimate& line, const Face& face, double cell) {
+  const double farthest = std::cos(line.angle - face.line.angle) < 0 ? cell / 2 : cell;
+  return std::max(std::abs(line.offset(face.start)), std::abs(line.offset(face.end))) < farthest;
+}
+
 /// Moves faces to an earlier line that has them already. Two images of one wall, some centimetres apart, may
 /// be further apart than the covariances of their lines allow.
-void joinDoubles(std::vector<WallLine>& groups, double cell) {
+class Doubles {
+ public:
+  Doubles(std::vector<WallLine>& groups, double cell) : groups_(groups), cell_(cell), index_(kDoor) {}
+
+  void join() {
+    for (size_t g = 0; g < groups_.size(); ++g) {
+      std::vector<Face>& faces = groups_[g].faces;
+      std::vector<size_t> twins;  // groups of the same wall
+      const auto moves = [&](const Face& face) {
+        // What lies beside its double, such as beyond a door, is on the same line.
+        const auto same = std::find_if(twins.begin(), twins.end(),
+                                       [&](size_t twin) { return isOn(groups_[twin].line, face, cell_); });
+        if (same == twins.end()) return false;
+        groups_[*same].faces.push_back(face);
+        return true;
+      };
+      for (const Face& face : faces)
+        if (const size_t twin = twinOf(face, g); twin < g) twins.push_back(twin);
+      faces.erase(std::remove_if(faces.begin(), faces.end(), moves), faces.end());
+      for (const Face& face : faces) {
+        index_.add(face.start, face.end, static_cast<int>(known_.size()));
+        known_.push_back({g, face});
+      }
+    }
+    groups_.erase(std::remove_if(groups_.begin(), groups_.end(),
+                                 [](const WallLine& group) { return group.faces.empty(); }),
+                  groups_.end());
+  }
+
+ private:
   struct Known {
     size_t group;
     Face face;
   };
-  std::vector<Known> all;
-  PointIndex index(kDoor);
-  for (size_t g = 0; g < groups.size(); ++g) {
-    std::vector<Face>& faces = groups[g].faces;
-    const auto moves = [&](const Face& face) {
-      size_t twin = g;
-      index.near((face.start + face.end) * 0.5, [&](int i) {
-        const Known& known = all[static_cast<size_t>(i)];
-        if (known.group < twin && areOneFace(known.face, face, cell)) twin = known.group;
-      });
-      if (twin < g) groups[twin].faces.push_back(face);
-      return twin < g;
-    };
-    faces.erase(std::remove_if(faces.begin(), faces.end(), moves), faces.end());
-    for (const Face& face : faces) {
-      index.add(face.start, face.end, static_cast<int>(all.size()));
-      all.push_back({g, face});
-    }
+  /// Returns the first group before `g` with an image of the face; `g` if there is none.
+  size_t twinOf(const Face& face, size_t g) const {
+    size_t twin = g;
+    index_.near((face.start + face.end) * 0.5, [&](int i) {
+      const Known& known = known_[static_cast<size_t>(i)];
+      if (known.group < twin && areOneFace(known.face, face, cell_)) twin = known.group;
+    });
+    return twin;
   }
-  groups.erase(
-      std::remove_if(groups.begin(), groups.end(), [](const WallLine& group) { return group.faces.empty(); }),
-      groups.end());
-}
+
+  std::vector<WallLine>& groups_;
+  double cell_;
+  PointIndex index_;
+  std::vector<Known> known_;  ///< faces that stay
+};
 
 }  // namespace
 
@@ -165,7 +193,7 @@ std::vector<WallLine> wallLinesOf(std::vector<Face> faces, double cell) {
     groups[static_cast<size_t>(best)].faces.push_back(face);
     index.add(face.start, face.end, best);
   }
-  joinDoubles(groups, cell);
+  Doubles(groups, cell).join();
   return groups;
 }
 
