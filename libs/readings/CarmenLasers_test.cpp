@@ -108,17 +108,18 @@ TEST(LogParserCarmen, APathCorrectedByAMapperIsNoMounting) {
 }
 
 TEST(LogParserCarmen, ZerosInPlaceOfThePosesAreNoOdometry) {
-  const std::string zeros = posedRow("FLASER", {}, {}), moved = posedRow("FLASER", {1, 0, 0}, {1, 0, 0}),
-                    odometry = "ODOM 1 2 0.5 0 0 0 5 host 1";
-  const auto parser = [&](const std::vector<std::string>& rows) {
-    auto made = formatNamed("carmen")->makeParser(threeBeamOptions());
-    for (const std::string& row : rows) made->preview(row);
-    return made;
+  const std::string zeros = posedRow("FLASER", {}, {}), moved = posedRow("FLASER", {1, 0, 0}, {1, 0, 0});
+  const auto hasOdometry = [&](size_t scans, const std::string& robot, bool moves) {
+    const auto parser = formatNamed("carmen")->makeParser(threeBeamOptions());
+    for (size_t i = 0; i < scans; ++i) parser->preview(zeros);
+    parser->preview("ODOM " + robot + " 0 0 0 5 host 1");
+    if (moves) parser->preview(moved);
+    return parseAs<LaserRecord>(*parser, zeros).odometry.has_value();
   };
-  EXPECT_FALSE(parseAs<LaserRecord>(*parser({zeros, odometry}), zeros).odometry);
-  EXPECT_TRUE(parseAs<LaserRecord>(*parser({zeros, odometry, moved}), zeros).odometry);
-  EXPECT_TRUE(parseAs<LaserRecord>(*parser({zeros, "ODOM 0 0 0 0 0 0 5 host 1"}), zeros).odometry)
-      << "it stands";
+  EXPECT_FALSE(hasOdometry(10, "1 2 0.5", false));
+  EXPECT_TRUE(hasOdometry(9, "1 2 0.5", false)) << "few rows";
+  EXPECT_TRUE(hasOdometry(10, "1 2 0.5", true));
+  EXPECT_TRUE(hasOdometry(10, "0 0 0", false)) << "it stands";
 }
 
 TEST(LogParserCarmen, LaserXOverridesTheFrontOffsetAlone) {

@@ -62,7 +62,7 @@ class CarmenParser : public LogParser {
 
   Rows used_ = Rows::unmounted;              ///< rows of later kinds are skipped
   bool odometryMoves_ = false;               ///< an `ODOM` row among the first ones is not zero
-  bool laserRowsMove_ = false;               ///< the robot's pose in a laser's row is not
+  size_t zeroRows_ = 0, movedRows_ = 0;      ///< first rows of lasers, by the robot's pose in them
   std::set<int> usedLasers_;                 ///< numbers
   std::set<std::string> skippedRows_;        ///< names
   double frontOffset_ = 0, rearOffset_ = 0;  ///< m, x of the lasers on the robot, by `PARAM`
@@ -122,7 +122,7 @@ void CarmenParser::previewMounting(std::string_view name, std::string_view line)
   }
   const mrpt::math::TPose2D laser = fields.pose(), robot = fields.pose();
   mounting.preview(laser, robot);
-  laserRowsMove_ = laserRowsMove_ || robot != mrpt::math::TPose2D();
+  (robot == mrpt::math::TPose2D() ? zeroRows_ : movedRows_) += 1;
 } catch (const BrokenLine&) {
   // Reading the log will report it.
 }
@@ -164,7 +164,8 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
   const mrpt::math::TPose2D laser = fields.pose();
   record.odometry = fields.pose();
   record.time = time(fields);
-  if (odometryMoves_ && !laserRowsMove_) {  // zeros in place of both poses
+  constexpr size_t kFewest = 10;
+  if (odometryMoves_ && movedRows_ == 0 && zeroRows_ >= kFewest) {  // zeros in place of both poses
     record.odometry.reset();
     return record;
   }
