@@ -152,7 +152,6 @@ LogRecord CarmenParser::laser(std::string_view name, LogFields& fields) {
                                      " ranges, the laser's and the robot's pose, "
                                      "ipc_time host logger_time");
   LaserRecord record = scan(name, beams, fields);
-  // Logs differ in whether the heading of a rear laser's row includes the half turn.
   record.laserPose = mounting(numberOf(name));
   if (!hasRobot) {
     // The log of Orebro has the odometry in place of the laser's pose.
@@ -180,9 +179,10 @@ mrpt::math::TPose2D CarmenParser::rearMounting(const mrpt::math::TPose2D& laser,
                                                const mrpt::math::TPose2D& robot) {
   constexpr double kLeast = 0.02;  // m: rows with the robot's pose twice do not state the mounting
   LaserMounting& rows = mountings_["RLASER"];
+  if (rows.agreement() != LaserMounting::Agreement::agreed) return mounting(2);
   const auto pose = rows.of(laser, robot);
-  if (rows.agreement() != LaserMounting::Agreement::agreed || pose->norm() < kLeast) return mounting(2);
-  return {pose->x, pose->y, M_PI};
+  if (pose->norm() < kLeast) return mounting(2);
+  return {pose->x, pose->y, M_PI};  // logs differ in whether the heading in the row includes the half turn
 }
 
 LogRecord CarmenParser::plainLaser(std::string_view name, LogFields& fields) const {

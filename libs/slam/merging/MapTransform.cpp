@@ -1,8 +1,9 @@
 #include "slam/merging/MapTransform.h"
-#include "slam/lines/WallDirections.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 

@@ -33,9 +33,8 @@ struct LearntMotionModel {
 
 /// Alternates E-step and M-step until two iterations in a row fail to exceed the best likelihood by 1e-4 nats
 /// per step. Two, because a particle filter's likelihood is a noisy estimate.
-/// @param prior       initial model; undetermined parameters keep its values. The iterations treat the means
-/// as
-///                    known (mean_std = 0), as does the result if both were learnt; else it keeps the prior's
+/// @param prior       initial model; undetermined parameters keep its values. Means are known (mean_std = 0)
+///                    in the iterations, and in the result if both are learnt; else it keeps the prior's
 /// @param report      called for the prior and after each iteration
 /// @throws InputError  if the log determines no parameter; @param where  names the log
 LearntMotionModel learnMotionModel(const MotionModelOptions& prior, const EStep& eStep, int maxIterations,

@@ -1,11 +1,12 @@
 #include "slam/plan/BuildingFrame.h"
-#include "slam/lines/WallDirections.h"
 
 #include <mrpt/core/bits_math.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "slam/lines/WallDirections.h"
 
 namespace hybrid_slam {
 namespace {
