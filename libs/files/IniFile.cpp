@@ -81,11 +81,23 @@ void checkMacros(const std::string& text, const std::string& file) {
   }
 }
 
+bool isComment(const std::string& line) { return line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0; }
+
+/// The text with `\` at the end of comments removed, as in `# C:\logs\`: MRPT's parser would join the next
+/// line.
+std::string withoutContinuedComments(const std::string& text) {
+  std::istringstream in(text);
+  std::string result;
+  for (std::string line; std::getline(in, line); result += line + '\n')
+    if (isComment(mrpt::system::trim(line))) line.erase(line.find_last_not_of("\\\r") + 1);
+  return result;
+}
+
 /// The text after MRPT's parser has expanded @define and ${...}.
 std::string parsed(const std::string& text, const std::string& file) {
   checkMacros(text, file);
   try {
-    return mrpt::config::config_parser(text);
+    return mrpt::config::config_parser(withoutContinuedComments(text));
   } catch (const std::exception& e) {
     throw InputError("cannot parse", file, messageOf(e));
   }
@@ -105,7 +117,7 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
     const std::string where = file + ", line " + std::to_string(++number);
     line = mrpt::system::trim(line.substr(0, line.find('\r')));
     removeByteOrderMark(line);
-    if (line.empty() || line.find_first_of("#;") == 0 || line.rfind("//", 0) == 0) continue;
+    if (line.empty() || isComment(line)) continue;
     const auto end = line.find(']'), equals = line.find('=');
     if (line.front() == '[' && end != std::string::npos) {
       section = line.substr(1, end - 1);
@@ -121,7 +133,7 @@ std::vector<std::string> checkLines(const std::string& text, const std::string& 
       throw InputError("wrong line `" + line + "`", where, "expected [section], key = value, or # comment");
     if (!isOurs) continue;
     const std::string key = mrpt::system::trim(line.substr(0, equals));
-    if (!keys.insert(key).second)
+    if (!keys.insert(mrpt::system::lowerCase(key)).second)
       warnings.push_back("repeated key `" + key + "`: " + where + ", section [" + *section +
                          "]; its last value is used");
   }

@@ -24,7 +24,6 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
   const double time = isStamped ? mrpt::Clock::toDouble(observation->timestamp) : newest_.value_or(0);
   if (newest_ && time < *newest_ - kLongestWait) {
     finish();
-    due_.clear();
     newest_.reset(), lastOdometry_.reset();
   }
   newest_ = std::max(newest_.value_or(time), time);
@@ -61,10 +60,13 @@ void CycleGrouper::add(const CObservation::Ptr& observation) {
     give(waiting_.size());
 }
 
-/// Scans at about the cycle rate all pass despite jitter; faster ones are thinned out.
+/// Scans at about the cycle rate all pass despite jitter; faster ones are thinned out. A laser whose clock
+/// was set back by more than a period starts again; those of the others do not matter.
 bool CycleGrouper::isDue(const CObservation2DRangeScan& scan, double time) {
+  if (period_ == 0) return true;
   if (due_.size() >= kMostLasers && due_.count(scan.sensorLabel) == 0) return false;
   const auto due = due_.try_emplace(scan.sensorLabel, time).first;
+  if (due->second - time > 2.5 * period_) due->second = time;
   if (time < due->second - period_ / 2) return false;
   due->second = std::max(due->second, time - period_ / 2) + period_;
   return true;

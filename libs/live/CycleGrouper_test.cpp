@@ -131,6 +131,24 @@ TEST(CycleGrouper, WithoutARateEveryScanIsACycle) {
   EXPECT_EQ(c.texts.size(), 5u);
 }
 
+TEST(CycleGrouper, WithoutARateNoScanIsLeftOut) {
+  Cycles c(0);
+  for (const double time : {10.0, 10.1, 9.95, 10.2, 9.7, 10.3}) c.laser(time);
+  c.grouper.finish();
+  EXPECT_EQ(c.texts.size(), 6u);
+}
+
+/// The clocks of odometry and laser differ by 2 s.
+TEST(CycleGrouper, FastScansOfASlowClockAreThinnedOut) {
+  Cycles c(1);
+  size_t scans = 0;
+  for (int i = 0; i < 100; ++i) c.odo(12 + 0.1 * i), c.laser(10 + 0.1 * i);
+  c.grouper.finish();
+  for (const std::string& text : c.texts)
+    scans += static_cast<size_t>(std::count(text.begin(), text.end(), 's'));
+  EXPECT_NEAR(static_cast<double>(scans), 10, 1);
+}
+
 TEST(CycleGrouper, WithoutOdometryScansDoNotWait) {
   Cycles c(5);
   c.laser(10), c.laser(10.2);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -65,6 +66,7 @@ RawlogPlayer::RawlogPlayer(const std::string& file, double cycleRate, double rep
   const readings::RawlogSummary log = readings::summarise(file, {}, stop);
   warnings_ = readings::warningsOf(log, file);
   state_ = log.state;
+  hasOdometryReadings_ = log.hasOdometryReadings;
   if (!log.defect.empty()) {
     defect_ = "log " + log.defect + ": " + log.defectPlace(file) + "; served up to this point";
     warnings_.push_back(defect_);
@@ -81,7 +83,7 @@ void RawlogPlayer::run(const CycleSink& sink, const StopCheck& stop) {
   mrpt::math::TPose2D travelled;
   bool hasActions = false;
   while (const auto object = stop() ? nullptr : reader.next()) {
-    if (const auto increment = readings::incrementOf(object)) {
+    if (const auto increment = hasOdometryReadings_ ? std::nullopt : readings::incrementOf(object)) {
       if (readings::isFinite(*increment) && !readings::isJump({}, *increment))
         travelled = travelled + *increment;
       hasActions = true;

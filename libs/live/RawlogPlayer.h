@@ -23,7 +23,8 @@ class RawlogPlayer : public CycleSource {
   /// Returns the defects of the log, one per line.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Plays the log to its end. Converts the odometry of action-observation pairs to CObservationOdometry.
+  /// Plays the log to its end. Converts the odometry of action-observation pairs to CObservationOdometry,
+  /// unless the log has such readings.
   /// @throws std::runtime_error at its end if the log is truncated or damaged, or has been written to or
   /// replaced since
   ///         it was opened
@@ -34,6 +35,7 @@ class RawlogPlayer : public CycleSource {
   std::string defect_;        ///< how the log is truncated; empty if complete
   std::vector<std::string> warnings_;
   double cycleRate_, replayRate_;
+  bool hasOdometryReadings_ = false;  ///< the actions are not used
 };
 
 }  // namespace hybrid_slam::live

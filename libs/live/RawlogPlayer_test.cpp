@@ -107,6 +107,23 @@ TEST(RawlogPlayer, TheActionsOfPairsBecomeOdometry) {
   EXPECT_NEAR(p.readings[2].motion.y, 0, 1e-9);
 }
 
+/// As offline, readings replace the actions; those of the other frame would be jumps.
+TEST(RawlogPlayer, ActionsAreNotUsedBesideOdometryReadings) {
+  test::Log log;
+  for (int i = 0; i < 5; ++i) {
+    log.push_back(test::action({0, 0.1, 0}));
+    const auto frame = test::frame({test::scan(10 + i)});
+    frame->insert(test::odometry(10 + i, {5 + 0.2 * i, 3, 0}));
+    log.push_back(frame);
+  }
+  const Played p = played(log, 5);
+  ASSERT_EQ(p.readings.size(), 5u);
+  for (size_t i = 1; i < p.readings.size(); ++i) {
+    EXPECT_NEAR(p.readings[i].motion.x, 0.2, 1e-9);
+    EXPECT_NEAR(p.readings[i].motion.y, 0, 1e-9);
+  }
+}
+
 TEST(RawlogPlayer, StopsOnRequest) {
   EXPECT_EQ(played(test::laps(50), 5, 7).cycles, 7u);
   const files::TemporaryFolder folder;

@@ -133,7 +133,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     const TPose2D pose = odometry.odometry.asTPose();
     noteOdometry(isPossible(pose), summary.hasOdometryReadings, summary.wrongOdometry);
     if (!isPossible(pose)) return;
-    if (!first) first = pose;
+    if (!first) first = pose, summary.odometryLabel = odometry.sensorLabel;
+    if (odometry.sensorLabel != summary.odometryLabel) return note(summary.otherOdometry, reader.entry());
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
     readingsMove |= pose != *first;
   };

@@ -44,11 +44,13 @@ OdometrySource odometrySource(const InputOptions& options, bool hasReadings);
 struct RawlogSummary {
   std::vector<std::string> lasers;   ///< labels of those used, in alphabetical order
   std::vector<std::string> ignored;  ///< one line for each other laser: label and reason
+  std::string odometryLabel;         ///< of the sensor whose odometry readings are used
   size_t scans = 0;  ///< readings, without `early`: scans that several lasers take at one time count as one
   Oddity early;      ///< readings that ReadingAssembler drops before the first odometry
   Oddity empty, misplaced, tilted, unstamped, repeatedStamps, stepsBack;  ///< scans
   Oddity timeJumps;                                                       ///< over a day after the one before
   Oddity wrongOdometry;                                                   ///< impossible (isPossible)
+  Oddity otherOdometry;                                                   ///< of another sensor, not used
   Oddity noOdometry;                                                      ///< actions
   Oddity wrongSweeps;                                                     ///< impossible scan times
   Oddity jumps;                                                           ///< of the odometry (OdometryJumps)

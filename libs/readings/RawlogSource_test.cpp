@@ -174,6 +174,23 @@ TEST(RawlogSource, FaultsOfActionsThatReadingsReplaceDoNotCount) {
   }
 }
 
+TEST(RawlogSource, SaysWhichOdometryItUses) {
+  test::Log log;
+  for (int i = 0; i < 4; ++i) {
+    const auto other = test::odometry(10.5 + i, {-50.0 * i, 0, 0});
+    other->sensorLabel = "VISUAL";
+    for (const auto& each : test::Log{test::odometry(10 + i, {0.1 * i, 0, 0}), scan(10 + i), other})
+      log.push_back(each);
+  }
+  const Replayed r = replayed(log);
+  EXPECT_EQ(r.summary.jumps.count, 0u);
+  EXPECT_EQ(r.summary.otherOdometry.count, 4u);
+  EXPECT_THAT(
+      warningsOf(r.summary, "LOG"),
+      testing::ElementsAre("4 odometry readings of other sensors than `ODOMETRY`: first at entry 3 of LOG; "
+                           "not used; `rawlog-edit --remove-label` removes a sensor"));
+}
+
 TEST(RawlogSource, LasersThatTakeTurnsHaveTheDurationOfBoth) {
   test::Log log{test::odometry(1e9, {0, 0, 0})};
   for (int i = 0; i < 10; ++i) log.push_back(scan(1e9 + i, {}, 3, i < 5 ? "FRONT" : "REAR"));

@@ -90,7 +90,8 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose())) takeOdometry(*odometry);
+      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) && isOfFirstSensor(*odometry))
+        takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
@@ -134,6 +135,11 @@ bool ReadingAssembler::hasManyBeams() const {
   size_t beams = 0;
   for (const Waiting& waiting : waiting_) beams += waiting.scan->getScanSize();
   return beams >= kMostWaitingBeams;
+}
+
+bool ReadingAssembler::isOfFirstSensor(const CObservationOdometry& odometry) {
+  if (!odometryLabel_) odometryLabel_ = odometry.sensorLabel;
+  return odometry.sensorLabel == *odometryLabel_;
 }
 
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {

@@ -45,12 +45,13 @@ constexpr size_t kMostEarly = 5;
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used; the last five readings before the first odometry reading use that one,
-/// and earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the
-/// odometry (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over
-/// 10 m apart never form one reading. Scans without beams or with a sensor pose that is not finite are
-/// dropped. Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked
-/// invalid. ScanGrouper decides which scans are used and which of them form one reading.
+/// previous odometry reading is used. Odometry readings of other sensors than the first one's (by its label)
+/// are ignored, since each has a frame of its own. The last five readings before the first odometry reading
+/// use that one, and earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump
+/// of the odometry (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans
+/// taken over 10 m apart never form one reading. Scans without beams or with a sensor pose that is not finite
+/// are dropped. Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are
+/// marked invalid. ScanGrouper decides which scans are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -86,6 +87,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
   bool hasOdometryReadings() const { return source_ == OdometrySource::readings; }
   bool hasManyBeams() const;
+  bool isOfFirstSensor(const mrpt::obs::CObservationOdometry& odometry);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::obs::CObservationOdometry& odometry);
@@ -119,6 +121,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
       collected_;                                    ///< with odometry
   std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
   std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
+  std::optional<std::string> odometryLabel_;         ///< of the sensor whose odometry is used
   OdometryJumps odometryJumps_;
   size_t jumps_ = 0, dropped_ = 0;
   double lastOdometryTime_ = 0;

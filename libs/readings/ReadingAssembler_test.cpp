@@ -151,6 +151,23 @@ TEST(ReadingAssembler, ImpossibleOdometryIsSkipped) {
   EXPECT_NEAR(endOf(utm).x, 1, 1e-6);
 }
 
+/// Each sensor has its own frame.
+TEST(ReadingAssembler, OdometryOfASecondSensorIsIgnored) {
+  test::Log log;
+  for (int i = 0; i < 10; ++i) {
+    const auto visual = odometry(10.05 + 0.1 * i, {-3, 0.1 * i, 1});
+    visual->sensorLabel = "VISUAL";
+    for (const auto& each : test::Log{odometry(10 + 0.1 * i, {0.1 * i, 0, 0}), scan(10 + 0.1 * i), visual})
+      log.push_back(each);
+  }
+  const auto readings = assembled(log);
+  ASSERT_EQ(readings.size(), 10u);
+  for (size_t i = 1; i < readings.size(); ++i) {
+    EXPECT_NEAR(readings[i].motion.x, 0.1, 1e-6);
+    EXPECT_NEAR(readings[i].motion.y, 0, 1e-6);
+  }
+}
+
 /// Counters that restart, and an outlier.
 TEST(ReadingAssembler, JumpsFasterThanTheRobotAreNoMotion) {
   test::Log log;

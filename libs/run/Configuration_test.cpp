@@ -102,10 +102,20 @@ TEST_F(ConfigurationTest, ARepeatedKeyGivesAWarning) {
   EXPECT_THAT(configuration.warnings, testing::Contains("repeated key `resolution`: " + ini +
                                                         ", line 4, section [grid]; its last value is used"));
   EXPECT_EQ(configuration.filter.grid.resolution, 0.1);
+  folder.write("run.ini", "[grid]\nresolution = 0.2\nRESOLUTION = 0.1\n");
+  EXPECT_THAT(Configuration(ini, {}).warnings, testing::ElementsAre(HasSubstr("repeated key `RESOLUTION`")));
   folder.write("run.ini", "[grid]\nresolution = 0.2\n[run]\n[grid]\nresolution = 0.1\n");
   const Configuration joined(ini, {});
   EXPECT_THAT(joined.warnings, testing::IsEmpty());
   EXPECT_EQ(joined.filter.grid.resolution, 0.1);
+}
+
+/// MRPT joins a line that ends in a backslash with the next one, also a comment.
+TEST_F(ConfigurationTest, ACommentDoesNotHideTheNextLine) {
+  for (const char* const comment : {"# C:\\logs\\", " ; C:\\logs\\", "// C:\\logs\\\\", "# C:\\logs\\\r"}) {
+    folder.write("run.ini", std::string("[grid]\n") + comment + "\nresolution = 0.2\n");
+    EXPECT_EQ(Configuration(ini, {}).filter.grid.resolution, 0.2) << comment;
+  }
 }
 
 TEST_F(ConfigurationTest, OverlongLines) {

@@ -182,8 +182,8 @@ std::string FilterRun::placeNote() const {
   const RunOptions& run = configuration_.run;
   std::string map = run.continueFrom.empty() ? "floor plan" : "map of " + run.continueFrom;
   if (!run.priorPlan.empty()) map += " " + run.priorPlan;  // a session does not name it
-  return "place not found in the " + map + ": " +
-         counted(scans_, "scan(s), mapped in their own frame; --start X,Y,DEG gives the place");
+  return "place not found in the " + map + ": " + counted(scans_, "scan(s), mapped in their own frame; ") +
+         (run.start ? "they do not fit at --start" : "--start X,Y,DEG gives the place");
 }
 
 void FilterRun::record(double timestamp, Clock::time_point stepStart) {

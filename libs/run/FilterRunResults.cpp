@@ -46,12 +46,13 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
   return all;
 }
 
-/// Returns the covariances of poses in a fixed map: spread of the particles plus 1 cm and 0.1 deg for a scan
-/// match.
-std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances) {
-  const double angle = mrpt::DEG2RAD(0.1);
+/// Returns the covariances of poses in a fixed map: spread of the particles plus that of a scan match, 1 cm
+/// (in larger cells a fifth of one) and 0.1 deg.
+/// @param cell  m
+std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances, double cell) {
+  const double position = std::max(0.01, cell / 5), angle = mrpt::DEG2RAD(0.1);
   for (PoseCovariance& covariance : covariances)
-    covariance.diagonal() += Eigen::Vector3d(1e-4, 1e-4, angle * angle);
+    covariance.diagonal() += Eigen::Vector3d(position * position, position * position, angle * angle);
   return covariances;
 }
 
@@ -74,7 +75,7 @@ FinishedRun FilterRun::finish(const std::string& file, const readings::RawlogSum
   folder_.write("trajectory.tum", [&](std::ostream& out) { files::saveTum(best.trajectory, out); });
   if (localizer_) {
     finished.verdict = verdictOfLocalization();
-    writeCovarianceFile(best, inFixedMap(particleCovariances_));
+    writeCovarianceFile(best, inFixedMap(particleCovariances_, configuration_.filter.grid.resolution));
   } else {
     writeMap(finished, best, file, log);
   }

@@ -102,6 +102,10 @@ class DxfWalls {
   void setUnit(double metre) { metre_ = metre; }
   void add(const Entity& entity) {
     if (entity.layer == "OPENINGS") return;
+    // Flat entities are drawn in the plane of their extrusion, mirrored if it points down. That of a POLYLINE
+    // holds for its vertices.
+    if (entity.type != "VERTEX" && entity.type != "SEQEND")
+      side_ = entity.type != "LINE" && entity.at(230) < 0 ? -1 : 1;
     if (entity.type == "LINE") addWall({entity.at(10), entity.at(20)}, {entity.at(11), entity.at(21)});
     if (entity.type == "CIRCLE") addArc({entity.at(10), entity.at(20)}, entity.at(40), 0, 2 * M_PI);
     if (entity.type == "ARC") addArcOf(entity);
@@ -150,16 +154,18 @@ class DxfWalls {
     };
     for (int i = 0; i < chords; ++i) addWall(at(i), at(i + 1));
   }
-  void addWall(const TPoint2D& a, const TPoint2D& b) { lines_.add(a * metre_, b * metre_); }
+  void addWall(const TPoint2D& a, const TPoint2D& b) { lines_.add(inMetres(a), inMetres(b)); }
+  TPoint2D inMetres(const TPoint2D& p) const { return {side_ * p.x * metre_, p.y * metre_}; }
 
   PlanLines& lines_;
   double metre_ = 1;
+  double side_ = 1;               ///< -1: seen from below
   std::vector<Vertex> vertices_;  ///< of the POLYLINE being read
   bool isClosed_ = false;
 };
 
 bool isGeometry(int code) {
-  static const std::set<int> codes{10, 11, 20, 21, 40, 42, 50, 51, 70};
+  static const std::set<int> codes{10, 11, 20, 21, 40, 42, 50, 51, 70, 230};
   return codes.count(code) > 0;
 }
 

@@ -95,6 +95,23 @@ TEST_F(PlanFiles, DxfOfOthersHasPolylinesAndUnits) {
   EXPECT_NEAR(lines[3].end.x, 1, 1e-9);
 }
 
+/// A flat entity whose extrusion points down is mirrored; a LINE is not flat.
+TEST_F(PlanFiles, DxfOfOthersHasMirroredEntities) {
+  const std::string down = "210\n0\n220\n0\n230\n-1\n";
+  const std::vector<PlanLine> lines =
+      load("MIRRORED.DXF",
+           "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n2\n70\n0\n10\n1\n20\n2\n10\n4\n20\n2\n" + down +
+               "0\nPOLYLINE\n8\n0\n70\n0\n" + down +
+               "0\nVERTEX\n8\n0\n10\n1\n20\n2\n0\nVERTEX\n8\n0\n10\n4\n20\n2\n0\nSEQEND\n" +
+               "0\nLINE\n8\n0\n10\n-1\n20\n2\n11\n-4\n21\n2\n" + down + "0\nENDSEC\n0\nEOF\n");
+  ASSERT_EQ(lines.size(), 3u);
+  for (const PlanLine& line : lines) {
+    EXPECT_NEAR(line.start.x, -1, 1e-9);
+    EXPECT_NEAR(line.end.x, -4, 1e-9);
+    EXPECT_NEAR(line.end.y, 2, 1e-9);
+  }
+}
+
 TEST_F(PlanFiles, DxfInEveryUnitIsReadInMetres) {
   const auto lengthIn = [this](const std::string& unit) {
     const std::vector<PlanLine> lines =

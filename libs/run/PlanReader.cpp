@@ -1,4 +1,6 @@
 // Reads floor plans.
+#include <mrpt/system/string_utils.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -75,10 +77,11 @@ bool endsWith(const std::string& file, const std::string& end) {
 
 std::vector<PlanLine> planOf(const std::string& text, const std::string& file) {
   PlanLines lines(file);
+  const std::string name = mrpt::system::lowerCase(file);
   try {
-    if (endsWith(file, ".dxf"))
+    if (endsWith(name, ".dxf"))
       readPlanDxf(text, lines);
-    else if (endsWith(file, ".svg"))
+    else if (endsWith(name, ".svg"))
       readSvg(text, lines);
     else
       readGeoJson(text, lines);

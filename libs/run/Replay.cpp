@@ -51,6 +51,7 @@ class LogPass {
         if (!why.empty()) throw std::runtime_error(why);
     if (run.scans() == 0 && !cut.empty()) throw std::runtime_error(cut + ", before the first scan");
     outcome.incomplete = cut.empty() ? run.placeNote() : cut + "; results cover the log up to this point";
+    if (!cut.empty() && !run.placeNote().empty()) outcome.incomplete += "; " + run.placeNote();
     outcome.warnings = readings::warningsOf(log_, file);
     for (const std::string& warning : run.warnings()) outcome.warnings.push_back(warning);
     const FinishedRun finished = run.finish(file, log_, {{"second_run", isRepeated_}});

@@ -21,7 +21,7 @@ struct SensorOptions : Options {
   void describeCommon(OptionTable& t, const std::string& name, const std::string& origin) {
     t.add("driver", driver, name);
     t.add("sensorLabel", sensorLabel, "label of the observations");
-    t.add("process_rate", processRate, 0.1, 1000, "1/s", "polling rate of the port; " + origin);
+    t.add("process_rate", processRate, 10, 1000, "1/s", "polling rate of the port; " + origin);
     t.add("max_queue_len", maxQueueLength, 1, 1000000, "MRPT's: maximum number of queued observations");
     t.add("grab_decimation", grabDecimation, 0, 1000000, "MRPT's: keep one observation in this many; 0: all");
     t.add("rawlog-grabber-ignore", isIgnored, "MRPT's: true: ignore this sensor");

@@ -14,6 +14,7 @@
 
 #include "base/Clock.h"
 #include "base/Errors.h"
+#include "base/Options.h"
 #include "files/ObjectReader.h"
 #include "live/OdometryContinuity.h"
 #include "sensors/Lms100.h"
@@ -53,6 +54,24 @@ void checkLaserAddress(const mrpt::config::CConfigFileMemory& config, const std:
       "`" + address + "` is not a private address", "section [" + section + "], key `ip_address`",
       "expected the laser in the robot's own network, such as 192.168.0.1, or trust_address = true");
 }
+
+/// The keys that are read here, of a sensor of any driver. The others are the driver's.
+struct CommonOptions : Options {
+  double timeOffset = 0;  ///< s
+  bool isRightToLeft = false;
+
+  void describe(OptionTable& t) override {
+    t.add("time_offset", timeOffset, -10, 10, "s", "added to the observations' timestamps");
+    t.add("right_to_left", isRightToLeft, "beam order as seen from its upper side");
+  }
+  void load(const mrpt::config::CConfigFileMemory& config, const std::string& section) {
+    mrpt::config::CConfigFileMemory known;
+    for (const Option& option : table())
+      if (config.keyExists(section, option.key))
+        known.write(section, option.key, config.read_string(section, option.key, ""));
+    loadFromConfigFile(known, section);
+  }
+};
 
 std::string oneLine(std::string text) {
   text.erase(text.find_last_not_of(" \n") + 1);
@@ -205,9 +224,10 @@ SensorThread::SensorThread(const mrpt::config::CConfigFileMemory& config, const 
         "expected Lms100, PioneerOdometry or one of MRPT's, such as CHokuyoURG, CSickLaserSerial");
   if (work_->driver == "CLMS100Eth") checkLaserAddress(config, section);
   try {
-    work_->timeOffset = config.read_double(section, "time_offset", 0);
-    if (config.keyExists(section, "right_to_left"))
-      work_->rightToLeft = config.read_bool(section, "right_to_left", false);
+    CommonOptions common;
+    common.load(config, section);
+    work_->timeOffset = common.timeOffset;
+    if (config.keyExists(section, "right_to_left")) work_->rightToLeft = common.isRightToLeft;
     if (!(work_->make()->getProcessRate() > 0))
       throw InputError("no rate", where + ", key `process_rate`", "expected a rate above 0 Hz");
   } catch (const InputError&) {

@@ -132,9 +132,13 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
     // A robot that was carried drives on, to where the scans before it show little.
     return !contradicting_.empty() && beamShares(scan.matchedBeams, pose, recent).explained < kExplained;
   };
-  if (isContradicted())
-    found =
+  if (isContradicted()) {
+    std::vector<Hypothesis> turned =
         unrefuted(searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan));
+    // A scan fits where the robot is; where a map is off, it may fit better elsewhere, but badly.
+    const BeamShares shares = beamShares(scan.matchedBeams, turned[0].match.pose, best.grid);
+    if (refutedShare(shares) <= kUncontradicted) found = std::move(turned);
+  }
   if (!isContradicted()) {
     contradicting_.clear();
     return found;

@@ -30,6 +30,7 @@ constexpr size_t kSearchedScans = 80;               // of these that are searche
 constexpr size_t kEvery = 4;                        // of these to the next search
 constexpr size_t kFitted = 40;                      // places, best of all scales
 constexpr double kLeastScores[] = {0.6, 0.4, 0.2};  // of a place; lowered until there are kFitted
+constexpr double kFarthestWall = 1000;              // m from the origin: a scale off by 0.1 % moves it by 1 m
 // The robot is found at a place if, in two searches in succession,
 constexpr double kLeastShare = 0.65;  // of the points lie on walls,
 constexpr double kPlanMargin = 4;     // and more than at any other place, by these standard deviations;
@@ -120,6 +121,10 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
   if (std::none_of(walls_.begin(), walls_.end(), isLong))
     throw InputError("floor plan without walls of 1 m", "option --prior-plan",
                      "expected coordinates in metres");
+  for (const PlanLine& wall : walls_)
+    if (std::max(wall.start.norm(), wall.end.norm()) > kFarthestWall)
+      throw InputError("floor plan far from its origin", "option --prior-plan",
+                       "expected coordinates within 1 km of (0, 0), in metres: its scale is unknown");
   if (configuration.filter.isAuxiliary())
     throw InputError("MRPT's auxiliary filters do not take a floor plan",
                      "section [particle_filter], key `proposal`", "expected improved or standard");
@@ -143,11 +148,13 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
   if (start_) start_ = *start_ + odometry;
   if (scans.empty()) return;
   if (!recent_.add(std::exchange(odometry_, {}), prepare_(scans))) return;
+  ++added_;
   if (start_) {
-    if (!recent_.scans().back().scan.matchedBeams.rays.empty()) accept(fitAtStart());
+    if (recent_.scans().back().scan.matchedBeams.rays.empty()) return;
+    if (const PlanFit fit = fitAtStart(); fit.share() >= kLeastShare) accept(fit);
     return;
   }
-  if (++added_ % kEvery != 0) return;
+  if (added_ % kEvery != 0) return;
   const TPose2D now = recent_.scans().back().pose;
   const std::optional<PlanFit> fit = fitAnywhere();
   if (fit && last_ && !isElsewhere(*fit, {last_->pose + (now - at_), last_->scale})) accept(*fit);

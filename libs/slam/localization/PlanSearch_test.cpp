@@ -134,6 +134,24 @@ TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
   expectNear(*search.found(), truth);
 }
 
+TEST(PlanSearch, AWrongStartIsNotAccepted) {
+  for (const TPose2D& start : {TPose2D(100, 100, 0), TPose2D(3, -2, 0.7) + TPose2D(3, 0.5, 1.4)}) {
+    RandomStream random(1, 0, 0);
+    PlanSearch search(configuration(), drawn(test::room(), 1), start);
+    TPose2D at(3, 0.5, 0.4);
+    for (int i = 0; i < 3; ++i, at = at + TPose2D(0, 0, 0.4))
+      search.process(i == 0 ? TPose2D() : TPose2D(0, 0, 0.4), roomScan(at, random));
+    EXPECT_FALSE(search.found()) << start.asString();
+  }
+}
+
+// A drawing in a country's coordinates.
+TEST(PlanSearch, APlanFarFromItsOriginIsRejected) {
+  std::vector<PlanLine> plan = drawn(test::room(), 1, {350000, 450000, 0});
+  EXPECT_THROW(PlanSearch(configuration(), plan, {}), InputError);
+  EXPECT_THROW(PlanSearch(configuration(), plan, TPose2D(350000, 450000, 0)), InputError);
+}
+
 // As of a laser that warms up while the robot drives.
 TEST(PlanSearch, MovesTheStartAlongUntilAScanHasReturns) {
   RandomStream random(1, 0, 0);

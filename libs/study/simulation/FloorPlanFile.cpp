@@ -94,7 +94,7 @@ void WallBuilder::add(const Record& record) {
 
 /// Removes the section from..to from the straight walls along it.
 void WallBuilder::cut(const TPoint2D& from, const TPoint2D& to, const Record& record) {
-  double found = 0;
+  std::vector<std::pair<double, double>> covered;  // m from `from`
   std::vector<Wall> kept;
   for (const Wall& wall : walls_) {
     const TPoint2D along = (wall.end - wall.start) * (wall.isArc() ? 0 : 1 / wall.length());
@@ -106,13 +106,17 @@ void WallBuilder::cut(const TPoint2D& from, const TPoint2D& to, const Record& re
       kept.push_back(wall);
       continue;
     }
-    found += high - low;
+    covered.emplace_back(std::minmax(std::abs(low - s), std::abs(high - s)));
     if (low > kTolerance) kept.push_back(Wall::straight(wall.start, wall.start + along * low));
     if (high < wall.length() - kTolerance)
       kept.push_back(Wall::straight(wall.start + along * high, wall.end));
   }
+  std::sort(covered.begin(), covered.end());
+  double reach = 0;
+  for (const auto& [begin, end] : covered)
+    if (begin < reach + kTolerance) reach = std::max(reach, end);
   const double width = (to - from).norm();
-  if (width < kTolerance || found < width - kTolerance)
+  if (width < kTolerance || reach < width - kTolerance)
     throw InputError("`" + record.word + "` is on no wall", record.where,
                      "expected both ends on the same straight wall, at least 1 mm apart");
   walls_ = std::move(kept);
