@@ -47,10 +47,11 @@ nlohmann::ordered_json json(const std::vector<DoubtfulPlace>& places, const std:
 }
 
 /// Returns the covariances of poses in a fixed map: spread of the particles plus that of a scan match, 1 cm
-/// (in larger cells a fifth of one) and 0.1 deg.
+/// and 0.1 deg in cells of 5 cm, and as much more in larger ones.
 /// @param cell  m
 std::vector<PoseCovariance> inFixedMap(std::vector<PoseCovariance> covariances, double cell) {
-  const double position = std::max(0.01, cell / 5), angle = mrpt::DEG2RAD(0.1);
+  const double scale = std::max(1.0, cell / 0.05), position = 0.01 * scale,
+               angle = mrpt::DEG2RAD(0.1) * scale;
   for (PoseCovariance& covariance : covariances)
     covariance.diagonal() += Eigen::Vector3d(position * position, position * position, angle * angle);
   return covariances;

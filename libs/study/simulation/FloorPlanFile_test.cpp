@@ -105,7 +105,7 @@ TEST(FloorPlanFile, ErrorsNameTheLineAndWhatWasExpected) {
   EXPECT_THAT(errorOf("wall 0 0 10 0\nwall 0 0 10 0\ndoor 9.5 0 10.5 0\n"), HasSubstr("on no wall"));
   EXPECT_THAT(errorOf("wall 0 0 5 0\nwall 4 0 5 0\nwall 5.5 0 9 0\ndoor 4.5 0 6 0\n"),
               HasSubstr("on no wall"));
-  EXPECT_EQ(errorOf("wall 5 0 9 0\nwall 5 0 1 0\nwall 0 1 9 1\ndoor 4 0 6 0\n"), "");
+  EXPECT_EQ(errorOf("wall 5 0 9 0\nwall 5 0 1 0\nwall 0 1 9 1\ndoor 4 0 6 0\n"), "no error");
   EXPECT_THAT(errorOf("wall 0 0 10 0\ndoor 4 0 5 0 0.2\n"), HasSubstr("on no wall"));
   EXPECT_THAT(errorOf("wall 0 0 10 0\nrecess 4 0 4 0 0.2\n"), HasSubstr("on no wall"));
   EXPECT_THAT(errorOf("wall 0 0 10 0\nrecess 4 0 5 0 0\n"), HasSubstr("DEPTH"));
