@@ -21,6 +21,7 @@ constexpr size_t kSlipPlaces = 8;        // starting points of the local optimis
 constexpr double kContradicted = 0.35;   // share of the beams: the robot is not there
 constexpr double kUncontradicted = 0.2;  // share of the beams: it may be
 constexpr double kRefuted = 0.1;         // share of the beams known to recent scans: they contradict the pose
+constexpr double kMostlyRefuted = 0.5;   // share of the beams known to recent scans: the odometry is wrong
 constexpr double kKnown = 0.2;           // share of the beams: fewer are no evidence
 constexpr double kExplained = 0.5;       // share of the beams that recent scans explain: it was not carried
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
@@ -135,9 +136,10 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::search(const TPose2D& odomet
   if (isContradicted()) {
     std::vector<Hypothesis> turned =
         unrefuted(searchWindow(expected.mean, {options_.slipDistance, M_PI}, best, expected, usual, scan));
-    // A scan fits where the robot is; where a map is off, it may fit better elsewhere, but badly.
+    // A scan fits where the robot is; where a map is off, it may fit better elsewhere, but badly. A robot
+    // that was carried is nowhere near, and the scans before it show that.
     const BeamShares shares = beamShares(scan.matchedBeams, turned[0].match.pose, best.grid);
-    if (refutedShare(shares) <= kUncontradicted) found = std::move(turned);
+    if (asExpected > kMostlyRefuted || refutedShare(shares) <= kUncontradicted) found = std::move(turned);
   }
   if (!isContradicted()) {
     contradicting_.clear();
