@@ -31,10 +31,10 @@ struct StepMotion {
 /// A robot that returns to a place from which its path has drifted contradicts the map, too, and may fit
 /// better at another place that looks the same; loop closing corrects the drift. So a scan is also compared
 /// with a map of the newest scans alone: if it agrees with them where the odometry says, a pose where it
-/// contradicts them is no slip, and only a scan that contradicts them is searched for at all headings, where
-/// the map must not contradict it, and in the whole map. Where they know less than a fifth of the beams at
-/// the odometry's pose, as with a short range, they exclude nothing; if they know more there, a pose where
-/// they know less counts as contradicted.
+/// contradicts them is no slip, and only a scan that contradicts them is searched for at all headings and in
+/// the whole map. Unless they refute the odometry for most beams, a heading at which the map contradicts the
+/// scan is not taken. Where they know less than a fifth of the beams at the odometry's pose, as with a short
+/// range, they exclude nothing; if they know more there, a pose where they know less counts as contradicted.
 ///
 /// Beams at people are left out, as seen from where the odometry says the robot is; but not where the whole
 /// map is searched, since a robot that was carried is elsewhere.
