@@ -23,11 +23,10 @@ namespace hybrid_slam {
 class PlanSearch {
  public:
   /// @param start  pose of the robot (m, rad; frame of the plan) at the first scan, right within 0.5 m and
-  ///               15 deg; the first scan of which 65 % of the points lie on walls there is
-  ///               fitted; empty: anywhere
+  ///               15 deg; the first scan of which 65 % of the points lie on walls there is fitted; empty:
+  ///               anywhere
   /// @throws InputError for a plan without walls of 1 m, with walls over 1 km from its origin or of more than
-  /// 2^23 cells (2^25 with a start), and
-  ///         for MRPT's auxiliary filters
+  ///         2^23 cells (2^25 with a start), and for MRPT's auxiliary filters
   PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
              std::optional<mrpt::math::TPose2D> start);
 
