@@ -18,14 +18,19 @@ struct TopicArguments {
   bool wantsList = false;
 
   /// Adds --topic, --odometry-topic and --list.
-  void add(CLI::App& app) {
+  /// @param choosesLabels  of the sensors of other logs than bags, too
+  void add(CLI::App& app, bool choosesLabels) {
     app.add_option("--topic", bag.topics,
-                   "bag: topic of a laser's scans, repeatable (default: all topics with scans)")
+                   choosesLabels
+                       ? "label of a laser, bag: topic of its scans; repeatable (default: all)"
+                       : "bag: topic of a laser's scans, repeatable (default: all topics with scans)")
         ->type_name("TOPIC")
         ->allow_extra_args(false);
-    app.add_option("--odometry-topic", bag.odometryTopic,
-                   "bag: topic of the odometry, nav_msgs/Odometry or transforms (default: the only one with "
-                   "nav_msgs/Odometry, else the transforms)")
+    app.add_option(
+           "--odometry-topic", bag.odometryTopic,
+           std::string(choosesLabels ? "label of the odometry (default: that of the first reading); " : "") +
+               "bag: topic of the odometry, nav_msgs/Odometry or transforms (default: the only one with "
+               "nav_msgs/Odometry, else the transforms)")
         ->type_name("TOPIC");
     app.add_flag("--list", wantsList, "print the topics of a bag: messages, name, type");
   }

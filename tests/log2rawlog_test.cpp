@@ -89,6 +89,15 @@ TEST_F(Log2Rawlog, ClosedStandardDescriptorsHarmNoResult) {
   EXPECT_EQ(contentOf(rawlog), expected);
 }
 
+TEST_F(Log2Rawlog, ChoosesAmongTheTopicsOfBagsOnly) {
+  const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5"));
+  for (const std::string option : {"--topic", "--odometry-topic"}) {
+    EXPECT_EQ(convert(log, option + " /odom"), 2);
+    EXPECT_EQ(err, "log2rawlog: error: " + option + " for a log without topics: " + log +
+                       "; expected a bag; hybrid-slam chooses among the sensors of other logs\n");
+  }
+}
+
 TEST_F(Log2Rawlog, ConvertsAndPrintsASummary) {
   const std::string log = folder.write("in.clf", scanRow("10") + scanRow("12.5") + "SYNC tag\n");
   EXPECT_EQ(convert(log), 0);

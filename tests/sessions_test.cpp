@@ -357,6 +357,8 @@ TEST_F(Sessions, OptionsThatExcludeEachOther) {
   expectRefused("--checkpoint-every 0", "--checkpoint-every");
   expectRefused("--checkpoint-every nan", "is not a number in 0.001..1e+09");
   expectRefused("--checkpoint-every 1 --localize x", "--checkpoint-every with --localize");
+  expectRefused("--refine 2 --localize x", "--refine with --localize");
+  expectRefused("--refine 2 -m linemap", "--refine with method linemap");
   ASSERT_EQ(replay(log), 0) << err;
   const std::string other = folder.path("other");
   EXPECT_EQ(run("'" + log + "' -o '" + other + "' -m stock --continue '" + session + "'"), 2);

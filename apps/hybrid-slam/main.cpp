@@ -41,7 +41,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.add_option("--refine", line.refine,
                  "after the run, match every scan to the final map and rebuild the map, N times (default: 1)")
       ->type_name("N");
-  line.topics.add(app);
+  line.topics.add(app, true);
   line.session.addResume(app);
   line.session.addMap(app);
   addSettings(app, line.settings);
@@ -69,6 +69,17 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
   return settings;
 }
 
+/// Rejects --refine where it would do nothing.
+void expectRefinable(const run::RunOptions& run) {
+  using Method = run::RunOptions::Method;
+  if (run.refine > 0 && !run.localizeIn.empty())
+    throw InputError("--refine with --localize", "command line",
+                     "expected one: localisation leaves the map as it is");
+  if (run.refine > 0 && run.method != Method::hybrid && run.method != Method::general)
+    throw InputError("--refine with method " + nameOf(run.method), "command line",
+                     "expected method hybrid or general");
+}
+
 /// Rejects a session given as the log.
 void expectNoSession(const std::string& log) {
   if (run::isSession(log))
@@ -87,6 +98,7 @@ int execute(const CommandLine& line, const std::vector<std::string>& settings) {
   expectKept(line.output, configuration.run.output);
   configuration.run.overwrite = line.overwrites;
   line.session.addTo(configuration.run);
+  if (line.refine > 0) expectRefinable(configuration.run);
   if (configuration.run.rawlog.empty() && line.session.resume.empty())
     return fail(2, "no log: command line; " + usage + ", or [run] rawlog");
   warn(configuration.warnings);

@@ -93,7 +93,7 @@ void describe(CLI::App& app, CommandLine& line) {
   app.set_version_flag("--version", "log2rawlog " HYBRID_SLAM_VERSION);
   app.add_option("input", line.input, logMeans())->required()->type_name("in.clf[.gz]|in.bag|...");
   app.add_option("output", line.output, "the rawlog to write")->type_name("out.rawlog");
-  line.topics.add(app);
+  line.topics.add(app, false);
   app.add_option("--format", line.format, "log format (default: detected from the content)")
       ->check(CLI::IsMember(keys));
   app.add_option("--time", line.time,

@@ -83,6 +83,10 @@ LogSummary convertLog(const std::string& logPath, const std::string& rawlogPath,
     summary.notes = log.plan().notes;
     return summary;
   }
+  if (!bag.topics.empty() || !bag.odometryTopic.empty())
+    throw InputError(
+        bag.topics.empty() ? "--odometry-topic for a log without topics" : "--topic for a log without topics",
+        logPath, "expected a bag; hybrid-slam chooses among the sensors of other logs");
   if (isRawlog(logPath)) {
     RawlogLog log(logPath, options);
     LogSummary summary = convert(log, source, rawlogPath, options);

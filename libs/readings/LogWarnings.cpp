@@ -27,7 +27,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.wrongOdometry, "impossible odometry reading(s): not a number, or beyond 1e8 m or 1e6 rad",
       "skipped");
   add(log.otherOdometry, "odometry reading(s) of other sensors than `" + log.odometryLabel + "`",
-      "not used; `rawlog-edit --remove-label` removes a sensor");
+      "not used; --odometry-topic chooses a sensor");
   add(log.noOdometry, "action(s) without odometry", "taken as no motion");
   add(log.jumps, "odometry jump(s) of over 100 m or far above the robot's speed", "taken as no motion");
   add(log.wrongSweeps,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "base/Errors.h"
@@ -30,10 +31,16 @@ std::string placeOf(const LogReader& reader, const std::string& file) {
 
 using Uses = std::map<std::string, std::map<ScanGrouper::Use, size_t>>;  ///< scans of each laser, by use
 
-std::string quotedList(const Uses& lasers) {
+std::string quotedList(const std::set<std::string>& labels) {
   std::string all;
-  for (const auto& [label, uses] : lasers) all += (all.empty() ? "`" : ", `") + label + "`";
-  return all;
+  for (const std::string& label : labels) all += (all.empty() ? "`" : ", `") + label + "`";
+  return all.empty() ? "none" : all;
+}
+
+std::set<std::string> labelsOf(const Uses& lasers) {
+  std::set<std::string> labels;
+  for (const auto& laser : lasers) labels.insert(laser.first);
+  return labels;
 }
 
 /// Notes the lasers of which no scan is used.
@@ -59,7 +66,8 @@ void InputOptions::describe(OptionTable& t) {
         "X, Y, YAW[, ROLL] (m, deg): pose of the only laser on the robot, instead of that in the log; "
         "ROLL 180: mounted upside down; auto: as the log states");
   t.add("odometry_topic", odometryTopic,
-        "bag: topic of the odometry; empty: the only one, or the transforms");
+        "sensor label of the odometry to use; empty: that of the first reading (bag: topic; empty: the only "
+        "one, or the transforms)");
   t.add("require_odometry", requireOdometry,
         "false: odometry is ignored; motion is predicted from the previous step and corrected by scan "
         "matching");
@@ -112,7 +120,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   const auto laserPose = laserPoseIn(options.laserPose);
   ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
   ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap, SweepTimes(0),
-                             laserPose);  // to its first reading
+                             laserPose, summary.bag ? "" : options.odometryTopic);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
   Uses uses;
@@ -127,14 +135,18 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
       note(wrong, reader.entry());
   };
   std::optional<TPose2D> first;
+  std::set<std::string> odometryLabels;
+  if (!summary.bag) summary.odometryLabel = options.odometryTopic;
   bool actionsMove = false, readingsMove = false;
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
     noteOdometry(isPossible(pose), summary.hasOdometryReadings, summary.wrongOdometry);
     if (!isPossible(pose)) return;
-    if (!first) first = pose, summary.odometryLabel = odometry.sensorLabel;
+    if (odometryLabels.size() < kMostLabels) odometryLabels.insert(odometry.sensorLabel);
+    if (summary.odometryLabel.empty()) summary.odometryLabel = odometry.sensorLabel;
     if (odometry.sensorLabel != summary.odometryLabel) return note(summary.otherOdometry, reader.entry());
+    if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
     readingsMove |= pose != *first;
   };
@@ -212,7 +224,10 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   for (const std::string& label : wanted)
     if (uses.count(label) == 0)
       throw InputError("no scans of the laser `" + label + "`", file,
-                       "[input] sensor_label: the log has " + quotedList(uses));
+                       "[input] sensor_label: the log has " + quotedList(labelsOf(uses)));
+  if (!summary.bag && !options.odometryTopic.empty() && odometryLabels.count(options.odometryTopic) == 0)
+    throw InputError("no odometry readings of the sensor `" + options.odometryTopic + "`", file,
+                     "--odometry-topic or [input] odometry_topic: the log has " + quotedList(odometryLabels));
   if (summary.scans == 0 && summary.misplaced.count > 0)
     throw InputError("the laser is not on the robot", "sensor `" + uses.begin()->first + "` in " + file,
                      "expected a sensor pose within 100 m of the robot");
@@ -232,7 +247,7 @@ RawlogSource::RawlogSource(const std::string& file, const InputOptions& options,
     : assembler_(labelsOf(options.sensorLabel), odometrySource(options, summary.hasOdometryReadings),
                  options.maxOdometryGap,
                  sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings),
-                 laserPoseIn(options.laserPose)),
+                 laserPoseIn(options.laserPose), summary.odometryLabel),
       file_(file),
       reader_(file, summary.bag) {}
 

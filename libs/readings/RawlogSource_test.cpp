@@ -188,7 +188,29 @@ TEST(RawlogSource, SaysWhichOdometryItUses) {
   EXPECT_THAT(
       warningsOf(r.summary, "LOG"),
       testing::ElementsAre("4 odometry readings of other sensors than `ODOMETRY`: first at entry 3 of LOG; "
-                           "not used; `rawlog-edit --remove-label` removes a sensor"));
+                           "not used; --odometry-topic chooses a sensor"));
+  EXPECT_THAT(r.x, areNear({0, 0.1, 0.2, 0.3}));
+}
+
+TEST(RawlogSource, UsesTheNamedOdometry) {
+  test::Log log;
+  for (int i = 0; i < 4; ++i) {
+    const auto other = test::odometry(10 + i, {-5. * i, 0, 0});
+    other->sensorLabel = "VISUAL";
+    for (const auto& each : test::Log{test::odometry(10 + i, {0.1 * i, 0, 0}), scan(10 + i), other})
+      log.push_back(each);
+  }
+  InputOptions options;
+  options.odometryTopic = "VISUAL";
+  const Replayed r = replayed(log, options);
+  EXPECT_THAT(r.x, areNear({0, -5, -10, -15}));
+  EXPECT_EQ(r.summary.otherOdometry.count, 4u);
+  EXPECT_EQ(r.summary.otherOdometry.first, 1u);
+  options.odometryTopic = "GPS";
+  EXPECT_THAT(replayed(log, options).error, testing::HasSubstr("no odometry readings of the sensor `GPS`: "));
+  EXPECT_THAT(replayed(log, options).error, testing::HasSubstr("the log has `ODOMETRY`, `VISUAL`"));
+  const test::Log ofActions{test::action({1, 0, 0}), test::frame({scan(10)})};
+  EXPECT_THAT(replayed(ofActions, options).error, testing::HasSubstr("the log has none"));
 }
 
 TEST(RawlogSource, LasersThatTakeTurnsHaveTheDurationOfBoth) {

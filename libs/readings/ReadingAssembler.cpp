@@ -59,13 +59,16 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
 
 ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry,
                                    double maxOdometryGap, SweepTimes sweeps,
-                                   std::optional<mrpt::poses::CPose3D> laserPose)
+                                   std::optional<mrpt::poses::CPose3D> laserPose,
+                                   const std::string& odometryLabel)
     : grouper_(lasers, maxOdometryGap, laserPose.has_value()),
       sweeps_(std::move(sweeps)),
       laserPose_(std::move(laserPose)),
       track_(maxOdometryGap),
       maxOdometryGap_(maxOdometryGap),
-      source_(odometry) {}
+      source_(odometry) {
+  if (!odometryLabel.empty()) odometryLabel_ = odometryLabel;
+}
 
 std::optional<Reading> ReadingAssembler::next() {
   if (ready_.empty()) return std::nullopt;
@@ -90,7 +93,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
     if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) && isOfFirstSensor(*odometry))
+      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) && isOfUsedSensor(*odometry))
         takeOdometry(*odometry);
     } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
@@ -137,7 +140,7 @@ bool ReadingAssembler::hasManyBeams() const {
   return beams >= kMostWaitingBeams;
 }
 
-bool ReadingAssembler::isOfFirstSensor(const CObservationOdometry& odometry) {
+bool ReadingAssembler::isOfUsedSensor(const CObservationOdometry& odometry) {
   if (!odometryLabel_) odometryLabel_ = odometry.sensorLabel;
   return odometry.sensorLabel == *odometryLabel_;
 }

@@ -45,13 +45,13 @@ constexpr size_t kMostEarly = 5;
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used. Odometry readings of other sensors than the first one's (by its label)
-/// are ignored, since each has a frame of its own. The last five readings before the first odometry reading
-/// use that one, and earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump
-/// of the odometry (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans
-/// taken over 10 m apart never form one reading. Scans without beams or with a sensor pose that is not finite
-/// are dropped. Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are
-/// marked invalid. ScanGrouper decides which scans are used and which of them form one reading.
+/// previous odometry reading is used. Odometry readings of one sensor (by its label) are used, since each
+/// sensor has its own frame. The last five readings before the first odometry reading use that one, and
+/// earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the odometry
+/// (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over 10 m
+/// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped.
+/// Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
+/// ScanGrouper decides which scans are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -66,8 +66,10 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   /// @param maxOdometryGap  s; odometry is interpolated between readings no farther apart
   /// @param sweeps          durations of the scans; default: as the log states
   /// @param laserPose       of the only laser on the robot; default: as the scans state
+  /// @param odometryLabel   of the sensor whose odometry readings are used; empty: that of the first one
   ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry, double maxOdometryGap,
-                   SweepTimes sweeps = {}, std::optional<mrpt::poses::CPose3D> laserPose = {});
+                   SweepTimes sweeps = {}, std::optional<mrpt::poses::CPose3D> laserPose = {},
+                   const std::string& odometryLabel = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   /// Returns whether a scan is used, or the reason why not.
@@ -87,7 +89,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
   bool hasOdometryReadings() const { return source_ == OdometrySource::readings; }
   bool hasManyBeams() const;
-  bool isOfFirstSensor(const mrpt::obs::CObservationOdometry& odometry);
+  bool isOfUsedSensor(const mrpt::obs::CObservationOdometry& odometry);
   void takeOdometry(const mrpt::obs::CObservationOdometry& odometry);
   /// Transforms a reading to the frame of those before the first jump.
   mrpt::math::TPose2D withoutJumps(const mrpt::obs::CObservationOdometry& odometry);
