@@ -174,12 +174,29 @@ TEST_F(PlanFiles, BlocksOfADxfAreNoWalls) {
       1u);
 }
 
-TEST_F(PlanFiles, GeoJsonOfOthersHasPolygons) {
-  EXPECT_EQ(
-      load("a.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":null,)"
-                        R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}}]})")
-          .size(),
-      3u);
+TEST_F(PlanFiles, GeoJsonOfOthersHasPolygonsAndCollections) {
+  const auto wallsOf = [this](const std::string& geometry) {
+    return load("a.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":null,)"
+                             R"("geometry":)" +
+                                 geometry + "}]}")
+        .size();
+  };
+  const std::string polygon = R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]],[]]})";
+  const std::string two =
+      R"({"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[5,0],[6,0],[6,1],[5,0]]]]})";
+  EXPECT_EQ(wallsOf(polygon), 3u);
+  EXPECT_EQ(wallsOf(two), 6u);
+  EXPECT_EQ(wallsOf(R"({"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":[0,0]},)" +
+                    polygon + "," + two + "]}"),
+            9u);
+}
+
+TEST_F(PlanFiles, SvgLinesAreReadByTheNamesOfTheirAttributes) {
+  const auto walls =
+      load("a.svg", "<g id=\"walls\">\n<line id=\"7\" y2=\"4\" x2=\"3\" y1=\"2\" x1=\"1\"/>\n</g>");
+  ASSERT_EQ(walls.size(), 1u);
+  EXPECT_EQ(walls[0].start, mrpt::math::TPoint2D(1, 2));
+  EXPECT_EQ(walls[0].end, mrpt::math::TPoint2D(3, 4));
 }
 
 TEST_F(PlanFiles, WhatIsNoPlanIsAnInputError) {

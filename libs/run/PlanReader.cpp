@@ -24,15 +24,23 @@ constexpr char kExpectedPlan[] = "expected a floor plan: .geojson, .dxf, or .svg
 
 TPoint2D pointOf(const PlanJson& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
 
-void addString(const PlanJson& points, PlanLines& lines) {
-  for (size_t i = 1; i < points.size(); ++i) lines.add(pointOf(points.at(i - 1)), pointOf(points.at(i)));
+/// Adds a string of points, or the strings that the parts contain: rings of polygons, lines.
+void addStrings(const PlanJson& coordinates, PlanLines& lines) {
+  if (coordinates.empty()) return;
+  if (coordinates.at(0).empty() || !coordinates.at(0).at(0).is_number()) {
+    for (const PlanJson& part : coordinates) addStrings(part, lines);
+    return;
+  }
+  for (size_t i = 1; i < coordinates.size(); ++i)
+    lines.add(pointOf(coordinates.at(i - 1)), pointOf(coordinates.at(i)));
 }
 
 void addGeometry(const PlanJson& geometry, PlanLines& lines) {
   const std::string type = geometry.at("type");
-  if (type == "LineString") addString(geometry.at("coordinates"), lines);
-  if (type == "MultiLineString" || type == "Polygon")
-    for (const PlanJson& part : geometry.at("coordinates")) addString(part, lines);
+  if (type == "GeometryCollection")
+    for (const PlanJson& part : geometry.at("geometries")) addGeometry(part, lines);
+  else if (type != "Point" && type != "MultiPoint")
+    addStrings(geometry.at("coordinates"), lines);
 }
 
 void readGeoJson(const std::string& text, PlanLines& lines) {
@@ -50,6 +58,15 @@ void readGeoJson(const std::string& text, PlanLines& lines) {
 
 // SVG, as savePlanSvg writes it
 
+double attribute(const std::string& element, const std::string& name) {
+  const std::string before = " " + name + "=\"";
+  const size_t at = element.find(before);
+  double value = 0;
+  std::istringstream in(at == std::string::npos ? "" : element.substr(at + before.size()));
+  if (!(in >> value)) throw std::runtime_error("no attribute " + name + ": " + element);
+  return value;
+}
+
 void readSvg(const std::string& text, PlanLines& lines) {
   const size_t begin = text.find("<g id=\"walls\"");
   if (begin == std::string::npos) throw std::runtime_error("no group `walls`");
@@ -57,15 +74,7 @@ void readSvg(const std::string& text, PlanLines& lines) {
   std::istringstream in(text.substr(begin, end - begin));
   for (std::string row; std::getline(in, row);) {
     if (row.rfind("<line", 0) != 0) continue;
-    std::istringstream numbers(row);
-    double value[4];
-    for (double& each : value) {
-      numbers.ignore(row.size(), '"');
-      numbers >> each;
-      numbers.ignore(row.size(), '"');
-    }
-    if (!numbers) throw std::runtime_error("not a line: " + row);
-    lines.add({value[0], value[1]}, {value[2], value[3]});
+    lines.add({attribute(row, "x1"), attribute(row, "y1")}, {attribute(row, "x2"), attribute(row, "y2")});
   }
 }
 
