@@ -352,6 +352,10 @@ TEST_F(DeviceTest, WrongSettingsAreErrorsBeforeAnythingRuns) {
   EXPECT_THAT(errorOf("[A]\ndriver = CNoSuchThing\nprocess_rate = 5\n"),
               HasSubstr("unknown driver `CNoSuchThing`"));
   EXPECT_THAT(errorOf("[A]\ndriver = CHokuyoURG\nCOM_port_LIN = x\n"), HasSubstr("section [A]"));
+  const std::string ofMrpt = "[H]\ndriver = CHokuyoURG\nprocess_rate = 5\n";
+  EXPECT_THAT(errorOf(ofMrpt + "time_offset = soon\n"), HasSubstr("section [H], key `time_offset`"));
+  EXPECT_THAT(errorOf(ofMrpt + "time_offset = 11\n"), HasSubstr("-10..10"));
+  EXPECT_THAT(errorOf(ofMrpt + "right_to_left = maybe\n"), HasSubstr("section [H], key `right_to_left`"));
   const std::string laser = "[L]\ndriver = CLMS100Eth\nprocess_rate = 5\n";
   EXPECT_EQ(errorOf(laser), "no error") << "192.168.0.1";
   for (const char* address :

@@ -258,6 +258,12 @@ TEST_F(Sessions, MapsOnFromAKnownOrASearchedStart) {
       err, AllOf(testing::MatchesRegex("(.|\n)*hybrid-slam: error: [^\n]*\n"), HasSubstr("place not found")));
   EXPECT_THAT(err, HasSubstr("mapped in their own frame"));
   EXPECT_EQ(files::loadTum(searched + "/trajectory.tum").size(), 90u) << "nothing is lost";
+  // So it does in a log that is cut off.
+  const std::string cut = test::writePlain(folder.path("cut.rawlog"), second);
+  fs::resize_file(cut, fs::file_size(cut) - 100);
+  EXPECT_EQ(run("'" + ini + "' '" + cut + "' --overwrite -o '" + searched + "' --continue '" + session + "'"),
+            1);
+  EXPECT_THAT(err, AllOf(HasSubstr("results cover the log up to this point"), HasSubstr("place not found")));
 }
 
 TEST_F(Sessions, AWrongPlaceInTheEarlierMapIsReported) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/Errors.h"
 #include "files/Gzip.h"
@@ -218,6 +219,38 @@ TEST_F(FilterRunTest, TheCellsOfTheMapThatItContinuesAreNotCoarser) {
   FilterRun run(second);
   process(run, second);
   EXPECT_EQ(finish(run, second, log).mapNote, "");
+}
+
+// A match in a map of larger cells is less certain.
+TEST_F(FilterRunTest, TheCovarianceOfALocalisationGrowsWithTheCells) {
+  for (const double cell : {0.05, 0.2}) {
+    SCOPED_TRACE(cell);
+    const std::string setting = "grid.resolution=" + std::to_string(cell);
+    Configuration mapped = configuration("mapped", {setting});
+    mapped.run.overwrite = true;
+    {
+      FilterRun run(mapped);
+      process(run, mapped);
+      finish(run, mapped, log);
+    }
+    Configuration c = configuration("localized");
+    c.run.overwrite = true;
+    c.run.localizeIn = folder.path("mapped/session.hslam");
+    c.run.start.emplace(0, 0, 0);
+    FilterRun run(c);
+    process(run, c);
+    finish(run, c, log);
+    std::istringstream rows(result("localized/covariance.csv"));
+    std::string row;
+    std::getline(rows, row);
+    double least = 1, time = 0, xx = 0;
+    char comma = 0;
+    while (std::getline(rows, row) && std::istringstream(row) >> time >> comma >> xx)
+      least = std::min(least, xx);
+    const double deviation = 0.01 * cell / 0.05;  // m
+    EXPECT_GE(least, deviation * deviation);
+    EXPECT_LT(least, 4 * deviation * deviation);
+  }
 }
 
 TEST_F(FilterRunTest, ResultsDoNotReplaceAnInput) {
