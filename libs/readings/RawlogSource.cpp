@@ -159,6 +159,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (use == ScanGrouper::Use::tilted) return note(summary.tilted, reader.entry());
     if (use != ScanGrouper::Use::taken) return;
     if (firstScan == 0) firstScan = reader.entry();
+    summary.beams += scan.getScanSize();
+    for (size_t i = 0; i < scan.getScanSize(); ++i) summary.returns += isReturn(scan, i);
     grouper.add(scan);
     if (const double sweep = sweeps.of(scan); sweep > 0) summary.sweeps[scan.sensorLabel] = sweep;
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());

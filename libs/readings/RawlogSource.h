@@ -55,6 +55,7 @@ struct RawlogSummary {
   Oddity wrongSweeps;                                                     ///< impossible scan times
   Oddity jumps;                                                           ///< of the odometry (OdometryJumps)
   Oddity brokenLines;                    ///< of a text log; messages of a bag
+  size_t beams = 0, returns = 0;         ///< of the scans used; returns are of valid range
   Oddity passedOver;                     ///< observations of classes that are not read
   std::string passedOverClasses;         ///< a list
   std::map<std::string, double> sweeps;  ///< s, last known of each laser

@@ -192,6 +192,20 @@ TEST(RawlogSource, SaysWhichOdometryItUses) {
   EXPECT_THAT(r.x, areNear({0, 0.1, 0.2, 0.3}));
 }
 
+TEST(RawlogSource, RangesInMillimetresAreReported) {
+  test::Log log{test::odometry(10, {0, 0, 0})};
+  for (int i = 0; i < 10; ++i) {
+    const auto inMillimetres = scan(10 + i, {}, 3);
+    inMillimetres->maxRange = 80;
+    for (size_t k = 0; k < 3; ++k) inMillimetres->setScanRange(k, i == 0 && k == 0 ? 1.f : 3000.f);
+    log.push_back(inMillimetres);
+  }
+  EXPECT_THAT(
+      warningsOf(replayed(log).summary, "LOG"),
+      ElementsAre(
+          "only 1 of 30 ranges are above 0 and below the laser's maximum: LOG; expected ranges in metres"));
+}
+
 TEST(RawlogSource, UsesTheNamedOdometry) {
   test::Log log;
   for (int i = 0; i < 4; ++i) {

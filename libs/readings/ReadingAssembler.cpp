@@ -27,11 +27,8 @@ constexpr double kFarthestApart = 10;  // m between the scans of one reading
 
 /// Marks invalid beams, because MRPT uses valid ones unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
-  for (size_t i = 0; i < scan.getScanSize(); ++i) {
-    const float range = scan.getScanRange(i);
-    if (!std::isfinite(range) || range <= 0 || (scan.maxRange > 0 && range >= scan.maxRange))
-      scan.setScanRangeValidity(i, false);
-  }
+  for (size_t i = 0; i < scan.getScanSize(); ++i)
+    if (!isReturn(scan, i)) scan.setScanRangeValidity(i, false);
 }
 
 }  // namespace
@@ -51,6 +48,12 @@ std::optional<TPose2D> incrementOf(const mrpt::serialization::CSerializable::Ptr
 }
 
 bool isFinite(const TPose2D& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.phi); }
+
+bool isReturn(const CObservation2DRangeScan& scan, size_t beam) {
+  const float range = scan.getScanRange(beam);
+  return scan.getScanRangeValidity(beam) && std::isfinite(range) && range > 0 &&
+         !(scan.maxRange > 0 && range >= scan.maxRange);
+}
 
 bool hasBeams(const CObservation2DRangeScan& scan) {
   return scan.getScanSize() > 0 && std::isfinite(scan.aperture) &&

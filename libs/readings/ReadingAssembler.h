@@ -151,6 +151,8 @@ bool isAction(const mrpt::serialization::CSerializable::Ptr& object);
 
 /// Returns whether all coordinates are finite.
 bool isFinite(const mrpt::math::TPose2D& pose);
+/// Returns whether a beam has a valid range: finite, above 0 and below the scan's maximum.
+bool isReturn(const mrpt::obs::CObservation2DRangeScan& scan, size_t beam);
 /// Returns whether a scan has beams and a finite sensor pose.
 bool hasBeams(const mrpt::obs::CObservation2DRangeScan& scan);
 
