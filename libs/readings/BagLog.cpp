@@ -104,7 +104,9 @@ void BagLog::hold(double time, double recorded, Record record, size_t beams) {
   if (!(time >= 0 && time <= kLatestTime)) throw bags::BrokenBytes("its time is impossible");
   std::visit([&](auto& one) { one.time = time; }, record);
   heldBeams_ += beams;
-  held_.emplace(std::make_tuple(time, beams > 0, number_), std::move(record));
+  const bool isFirst = beams == 0 && time != odometryTime_;
+  if (beams == 0) odometryTime_ = time;
+  held_.emplace(std::make_tuple(time, !isFirst, number_), std::move(record));
 }
 
 void BagLog::release(bool isAtEnd) {

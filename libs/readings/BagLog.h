@@ -50,8 +50,10 @@ class BagLog {
   LogConversionOptions options_;
   BrokenLineReport report_;
   LogObjects objects_;
-  /// Sorted by time, odometry before scans of the same time, then order of recording.
+  /// Sorted by time, then order of recording; but the first odometry of a time is before the scans, which
+  /// it belongs to. Stamps of whole seconds have several.
   std::map<std::tuple<double, bool, size_t>, Record> held_;
+  double odometryTime_ = -1;  ///< of the latest
   size_t heldBeams_ = 0, number_ = 0;
 };
 

@@ -238,6 +238,22 @@ TEST_F(BagLogTest, ObjectsAreInTheOrderOfTheirTimes) {
   EXPECT_EQ(order, "osoos");
 }
 
+// Whole seconds do not tell which odometry a scan has; the order of recording does.
+TEST_F(BagLogTest, MessagesWithTheSameStampAreInTheOrderOfRecording) {
+  std::vector<TestMessage> messages;
+  for (int i = 0; i < 8; ++i) {
+    const double time = 1 + i / 4;  // NOLINT(bugprone-integer-division)
+    messages.push_back(odometryAt(time, {0.1 * i, 0, 0}));
+    messages.push_back(scanOn("/scan", time, "laser"));
+  }
+  const std::string file = write(messages);
+  RawlogSource source(file, {}, summarise(file, {}));
+  size_t scans = 0;
+  for (auto reading = source.next(); reading; reading = source.next(), ++scans)
+    EXPECT_NEAR(reading->motion.x, scans == 0 ? 0 : 0.1, 1e-6) << scans;
+  EXPECT_EQ(scans, 8u);
+}
+
 TEST_F(BagLogTest, AZeroStampIsTheTimeOfRecording) {
   TestMessage message = scanOn("/scan", 0, "base_link");
   message.time = 12.5;
