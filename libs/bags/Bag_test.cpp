@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "bags/RecordingFolder.h"
 #include "files/Gzip.h"
 #include "files/TemporaryFolder.h"
 #include "testing/BagContents.h"
@@ -178,6 +179,28 @@ TEST(RecordingFolder, ItsFilesInTheOrderOfTheirNumbers) {
   const Content content = read(folder.path(""));
   EXPECT_EQ(content.defect, "");
   expectSame(content.messages, all);
+}
+
+TEST(RecordingFolder, ItsFilesAreOrderedByTheirLastNumber) {
+  const files::TemporaryFolder folder;
+  for (const char* name : {"v1.5_10.mcap", "v1.5_2.mcap", "v1.5_0.mcap.zstd"}) folder.write(name, "");
+  const auto files = filesOfRecording(folder.path(""));
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_THAT(files[0], testing::EndsWith("v1.5_0.mcap.zstd"));
+  EXPECT_THAT(files[1], testing::EndsWith("v1.5_2.mcap"));
+  EXPECT_THAT(files[2], testing::EndsWith("v1.5_10.mcap"));
+}
+
+TEST(RecordingFolder, AFileThatIsThereTwiceOrNotListedIsNotRead) {
+  const files::TemporaryFolder folder;
+  const auto all = messages(5, Encoding::cdr);
+  const std::string plain = test::contentOf(test::writeDatabase(folder.path("drive_0.db3"), all));
+  test::write(folder.path("drive_0.db3.zstd"), test::zstdOf(plain));
+  expectSame(read(folder.path("")).messages, all);
+  test::write(folder.path("copy.db3"), plain);
+  folder.write("metadata.yaml",
+               "rosbag2_bagfile_information:\n  relative_file_paths:\n    - drive_0.db3.zstd\n");
+  expectSame(read(folder.path("")).messages, all);
 }
 
 TEST(RecordingFolder, AFileThatItsMetadataListIsMissed) {

@@ -19,10 +19,15 @@ bool isOfRecording(fs::path path) {
   return path.extension() == ".db3" || path.extension() == ".mcap";
 }
 
-/// Compares names by their numbers: `drive_2.db3` comes before `drive_10.db3`.
+std::string plainName(const fs::path& file) {
+  return (file.extension() == ".zstd" ? file.stem() : file.filename()).string();
+}
+
+/// Compares names by their last numbers: `drive_2.db3` comes before `drive_10.db3`.
 bool comesBefore(const std::string& a, const std::string& b) {
-  const auto numberAt = [](const std::string& name) {
-    const size_t end = name.find_last_of("0123456789", name.find('.'));
+  const auto numberAt = [](const std::string& file) {
+    const std::string name = fs::path(plainName(file)).stem().string();
+    const size_t end = name.find_last_of("0123456789");
     const size_t begin = end == std::string::npos ? end : name.find_last_not_of("0123456789", end);
     const std::string digits = end == std::string::npos ? "" : name.substr(begin + 1, end - begin);
     return std::string(20 - std::min<size_t>(digits.size(), 20), '0') + digits;
@@ -31,23 +36,16 @@ bool comesBefore(const std::string& a, const std::string& b) {
   return std::make_pair(numberAt(nameA), nameA) < std::make_pair(numberAt(nameB), nameB);
 }
 
-std::string plainName(const fs::path& file) {
-  return (file.extension() == ".zstd" ? file.stem() : file.filename()).string();
-}
-
-/// Returns the first file that metadata.yaml lists and that is not among the files; empty if there is none,
-/// or no metadata.
-std::string missingFile(const std::string& folder, const std::vector<std::string>& files) try {
+/// Returns the names of the files that metadata.yaml lists, without .zstd; none without metadata.
+std::vector<std::string> listedFiles(const std::string& folder) try {
+  std::vector<std::string> names;
   constexpr uintmax_t kMostBytes = 1'000'000;
   const fs::path metadata = fs::path(folder) / "metadata.yaml";
   if (!fs::is_regular_file(metadata) || fs::file_size(metadata) > kMostBytes) return {};
   for (const YAML::Node& listed :
-       YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"]["relative_file_paths"]) {
-    const std::string name = plainName(listed.as<std::string>());
-    if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return plainName(file) == name; }))
-      return name;
-  }
-  return {};
+       YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"]["relative_file_paths"])
+    names.push_back(plainName(listed.as<std::string>()));
+  return names;
 } catch (const std::exception&) {  // metadata are not needed to read a recording
   return {};
 }
@@ -60,12 +58,25 @@ std::vector<std::string> filesOfRecording(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (isOfRecording(entry.path()) && entry.is_regular_file(ignored)) found.push_back(entry.path().string());
   std::sort(found.begin(), found.end(), comesBefore);
+  // A file may be there twice, compressed and decompressed: `a.db3` and then `a.db3.zstd`.
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const auto& a, const auto& b) { return plainName(a) == plainName(b); }),
+              found.end());
+  const std::vector<std::string> listed = listedFiles(folder);
+  const auto isOther = [&](const auto& file) {
+    return std::find(listed.begin(), listed.end(), plainName(file)) == listed.end();
+  };
+  if (!std::all_of(found.begin(), found.end(), isOther))
+    found.erase(std::remove_if(found.begin(), found.end(), isOther), found.end());
   return found;
 }
 
 RecordingFolder::RecordingFolder(const std::string& path) : files_(filesOfRecording(path)) {
   if (files_.empty()) throw InputError("not a recording", path, "expected a folder with files .db3 or .mcap");
-  missing_ = missingFile(path, files_);
+  for (const std::string& name : listedFiles(path))
+    if (missing_.empty() &&
+        std::none_of(files_.begin(), files_.end(), [&](const auto& file) { return plainName(file) == name; }))
+      missing_ = name;
   std::reverse(files_.begin(), files_.end());
 }
 

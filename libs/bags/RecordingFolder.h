@@ -10,7 +10,8 @@
 
 namespace hybrid_slam::bags {
 
-/// The databases and MCAP files in a folder, plain or compressed, in the order of the numbers in their names.
+/// The databases and MCAP files in a folder, plain or compressed, in the order of the numbers in their names;
+/// only those that metadata.yaml lists, if it lists any of them.
 std::vector<std::string> filesOfRecording(const std::string& folder);
 
 /// Reads the files one after another. A file that cannot be opened is a defect, after which nothing is read.

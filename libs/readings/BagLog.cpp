@@ -55,9 +55,12 @@ void BagLog::read(const bags::StoredMessage& message) {
   const auto laser = std::find_if(plan_.lasers.begin(), plan_.lasers.end(),
                                   [&](const BagPlan::Laser& one) { return one.topic == topic.name; });
   const bool isTransforms = *topic.messageType == bags::MessageType::transforms;
-  const bool isUsed = laser != plan_.lasers.end() || topic.name == plan_.odometryTopic ||
-                      (isTransforms && !plan_.odomFrame.empty());
+  const bool isOdometry = *topic.messageType == bags::MessageType::odometry;
+  const bool isUsed = isTransforms ? !plan_.odomFrame.empty()
+                      : isOdometry ? topic.name == plan_.odometryTopic
+                                   : laser != plan_.lasers.end();
   if (!isUsed) return;
+  topic_ = message.topic;
   try {
     const bags::Message content = bags::decodeMessage(*topic.messageType, topic.encoding, message.bytes);
     if (const auto* scan = std::get_if<bags::ScanMessage>(&content))
@@ -103,6 +106,9 @@ void BagLog::hold(double time, double recorded, Record record, size_t beams) {
   if (time == 0) time = recorded;
   if (!(time >= 0 && time <= kLatestTime)) throw bags::BrokenBytes("its time is impossible");
   std::visit([&](auto& one) { one.time = time; }, record);
+  double& latest = latest_.try_emplace(topic_, time).first->second;
+  if (time < latest - kWindow) release(true);  // the clock was set back: the future ends here
+  latest = time;
   heldBeams_ += beams;
   const bool isFirst = beams == 0 && time != odometryTime_;
   if (beams == 0) odometryTime_ = time;

@@ -16,7 +16,7 @@ namespace hybrid_slam::readings {
 
 /// Reads a bag as a stream. A scan is labelled by its topic and has the time of its header, or the recording
 /// time if that is zero. Messages are recorded with a delay that differs between topics, so objects are
-/// sorted by time within one second.
+/// sorted by time within one second. Where the clock of a topic is set back by more, recorded order is kept.
 class BagLog {
  public:
   /// Uses `maxRange`, `sweep`, `actionObservation`, `laserX` (for a laser of unknown pose) and `strict` of
@@ -53,7 +53,9 @@ class BagLog {
   /// Sorted by time, then order of recording; but the first odometry of a time is before the scans, which
   /// it belongs to. Stamps of whole seconds have several.
   std::map<std::tuple<double, bool, size_t>, Record> held_;
-  double odometryTime_ = -1;  ///< of the latest
+  std::map<size_t, double> latest_;  ///< s, of the latest object of each topic
+  size_t topic_ = 0;                 ///< of the message that is being read
+  double odometryTime_ = -1;         ///< s, of the latest odometry
   size_t heldBeams_ = 0, number_ = 0;
 };
 

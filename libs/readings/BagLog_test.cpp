@@ -238,6 +238,34 @@ TEST_F(BagLogTest, ObjectsAreInTheOrderOfTheirTimes) {
   EXPECT_EQ(order, "osoos");
 }
 
+/// The clock was an hour ahead until the time was set.
+TEST_F(BagLogTest, WhereTheClockIsSetBackTheOrderOfRecordingIsKept) {
+  std::vector<TestMessage> messages;
+  for (int i = 0; i < 20; ++i) {
+    const double time = 0.1 * i + (i < 10 ? 3601 : 1);
+    messages.push_back(odometryAt(time, {0.1 * i, 0, 0}));
+    messages.push_back(
+        scanOn("/scan", time, "laser", std::vector<float>(3, 1 + 0.1F * static_cast<float>(i))));
+  }
+  const auto scans = read<CObservation2DRangeScan>(messages);
+  ASSERT_EQ(scans.size(), 20u);
+  for (size_t i = 0; i < scans.size(); ++i)
+    EXPECT_NEAR(scans[i]->getScanRange(0), 1 + 0.1 * static_cast<double>(i), 1e-5) << i;
+}
+
+TEST_F(BagLogTest, MessagesOfAnotherTypeOnATopicAreNotUsed) {
+  std::vector<TestMessage> messages{
+      scanOn("/scan", 1, "laser"),  odometryAt(1, {}), scanOn("/odom", 1.1, "laser"),
+      odometryAt(1.2, {}, "/scan"), odometryAt(2, {}), scanOn("/scan", 2, "laser")};
+  const std::string file = write(messages);
+  InputOptions options;
+  options.sensorLabel = "/scan";
+  const RawlogSummary log = summarise(file, options);
+  EXPECT_EQ(log.scans, 2u);
+  EXPECT_EQ(log.entries, 6u);
+  EXPECT_EQ(read<CObservationOdometry>({messages[0], messages[1], messages[3], messages[4]}).size(), 2u);
+}
+
 // Whole seconds do not tell which odometry a scan has; the order of recording does.
 TEST_F(BagLogTest, MessagesWithTheSameStampAreInTheOrderOfRecording) {
   std::vector<TestMessage> messages;
@@ -313,6 +341,23 @@ TEST_F(BagLogTest, ALaserWhoseMessagesAreAllBrokenIsNotUsedAndTheUserIsTold) {
   const BagPlan found = plan(messages);
   ASSERT_EQ(found.lasers.size(), 1u);
   EXPECT_THAT(found.notes, ElementsAre("laser `/broken` is not used: all its messages are broken"));
+}
+
+TEST_F(BagLogTest, ScansThatAreAllBrokenAreAnErrorThatSaysWhy) {
+  const auto errorWith = [this](const std::string& bytes) {
+    return errorOf({{"/scan", "sensor_msgs/LaserScan", 0.5, bytes}});
+  };
+  EXPECT_THAT(errorWith("nonsense"), HasSubstr("all messages of /scan are broken: "));
+  EXPECT_THAT(errorWith("\x28\xb5\x2f\xfd etc."), HasSubstr("broken: each is compressed"));
+}
+
+TEST_F(BagLogTest, ALaserFrameWithTwoParentsIsReported) {
+  const BagPlan found = plan({frameAt("mast", "laser", test::turned(5, 0, 0)),
+                              frameAt("base_link", "laser", test::turned(0.2, 0, 0)),
+                              frameAt("base_link", "mast", test::turned(0, 0, 0)),
+                              scanOn("/scan", 1, "laser"), odometryAt(1, {})});
+  EXPECT_THAT(found.notes, ElementsAre("the transforms to the laser of /scan have several parents: frame "
+                                       "`laser`; the first is used"));
 }
 
 TEST_F(BagLogTest, WhatIsNotClearIsAnErrorThatListsTheTopics) {

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "bags/ByteCursor.h"
 #include "base/Errors.h"
@@ -63,10 +64,21 @@ void note(const bags::Message& message, Entry& entry, FrameTree& frames) {
   }
 }
 
+/// Returns why a message cannot be decoded.
+std::string whyBroken(std::string_view bytes, const char* what) {
+  const bool isCompressed = bytes.substr(0, 4) == "\x28\xb5\x2f\xfd";  // zstd
+  return isCompressed ? "each is compressed; expected compression by file, as `ros2 bag convert` writes it"
+                      : what;
+}
+
 /// The scan topics to use.
 std::vector<const Entry*> scansOf(const BagContents& contents, const BagOptions& options,
                                   const std::string& file) {
   const auto scans = select(contents, isScan);
+  for (const Entry& entry : contents.topics)
+    if (scans.empty() && isLaser(entry) && entry.broken > 0)
+      throw InputError("no laser scans that can be read", file,
+                       "all messages of " + entry.topic.name + " are broken: " + entry.why);
   if (scans.empty())
     throw InputError(
         "no laser scans", file,
@@ -165,7 +177,7 @@ BagContents contentsOf(const std::string& file, const std::function<bool()>& isS
   BagContents contents;
   const auto noteTopics = [&] {
     for (size_t i = contents.topics.size(); i < bag->topics().size(); ++i)
-      contents.topics.push_back({bag->topics()[i], 0, 0, {}});
+      contents.topics.push_back({bag->topics()[i], 0, 0, {}, {}});
   };
   for (size_t number = 1; const auto message = bag->next(); ++number) {
     if (isStopped())
@@ -179,8 +191,8 @@ BagContents contentsOf(const std::string& file, const std::function<bool()>& isS
     try {
       note(bags::decodeMessage(*entry.topic.messageType, entry.topic.encoding, message->bytes), entry,
            contents.frames);
-    } catch (const bags::BrokenBytes&) {
-      ++entry.broken;
+    } catch (const bags::BrokenBytes& broken) {
+      if (entry.broken++ == 0) entry.why = whyBroken(message->bytes, broken.what());
     }
   }
   noteTopics();
@@ -220,6 +232,9 @@ BagPlan planOf(const BagContents& contents, const BagOptions& options, const std
       if (contents.frames.moves(base, scan->frame))
         plan.notes.push_back("the laser of " + scan->topic.name + " moves on the robot: frame `" +
                              scan->frame + "`; its first pose is used");
+      if (contents.frames.isAmbiguous(base, scan->frame))
+        plan.notes.push_back("the transforms to the laser of " + scan->topic.name +
+                             " have several parents: frame `" + scan->frame + "`; the first is used");
       break;
     }
     const bool isNewFrame = used.insert(scan->frame).second;

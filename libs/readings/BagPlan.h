@@ -27,6 +27,7 @@ struct BagContents {
     bags::Topic topic;
     size_t messages = 0, broken = 0;
     std::string frame;  ///< of the first message: the scan's, or the odometry's child frame
+    std::string why;    ///< the first broken one is
   };
   std::vector<Entry> topics;  ///< in the order in which they occur
   FrameTree frames;

@@ -31,7 +31,10 @@ void FrameTree::add(const bags::TransformMessage& transform) {
   if (edges_.size() >= kMostFrames) return;
   const CPose3D pose = poseOf(transform.pose);
   const auto [edge, isNew] = edges_.try_emplace(transform.childFrame, Edge{transform.header.frame, pose});
-  if (!isNew && !edge->second.moves && edge->second.parent == transform.header.frame)
+  if (isNew) return;
+  if (edge->second.parent != transform.header.frame)
+    edge->second.hasOtherParent = true;
+  else if (!edge->second.moves)
     edge->second.moves = differs(edge->second.pose, pose);
 }
 
@@ -76,12 +79,23 @@ std::optional<CPose3D> FrameTree::pose(const std::string& base, const std::strin
   return ofFrame - ofBase;
 }
 
-bool FrameTree::moves(const std::string& base, const std::string& frame) const {
+std::vector<const FrameTree::Edge*> FrameTree::edgesBetween(const std::string& base,
+                                                            const std::string& frame) const {
   const auto top = common(base, frame);
-  if (!top) return false;
+  if (!top) return {};
   std::vector<const Edge*> edges = edgesUp(base, *top);
   for (const Edge* edge : edgesUp(frame, *top)) edges.push_back(edge);
+  return edges;
+}
+
+bool FrameTree::moves(const std::string& base, const std::string& frame) const {
+  const auto edges = edgesBetween(base, frame);
   return std::any_of(edges.begin(), edges.end(), [](const Edge* edge) { return edge->moves; });
+}
+
+bool FrameTree::isAmbiguous(const std::string& base, const std::string& frame) const {
+  const auto edges = edgesBetween(base, frame);
+  return std::any_of(edges.begin(), edges.end(), [](const Edge* edge) { return edge->hasOtherParent; });
 }
 
 }  // namespace hybrid_slam::readings

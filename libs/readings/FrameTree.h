@@ -29,13 +29,17 @@ class FrameTree {
   std::optional<mrpt::poses::CPose3D> pose(const std::string& base, const std::string& frame) const;
   /// Returns whether a transform between two frames has changed by over 1 mm or 0.1 deg.
   bool moves(const std::string& base, const std::string& frame) const;
+  /// Returns whether a frame between them has transforms from different parents.
+  bool isAmbiguous(const std::string& base, const std::string& frame) const;
 
  private:
   struct Edge {
     std::string parent;
     mrpt::poses::CPose3D pose;  ///< in the parent
-    bool moves = false;
+    bool moves = false, hasOtherParent = false;
   };
+  /// Returns the edges on the way between two frames; none if they are not connected.
+  std::vector<const Edge*> edgesBetween(const std::string& base, const std::string& frame) const;
   /// Returns the edges from a frame up to one of its ancestors.
   std::vector<const Edge*> edgesUp(const std::string& frame, const std::string& ancestor) const;
   /// Returns the nearest common ancestor, which may be either of them; empty if there is none.
