@@ -8,7 +8,7 @@
 # interruption.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/accuracy}
-data=${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}
+data=$(realpath "${HYBRID_SLAM_DATASETS:?the folder of the public logs (doc/datasets.md)}")
 install_packages "${packages[@]}"
 build release hybrid-slam slam-eval simul-floorplan
 bin=$PWD/build/release/bin
@@ -72,7 +72,8 @@ run() {
   "$bin/hybrid-slam" "$file" -q -s "$3" $(options "$2") -o "$folder" >/dev/null 2>"$folder.log" || return 0
   rm -f "$folder"/*.gz "$folder"/map.{pgm,yaml}
   [[ $1 != intel-lab ]] || evaluate "$1" "$folder" intel-lab-full >"$folder/errors-full.json"
-  evaluate "$1" "$folder" >"$folder/errors.json"
+  evaluate "$1" "$folder" >"$folder/errors.part"
+  mv "$folder/errors.part" "$folder/errors.json"  # else an interrupted run would count as done
 }
 
 # DP-SLAM's loop is evaluated by its scans.

@@ -20,7 +20,7 @@ for log in intel-lab csail fr079 mit-killian; do
   zcat "$logs/$log.clf.gz" >"$out/whole.clf"
   rows=$(wc -l <"$out/whole.clf")
   # Comments and parameters belong to both halves.
-  { grep -E '^(#|PARAM)' "$out/whole.clf" || true; tail -n +$((rows / 2)) "$out/whole.clf"; } >"$out/second.clf"
+  { grep -E '^(#|PARAM)' "$out/whole.clf" || true; tail -n +$((rows / 2 + 1)) "$out/whole.clf"; } >"$out/second.clf"
   head -n $((rows / 2)) "$out/whole.clf" >"$out/first.clf"
   "$bin/hybrid-slam" -q --overwrite "$out/whole.clf" -o "$out/$log-whole" 2>/dev/null
   "$bin/hybrid-slam" -q --overwrite "$out/first.clf" -o "$out/$log-1" 2>/dev/null

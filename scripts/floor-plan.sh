@@ -22,7 +22,7 @@ for route in csie-loop csie-doorways csie-corridor csie-long; do
     "$bin/slam-eval" plan --align --plan "$folder/$route-$seed/plan.geojson" --truth datasets/csie/csie.plan \
       --rawlog "$log" --reference "${log%.rawlog}.tum" >"$folder/$route-$seed/plan.json"
   done
-  python3 - "$route" "$folder/$route"-*/plan.json <<'PYTHON'
+  python3 - "$route" $(seq -f "$folder/$route-%g/plan.json" "$seeds") <<'PYTHON'
 import json, sys
 from statistics import median
 

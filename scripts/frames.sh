@@ -10,7 +10,7 @@ source "$(dirname "$0")/lib.sh"
 out=${1:-out/frames}
 bin=build/release/bin
 source scripts/worlds.sh
-read -ra worlds <<<"${WORLDS-csie rectangle rectangle-30 wing octagon round clutter}"
+read -ra worlds <<<"${WORLDS-csie rectangle wing octagon round clutter}"
 read -ra local <<<"${LOCAL-wing octagon}"
 simulated_worlds=("${worlds[@]}" "${local[@]}")
 public_worlds=()

@@ -45,14 +45,15 @@ for ((number = ${FIRST:-228}; number < ${FIRST:-228} + ${WORLDS:-12}; ++number))
   for variant in "${variants[@]}"; do echo "$number $variant"; done
 done | xargs -P "${JOBS:-$(nproc)}" -L 1 bash -ec 'run "$@"' run
 
-python3 - "$world" "$out" "${variants[@]}" <<'END'
-import collections, glob, statistics, sys
-world, out, *variants = sys.argv[1:]
+python3 - "$world" "$out" "${FIRST:-228}" "${WORLDS:-12}" "${variants[@]}" <<'END'
+import collections, statistics, sys
+world, out, first, worlds, *variants = sys.argv[1:]
 print(f"<!-- made by: scripts/large-worlds.sh {world} -->")
 print("| | error, median (worst), m | lost | verdicts | second runs | time (s) |")
 print("|---|---|---|---|---|---|")
 for variant in variants:
-    rows = [open(name).read().split() for name in glob.glob(f"{out}/*-{variant}.row")]
+    numbers = range(int(first), int(first) + int(worlds))
+    rows = [open(f"{out}/{world}-{number}-{variant}.row").read().split() for number in numbers]
     errors = [float(row[0]) for row in rows]
     verdicts = collections.Counter(row[1] for row in rows)
     lost = sum(error > 5 for error in errors)

@@ -70,6 +70,7 @@ def drawn(walls, seed):
 class Programs:
     def __init__(self, bin_folder, folder):
         self.bin, self.folder = bin_folder, folder
+        folder.mkdir(parents=True, exist_ok=True)
 
     def call(self, program, *words, check=True):
         done = subprocess.run([str(word) for word in (self.bin / program, *words)], capture_output=True, text=True)

@@ -99,9 +99,9 @@ void run(const CommandLine& line) {
     things = simulation::MovableThings::load(besideConfig(line, options.things, "things"), fixed);
   const std::vector<simulation::PlacedThing> placed = things.inSession(options.seed, options.session);
   const simulation::BuildingPlan plan = fixed.with(wallsOf(placed));
+  const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
   // A route that is clear in one session is clear in all.
   if (!things.empty()) route.checkClear(fixed.with(things.everywhere()), options.robotRadius);
-  const simulation::SimulatedLog log = simulate(plan, route, options, laser, odometry);
 
   FilesAndWriters files = {
       {out.rawlog,
@@ -111,14 +111,17 @@ void run(const CommandLine& line) {
   if (!things.empty())
     files.emplace_back(out.plan, [&](const std::string& f) { simulation::writeFloorPlan(fixed, placed, f); });
   writeTogether(files);
+  if (things.empty()) fs::remove(out.plan, ignored);  // of an earlier simulation
   if (!line.quiet) {
     const double seconds = log.groundTruth.empty()
                                ? 0
                                : mrpt::Clock::toDouble(log.groundTruth.back().timestamp) -
                                      mrpt::Clock::toDouble(log.groundTruth.front().timestamp);
+    const size_t readings =
+        options.form == simulation::RawlogForm::pairs ? log.scans.size() : log.odometry.size();
     std::printf("%s: %zu scans, %zu odometry readings, %.1f m in %.1f s; ground truth %s, picture %s\n",
-                output.c_str(), log.scans.size(), log.odometry.size(), route.progressAt(seconds).distance,
-                seconds, out.truth.c_str(), out.picture.c_str());
+                output.c_str(), log.scans.size(), readings, route.progressAt(seconds).distance, seconds,
+                out.truth.c_str(), out.picture.c_str());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "base/Clock.h"
 #include "base/Errors.h"
 #include "base/Numbers.h"
+#include "base/PoseDistance.h"
 #include "files/Trajectory.h"
 #include "readings/Timestamps.h"
 #include "run/FilterRun.h"
@@ -183,6 +184,8 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const s
   evidence.spread = std::hypot(filter_->lastStep().stdX, filter_->lastStep().stdY);
   evidence.slips = counts_.slips;
   evidence.updates = updateTimes_.size();
+  if (best.path.size() > 1)
+    evidence.spacing = lengthsAlong(best.path).back() / static_cast<double>(best.path.size() - 1);
   if (!scanOdometry_) {
     evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
     evidence.turns = turnsOf(recorder_.motionsOfUpdates(), best.path);

@@ -33,6 +33,7 @@ constexpr double kTurn = 3 * kDegree;
 constexpr size_t kFewestTurns = 10;  // against the odometry
 constexpr double kFaults = 0.1;      // of the odometry, per scan
 constexpr double kFewBeams = 30;     // wrong maps of fewer agree with themselves
+constexpr double kFarApart = 1.25;   // m of path between scans: the same
 
 using Stretch = std::vector<const Revisit*>;
 
@@ -185,13 +186,21 @@ Verdict verdictOf(const Evidence& evidence) {
   if (evidence.beams < kFewBeams)
     find(Level::doubtful,
          "scans have too few beams to judge the map: " + fixedText(evidence.beams, 0) + " on average");
+  if (evidence.spacing > kFarApart)
+    find(Level::doubtful,
+         "scans are too far apart to judge the map: " + fixedText(evidence.spacing, 1) + " m");
   if (!evidence.notCompared.empty())
     find(Level::doubtful, "not all scans were compared with the map: " + evidence.notCompared);
   const bool isOdometryUseless =
       evidence.slips >= kFewestSlips &&
       static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
   if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
-    find(Level::doubtful, "odometry rejected in " + counted(evidence.slips, "update(s)"));
+    find(Level::doubtful,
+         "odometry rejected in " + counted(evidence.slips, "update(s)") +
+             (isOdometryUseless
+                  ? ": the laser's pose on the robot (input.laser_pose) or the times of scans and "
+                    "odometry may be wrong"
+                  : ""));
   if (evidence.notCompared.empty() && evidence.returning.empty())
     find(Level::consistent, "no place was seen twice");
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);

@@ -57,6 +57,7 @@ struct Evidence {
   Turns turns;                     ///< in both directions
   size_t scans = 0;                ///< of the log
   double beams = NAN;              ///< mean number of beams compared in a scan, at most 90; NaN: no scan
+  double spacing = 0;              ///< m of path between two updates, mean
   std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were
 };
 

@@ -50,6 +50,15 @@ TEST(Verdict, FewBeamsCannotConfirmAMap) {
             "verdict: doubtful: scans have too few beams to judge the map: 12 on average");
 }
 
+TEST(Verdict, ScansFarApartCannotConfirmAMap) {
+  Evidence evidence;
+  evidence.returning = scans(100), evidence.recent = scans(200);
+  evidence.spacing = 1.2;
+  EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
+  evidence.spacing = 1.75;
+  EXPECT_EQ(verdictOf(evidence).line(), "verdict: doubtful: scans are too far apart to judge the map: 1.8 m");
+}
+
 TEST(Verdict, SaysThatNoPlaceWasSeenTwice) {
   EXPECT_EQ(of({}).line(), "verdict: consistent: no place was seen twice");
   EXPECT_EQ(of({}, {}).level, Level::consistent);
@@ -259,7 +268,9 @@ TEST(Verdict, TurnsOfTheOdometryAreComparedWithThoseOfThePath) {
 TEST(Verdict, OdometryThatIsMostlyRejectedIsDoubtful) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.slips = 101, evidence.updates = 200;
-  EXPECT_EQ(verdictOf(evidence).line(), "verdict: doubtful: odometry rejected in 101 updates");
+  EXPECT_EQ(verdictOf(evidence).line(),
+            "verdict: doubtful: odometry rejected in 101 updates: the laser's pose on the robot "
+            "(input.laser_pose) or the times of scans and odometry may be wrong");
 }
 
 }  // namespace

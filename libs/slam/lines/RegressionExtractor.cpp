@@ -2,6 +2,7 @@
 /// @brief Line regression: a line is fitted to each window of neighbouring points, and windows that agree
 /// within their covariances are merged. K. O. Arras and R. Siegwart, "Feature extraction and scene
 /// interpretation for map-based navigation and map building", Proc. SPIE 3210, 1997.
+#include <algorithm>
 #include <cmath>
 
 #include "slam/lines/LineExtractor.h"
@@ -68,8 +69,8 @@ Regression regressionOf(PointRange points) {
 }
 
 /// Appends the lines of a run. A window represents the point in its middle; those at the ends of the run
-/// represent half of their points.
-void regress(PointRange run, double sigma, std::vector<PointRange>& pieces) {
+/// represent half of their points. Pieces of fewer than `least` points are no lines.
+void regress(PointRange run, double sigma, size_t least, std::vector<PointRange>& pieces) {
   if (run.size() < kWindow) return;
   const size_t first = pieces.size();
   const size_t windows = run.size() - kWindow + 1;
@@ -94,12 +95,16 @@ void regress(PointRange run, double sigma, std::vector<PointRange>& pieces) {
       pieces[++last] = pieces[i];
   }
   pieces.resize(last + 1);
+  const auto isShort = [least](const PointRange& piece) { return piece.size() < least; };
+  pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), isShort),
+               pieces.end());
 }
 
 std::vector<LineSegment> extractByRegression(const LaserScan& scan, const LineExtractionOptions& options) {
   const SegmentedScan segmented(scan, options.segmentation);
   std::vector<PointRange> pieces;
-  for (const PointRange& run : segmented.runs()) regress(run, kNoise * options.fit.maxRms, pieces);
+  const auto least = static_cast<size_t>(options.segmentation.minPoints);
+  for (const PointRange& run : segmented.runs()) regress(run, kNoise * options.fit.maxRms, least, pieces);
   return linesOf(pieces, scan, options);
 }
 

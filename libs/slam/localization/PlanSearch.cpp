@@ -23,7 +23,7 @@ constexpr double kCell = 0.1;                       // m, coarser than the plan'
 constexpr double kMostCells = 1 << 25;              // memory
 constexpr double kMostSearchedCells = 1 << 23;      // about 2 s for a search
 constexpr double kLeastLength = 1;                  // m, of a line of the database
-constexpr int kCount = 3;                           // observations that a line of the plan counts as
+constexpr int kLeastCount = 3;                      // observations that a line of the plan counts as
 constexpr size_t kNearStart = 8;                    // places there
 constexpr size_t kLongestSearch = 240;              // scans, 0.5 m or 20 deg apart
 constexpr size_t kSearchedScans = 80;               // of these that are searched for together
@@ -67,16 +67,17 @@ OccupancyGrid gridOf(const std::vector<PlanLine>& walls, double scale, bool isSe
   return grid;
 }
 
-LineDatabase linesOf(const std::vector<PlanLine>& walls, double scale, double window) {
+/// Returns the walls as lines that pruning keeps.
+LineDatabase linesOf(const std::vector<PlanLine>& walls, double scale, const LineDatabaseOptions& options) {
   std::vector<DatabaseLine> lines;
   for (const PlanLine& wall : walls) {
     if ((wall.end - wall.start).norm() < kLeastLength) continue;
     DatabaseLine line;
     static_cast<LineSegment&>(line) = makeSegment(wall.start * scale, wall.end * scale);
-    line.count = kCount;
+    line.count = std::max(kLeastCount, options.minCount);
     lines.push_back(line);
   }
-  setDirections(lines, window);
+  setDirections(lines, options.directionWindow);
   return LineDatabase(std::move(lines));
 }
 
@@ -111,7 +112,7 @@ double advantage(const PlanFit& a, const PlanFit& b) {
 PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<PlanLine> walls,
                        std::optional<TPose2D> start)
     : cell_(configuration.grid.resolution),
-      directionWindow_(configuration.database.directionWindow),
+      database_(configuration.database),
       walls_(std::move(walls)),
       start_(start),
       prepare_(configuration),
@@ -132,7 +133,7 @@ PlanSearch::PlanSearch(const FilterConfiguration& configuration, std::vector<Pla
     grid_ = gridOf(walls_, 1, false);
     return;
   }
-  lines_ = linesOf(walls_, 1, directionWindow_);
+  lines_ = linesOf(walls_, 1, database_);
   for (const double scale : kScales) {
     const OccupancyGrid grid = gridOf(walls_, scale, true);
     plans_.push_back({scale, GlobalSearch(grid, grid.middle())});
@@ -162,7 +163,7 @@ void PlanSearch::process(const TPose2D& odometry, const Scans& scans) {
 }
 
 void PlanSearch::accept(const PlanFit& fit) {
-  found_ = Found{fit.scale, fit.pose, {OccupancyGrid(cell_), linesOf(walls_, fit.scale, directionWindow_)}};
+  found_ = Found{fit.scale, fit.pose, {OccupancyGrid(cell_), linesOf(walls_, fit.scale, database_)}};
 }
 
 PlanFit PlanSearch::fitAtStart() const {

@@ -54,7 +54,8 @@ class PlanSearch {
   PlanFit fitAtStart() const;
   void accept(const PlanFit& fit);
 
-  double cell_, directionWindow_;  ///< m, rad
+  double cell_;  ///< m
+  LineDatabaseOptions database_;
   std::vector<PlanLine> walls_;
   std::optional<mrpt::math::TPose2D> start_;  ///< moved by the odometry
   OccupancyGrid grid_;                        ///< of the plan as drawn; with a start

@@ -134,6 +134,17 @@ TEST(PlanSearch, FitsTheFirstScanAtAGivenStart) {
   expectNear(*search.found(), truth);
 }
 
+TEST(PlanSearch, PruningKeepsTheLinesOfThePlan) {
+  FilterConfiguration c = configuration();
+  c.database.minCount = 5;
+  RandomStream random(1, 0, 0);
+  const TPose2D at(3, 0.5, 0.4);
+  PlanSearch search(c, drawn(test::room(), 1), TPose2D(3, -2, 0.7) + at);
+  search.process({}, roomScan(at, random));
+  ASSERT_TRUE(search.found());
+  for (const DatabaseLine& line : search.found()->map.lines.lines()) EXPECT_EQ(line.count, 5);
+}
+
 TEST(PlanSearch, AWrongStartIsNotAccepted) {
   for (const TPose2D& start : {TPose2D(100, 100, 0), TPose2D(3, -2, 0.7) + TPose2D(3, 0.5, 1.4)}) {
     RandomStream random(1, 0, 0);

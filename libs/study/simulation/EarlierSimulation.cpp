@@ -12,6 +12,7 @@
 
 #include "base/Errors.h"
 #include "files/RawlogReader.h"
+#include "study/simulation/BuildingPlan.h"
 
 namespace hybrid_slam::simulation {
 
@@ -49,10 +50,16 @@ bool isPng(const fs::path& file) {
   return start == "\x89PNG";
 }
 
+bool isPlanOrEmpty(const fs::path& file) {
+  if (hasContent(file)) BuildingPlan::load(file.string());
+  return true;
+}
+
 bool isSimulation(const SimulationFiles& files, double startTime) {
   const auto isStart = [&](double time) { return std::abs(time - startTime) < 1e-5; };
   try {
-    return isPng(files.picture) && isStart(startOfTruth(files.truth)) && isStart(startOfRawlog(files.rawlog));
+    return isPng(files.picture) && isStart(startOfTruth(files.truth)) &&
+           isStart(startOfRawlog(files.rawlog)) && isPlanOrEmpty(files.plan);
   } catch (const std::exception&) {
     return false;
   }

@@ -22,14 +22,15 @@ struct Event {
   size_t index;
 };
 
+/// @param end  s; the simulation needs no readings after it
 std::vector<Event> eventsOf(const Route& route, const std::vector<Slip>& slips, double odometryRate,
-                            double scanRate) {
+                            double scanRate, double end) {
   std::vector<Event> events;
   for (size_t i = 0; i < route.pieces().size(); ++i)
     events.push_back({route.pieces()[i].startTime, Event::motionChanges, i});
   for (size_t i = 0; i < slips.size(); ++i) events.push_back({slips[i].time, Event::slip, i});
   const auto addReadings = [&](Event::Kind kind, double rate, double phase) {
-    for (size_t i = 0; phase + static_cast<double>(i) / rate <= route.duration() + 1e-9; ++i)
+    for (size_t i = 0; phase + static_cast<double>(i) / rate <= end + 1e-9; ++i)
       events.push_back({phase + static_cast<double>(i) / rate, kind, i});
   };
   addReadings(Event::odometry, odometryRate, kOdometryPhase);
@@ -37,6 +38,10 @@ std::vector<Event> eventsOf(const Route& route, const std::vector<Slip>& slips, 
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   return events;
+}
+
+double durationOf(const Route& route, int scans, double scanRate) {
+  return scans > 0 ? std::min(route.duration(), scans / scanRate) : route.duration();
 }
 
 /// Limits the number of readings, which are in memory until they are written.
@@ -47,8 +52,7 @@ void expectBounded(const Route& route, int scans, double scanRate, size_t beamsO
     throw InputError("route too long: " + fixedText(metres / 1000, 1) + " km",
                      "section [simulation], key `route`",
                      "expected at most " + fixedText(kLongestPath / 1000, 0) + " km");
-  double seconds = route.duration();
-  if (scans > 0) seconds = std::min(seconds, scans / scanRate);
+  const double seconds = durationOf(route, scans, scanRate);
   if (seconds * scanRate * static_cast<double>(beamsOfScan) > kMostBeams ||
       seconds * std::max(scanRate, odometryRate) > kMostReadings)
     throw InputError("too many readings: " + fixedText(seconds / 3600, 1) + " h",
@@ -93,7 +97,8 @@ SimulatedLog simulate(const BuildingPlan& plan, const Route& route, const Simula
   };
   Route::Progress last;
   uint64_t step = 0;
-  for (const Event& event : eventsOf(route, slips, odometryOptions.rate, laserOptions.rate)) {
+  const double end = durationOf(route, options.scans, laserOptions.rate);
+  for (const Event& event : eventsOf(route, slips, odometryOptions.rate, laserOptions.rate, end)) {
     const Route::Progress now = route.progressAt(event.time);
     RandomStream odometryNoise = noiseStream(options.seed, options.session, NoiseSource::odometry, step++);
     wheels.move(now.distance - last.distance, now.rotation - last.rotation, odometryNoise);
