@@ -56,10 +56,15 @@ struct SessionArguments {
   }
   /// @throws InputError for options that exclude each other
   void addTo(run::RunOptions& run) const {
-    const int modes = !resume.empty() + !continueFrom.empty() + !localizeIn.empty() + !priorPlan.empty();
-    if (modes > 1)
-      throw InputError("--resume, --continue, --localize and --prior-plan exclude each other", "command line",
-                       "expected one");
+    std::string mode;
+    const auto add = [&mode](const char* option, const std::string& value) {
+      if (value.empty()) return;
+      if (!mode.empty())
+        throw InputError(mode + " and " + option + " exclude each other", "command line", "expected one");
+      mode = option;
+    };
+    add("--resume", resume), add("--continue", continueFrom), add("--localize", localizeIn);
+    add("--prior-plan", priorPlan);
     if (!start.empty() && continueFrom.empty() && localizeIn.empty() && priorPlan.empty())
       throw InputError("--start without a map", "command line",
                        "expected --continue, --localize or --prior-plan as well");

@@ -131,7 +131,7 @@ TEST_F(Sessions, AnotherConfigurationLogOrMethodIsNamed) {
   expectRefused("'" + other + "'", "another log than the session's: " + other);
   const std::string shorter = test::writeGzipped(folder.path("shorter.rawlog"), test::laps(100));
   expectRefused("'" + shorter + "'", "another log than the session's: " + shorter);
-  expectRefused("--continue '" + session + "'", "exclude each other");
+  expectRefused("--continue '" + session + "'", "--resume and --continue exclude each other");
   const std::string longer = test::writeGzipped(folder.path("longer.rawlog"), test::laps(140));
   EXPECT_EQ(run(resume + "'" + longer + "'"), 0) << "a log that has grown: " << err;
 }

@@ -148,10 +148,13 @@ std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> Rosbag2Database::query(con
 
 void Rosbag2Database::checkTable(const std::string& name, const std::string& path) {
   const auto columns = query("SELECT hidden FROM pragma_table_xinfo('" + name + "')");
-  int state = columns ? SQLITE_ROW : SQLITE_ERROR;
+  int state = columns ? SQLITE_ROW : sqlite3_errcode(database_.get());
   while (state == SQLITE_ROW && (state = sqlite3_step(columns.get())) == SQLITE_ROW)
     if (sqlite3_column_int(columns.get(), 0) != 0)
       throw InputError("computed columns in table " + name, path, kExpected);
+  if (state == SQLITE_CORRUPT)
+    throw InputError("damaged database, or cut off: " + std::string(sqlite3_errmsg(database_.get())), path,
+                     "expected a whole file; SQLite's `.recover` may restore it");
   if (state != SQLITE_DONE) throw InputError("not a recording", path, kExpected);
 }
 

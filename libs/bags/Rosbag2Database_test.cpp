@@ -206,6 +206,13 @@ TEST(Rosbag2Database, NoSpaceToUnpackItIsAnError) {
   EXPECT_THAT(error, HasSubstr("No space left"));
 }
 
+TEST(Rosbag2Database, ADatabaseThatIsCutOffIsDamaged) {
+  const files::TemporaryFolder folder;
+  const std::string path = test::writeDatabase(folder.path("a.db3"), messages(500, Encoding::cdr));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_THAT(errorOfBag(path), HasSubstr("damaged database, or cut off"));
+}
+
 TEST(Rosbag2Database, DamagedDatabasesDoNoHarm) {
   const files::TemporaryFolder folder;
   const std::string path = test::writeDatabase(folder.path("a.db3"), messages(50, Encoding::cdr));
