@@ -5,20 +5,23 @@
 #include <mrpt/core/bits_math.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "NumberRange.h"
 #include "base/Errors.h"
+#include "base/Numbers.h"
 #include "files/InstalledFiles.h"
+#include "readings/ScanGrouper.h"
 #include "run/Configuration.h"
 #include "run/SessionFile.h"
 
 namespace hybrid_slam {
 
 struct SessionArguments {
-  std::string resume, continueFrom, localizeIn, priorPlan;
-  std::vector<double> start;
+  std::string resume, continueFrom, localizeIn, priorPlan, start;
   double checkpointEvery = 0;
 
   /// --checkpoint-every
@@ -50,9 +53,7 @@ struct SessionArguments {
         ->type_name("FILE");
     app.add_option("--start", start,
                    "pose in this map or plan at the start of the log (m, deg; default: found from the scans)")
-        ->type_name("X,Y,DEG")
-        ->delimiter(',')
-        ->expected(3);
+        ->type_name("X,Y,DEG");
   }
   /// @throws InputError for options that exclude each other
   void addTo(run::RunOptions& run) const {
@@ -77,12 +78,22 @@ struct SessionArguments {
     for (std::string* session : {&run.resume, &run.continueFrom, &run.localizeIn})
       *session = run::sessionIn(*session);
     run.checkpointEvery = checkpointEvery;
-    if (start.empty()) return;
-    run.start.emplace(start[0], start[1], mrpt::DEG2RAD(start[2]));
-    for (const double value : start)
-      if (!(std::abs(value) <= 1e6))
+    if (!start.empty()) run.start = startPose();
+  }
+
+ private:
+  mrpt::math::TPose2D startPose() const {
+    std::vector<double> values;
+    for (const std::string& field : readings::labelsOf(start))
+      values.push_back(parseFinite(field).value_or(NAN));
+    const auto isWrong = [](double value) { return std::isnan(value); };
+    if (values.size() != 3 || std::any_of(values.begin(), values.end(), isWrong))
+      throw InputError("wrong pose `" + start + "`", "command line, option --start", "expected X,Y,DEG");
+    for (const double value : values)
+      if (std::abs(value) > 1e6)
         throw InputError("start too far away", "command line, option --start",
                          "expected at most 1e6 m and deg");
+    return {values[0], values[1], mrpt::DEG2RAD(values[2])};
   }
 };
 

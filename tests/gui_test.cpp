@@ -160,7 +160,7 @@ TEST_F(GuiTest, ExportsThePictureAndTheResults) {
   mrpt::opengl::COpenGLScene scene;
   ASSERT_TRUE(scene.loadFromFile(folder.path("map.3Dscene")));
   EXPECT_TRUE(scene.getByName("grid"));
-  for (const char* const name : {"/proc/nowhere/map.png", "/proc/nowhere/map.3Dscene"})
+  for (const char* const name : {"/proc/nowhere/map.png", "/proc/nowhere/map.3Dscene", "map", "map.jpg"})
     EXPECT_THROW(frame->exportPictureTo(name), InputError) << name;
   menu(window::kExportPicture);  // cancelled
   EXPECT_EQ(dialogs.messages.size(), 1u);

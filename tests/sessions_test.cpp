@@ -330,7 +330,7 @@ TEST_F(Sessions, AFolderOfResultsNamesItsSession) {
   ASSERT_EQ(replay(log), 0) << err;
   const std::string other = folder.path("other");
   EXPECT_EQ(run("'" + log + "' -o '" + other + "' --localize '" + output + "'"), 0) << err;
-  EXPECT_EQ(run("'" + log + "' --overwrite -o '" + other + "' --start 0,0,0 --continue '" + output + "/'"), 0)
+  EXPECT_EQ(run("--overwrite -o '" + other + "' --continue '" + output + "/' --start 0,0,0 '" + log + "'"), 0)
       << err;
   EXPECT_EQ(run("--resume '" + output + "' --overwrite -o '" + other + "'"), 0) << err;
 }
@@ -358,7 +358,8 @@ TEST_F(Sessions, OptionsThatExcludeEachOther) {
     EXPECT_FALSE(fs::exists(output));
   };
   expectRefused("--start 1,2,3", "--start without a map");
-  expectRefused("--start 1,2 --continue x", "--start");
+  expectRefused("--start 1,2 --continue x", "wrong pose `1,2`: command line, option --start");
+  expectRefused("--start 1,2,east --continue x", "wrong pose `1,2,east`");
   expectRefused("--start 1e9,2,3 --continue x", "too far away");
   expectRefused("--checkpoint-every 0", "--checkpoint-every");
   expectRefused("--checkpoint-every nan", "is not a number in 0.001..1e+09");

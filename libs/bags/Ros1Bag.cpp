@@ -39,8 +39,7 @@ std::string nameIn(std::string_view header, std::string_view name) {
 Ros1Bag::Ros1Bag(const std::string& path) : ChunkedFile(path, sizeof("#ROSBAG V2.0\n") - 1) {}
 
 std::optional<StoredMessage> Ros1Bag::nextRecord() {
-  isAtEnd_ = stream_.isAtEnd();  // without an index, after a crash
-  if (isAtEnd_) return std::nullopt;
+  if (stream_.isAtEnd()) throw BrokenBytes("cut off: it has no index");  // as after a crash
   const auto length = [this](size_t most, const char* what) {
     const std::string bytes = stream_.take(sizeof(uint32_t));
     const auto count = ByteCursor(bytes).number<uint32_t>();

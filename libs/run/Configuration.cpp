@@ -68,6 +68,12 @@ void Configuration::setMethod(Method method) {
   filter.useGrid = method != Method::linemap;
 }
 
+Configuration Configuration::alone() const {
+  Configuration copy = *this;
+  copy.more_.clear();
+  return copy;
+}
+
 files::Sections Configuration::sections() {
   files::Sections all{{"run", &run}, {"input", &input}};
   for (const auto& section : filter.sections()) all.push_back(section);

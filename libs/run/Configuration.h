@@ -64,6 +64,8 @@ struct Configuration {
   /// Loads the `text()` of an earlier run. @param file  file that holds it, for errors
   void load(const std::string& text, const std::string& file);
 
+  /// Returns a copy without the further sections of the program; it may outlive them.
+  Configuration alone() const;
   files::Sections sections();
   /// Sets one of our keys unless the file or the command line does. @return whether it was set
   bool setDefault(const std::string& section, const std::string& key, const std::string& value);

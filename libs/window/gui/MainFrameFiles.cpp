@@ -156,7 +156,10 @@ void MainFrame::exportPictureTo(const std::string& file) const {
   constexpr PictureSize kSize{1600, 1200};
   const auto filter = shownFilter();
   files::PartialFile partial(file);
-  const bool isScene = std::filesystem::path(file).extension() == ".3Dscene";
+  const std::string format = std::filesystem::path(file).extension().string();
+  const bool isScene = format == ".3Dscene";
+  if (!isScene && format != ".png")
+    throw InputError("no format for a picture", file, "expected the ending .png or .3Dscene");
   Layers layers;
   layers.legend = false;  // its place is that in a picture
   const bool isWritten = isScene ? filterScene(*filter, mapPlane(filter->map),

@@ -29,7 +29,7 @@ std::vector<run::RunOptions::Method> comparedMethods(const run::Configuration& c
 }
 
 ReplaySession::ReplaySession(const run::Configuration& configuration, const std::vector<Method>& methods)
-    : configuration_(configuration), methods_(methods), thread_([this] { work(); }) {}
+    : configuration_(configuration.alone()), methods_(methods), thread_([this] { work(); }) {}
 
 ReplaySession::~ReplaySession() {
   {

@@ -99,6 +99,28 @@ TEST_F(ReplaySessionTest, GivesTheResultsOfHybridSlam) {
   EXPECT_EQ(test::contentOf(folder.path("out/hybrid/metrics.json")), first);
 }
 
+/// As when the window is closed during an export.
+TEST_F(ReplaySessionTest, OutlivesTheFurtherSectionsOfItsConfiguration) {
+  struct LiveOptions : Options {
+    int retries = 3;
+    void describe(OptionTable& t) override { t.add("retries", retries, 0, 9, "further section"); }
+  };
+  std::unique_ptr<ReplaySession> session;
+  {
+    LiveOptions live;
+    const std::string log = test::writeGzipped(folder.path("laps.rawlog"), test::laps(kScans));
+    session = std::make_unique<ReplaySession>(
+        run::Configuration("", {"run.rawlog=" + log, "particle_filter.particles=2"}, {{"live", &live}}),
+        std::vector<Method>{Method::hybrid});
+  }
+  session->seek(20);
+  ASSERT_TRUE(reaches(*session, State::paused, 20));
+  session->exportResults(folder.path("out"));
+  ASSERT_TRUE(test::happens([&] { return session->snapshot()->messages > 0; }));
+  EXPECT_FALSE(session->snapshot()->isError);
+  EXPECT_THAT(test::contentOf(folder.path("out/hybrid/config.ini")), testing::Not(HasSubstr("[live]")));
+}
+
 TEST_F(ReplaySessionTest, ShowsMethodsWithoutGridsByTheirScans) {
   ReplaySession session(laps(), {Method::linemap, Method::ortho});
   session.seek(20);
