@@ -3,9 +3,8 @@
 #   scripts/benchmark.sh [OUT]     OUT defaults to out/benchmark; the tables go to OUT/benchmark.md
 # HYBRID_SLAM_DATASETS names the folder with intel-lab.clf.gz (doc/datasets.md); without it only the simulated worlds
 # are measured. FULL=1 adds the slow runs: rbpf-slam's shipped ICP set-up, 5000 and 10000 particles, 5000 also on the
-# CSIE loop. COUNTS="10 100 300 1000" sets the numbers of particles, with 100 and larger ones
-# among them. SKIP_KERNELS=1 skips the kernels. Times are CPU seconds
-# unless stated otherwise, which other programs disturb least.
+# CSIE loop. COUNTS="10 100 300 1000" sets the numbers of particles, with 100 and larger ones among them. SKIP_KERNELS=1
+# skips the kernels. Times are CPU seconds unless stated otherwise, which other programs disturb least.
 source "$(dirname "$0")/lib.sh"
 out=${1:-out/benchmark}
 install_packages "${packages[@]}" time
