@@ -72,8 +72,8 @@ run() {
   "$bin/hybrid-slam" "$file" -q -s "$3" $(options "$2") -o "$folder" >/dev/null 2>"$folder.log" || return 0
   rm -f "$folder"/*.gz "$folder"/map.{pgm,yaml}
   [[ $1 != intel-lab ]] || evaluate "$1" "$folder" intel-lab-full >"$folder/errors-full.json"
-  evaluate "$1" "$folder" >"$folder/errors.part"
-  mv "$folder/errors.part" "$folder/errors.json"  # else an interrupted run would count as done
+  # Else an interrupted or failed evaluation would count as done.
+  evaluate "$1" "$folder" >"$folder/errors.part" && mv "$folder/errors.part" "$folder/errors.json"
 }
 
 # DP-SLAM's loop is evaluated by its scans.

@@ -23,8 +23,8 @@ run() {
   rm -rf "$folder"
   "$bin/hybrid-slam" "$log.rawlog" -q -s "$3" -m "$1" -o "$folder" >/dev/null 2>"$folder.log" || return 0
   ln -sf "$log.tum" "$folder/truth.tum"
-  "$bin/slam-eval" ate --trajectory "$folder/trajectory.tum" --reference "$log.tum" >"$folder.part"
-  mv "$folder.part" "$folder.ate"
+  "$bin/slam-eval" ate --trajectory "$folder/trajectory.tum" --reference "$log.tum" >"$folder.part" &&
+    mv "$folder.part" "$folder.ate"
 }
 
 mkdir -p "$out"

@@ -72,10 +72,10 @@ std::vector<std::string> settingsOf(const CommandLine& line, const CLI::App& app
 /// Rejects --refine where it would do nothing.
 void expectRefinable(const run::RunOptions& run) {
   using Method = run::RunOptions::Method;
-  if (run.refine > 0 && !run.localizeIn.empty())
+  if (!run.localizeIn.empty())
     throw InputError("--refine with --localize", "command line",
                      "expected one: localisation leaves the map as it is");
-  if (run.refine > 0 && run.method != Method::hybrid && run.method != Method::general)
+  if (run.method != Method::hybrid && run.method != Method::general)
     throw InputError("--refine with method " + nameOf(run.method), "command line",
                      "expected method hybrid or general");
 }

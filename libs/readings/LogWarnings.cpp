@@ -20,7 +20,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.empty, "scan(s) without beams (or aperture or sensor pose)", "skipped");
   add(log.misplaced, "scan(s) with a sensor pose over 100 m from the robot", "skipped");
   add(log.tilted, "scan(s) of a tilted plane", "skipped");
-  constexpr size_t kLeast = 10;  // of this many ranges, one is a return even outdoors
+  constexpr size_t kLeast = 10;  // of this many ranges, at least one is a return
   if (log.returns < log.beams / kLeast)
     all.push_back("only " + std::to_string(log.returns) + " of " + std::to_string(log.beams) +
                   " ranges are above 0 and below the laser's maximum: " + file +

@@ -114,13 +114,14 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   if (bags::isBag(file))
     summary.bag = std::make_shared<const BagPlan>(
         planOf(contentsOf(file, isStopped), {wanted, options.odometryTopic}, file));
+  const std::string chosen = summary.bag ? "" : options.odometryTopic;  // sensor label of the odometry
   LogReader reader(file, summary.bag);
   summary.unit = reader.unit();
   SweepTimes sweeps(options.sweep());
   const auto laserPose = laserPoseIn(options.laserPose);
   ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
   ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap, SweepTimes(0),
-                             laserPose, summary.bag ? "" : options.odometryTopic);  // to its first reading
+                             laserPose, chosen);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
   Uses uses;
@@ -136,15 +137,14 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   };
   std::optional<TPose2D> first;
   std::set<std::string> odometryLabels;
-  if (!summary.bag) summary.odometryLabel = options.odometryTopic;
   bool actionsMove = false, readingsMove = false;
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
     noteOdometry(isPossible(pose), summary.hasOdometryReadings, summary.wrongOdometry);
     if (!isPossible(pose)) return;
+    if (odometryLabels.empty()) summary.odometryLabel = chosen.empty() ? odometry.sensorLabel : chosen;
     if (odometryLabels.size() < kMostLabels) odometryLabels.insert(odometry.sensorLabel);
-    if (summary.odometryLabel.empty()) summary.odometryLabel = odometry.sensorLabel;
     if (odometry.sensorLabel != summary.odometryLabel) return note(summary.otherOdometry, reader.entry());
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
@@ -227,8 +227,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (uses.count(label) == 0)
       throw InputError("no scans of the laser `" + label + "`", file,
                        "[input] sensor_label: the log has " + quotedList(labelsOf(uses)));
-  if (!summary.bag && !options.odometryTopic.empty() && odometryLabels.count(options.odometryTopic) == 0)
-    throw InputError("no odometry readings of the sensor `" + options.odometryTopic + "`", file,
+  if (!chosen.empty() && odometryLabels.count(chosen) == 0)
+    throw InputError("no odometry readings of the sensor `" + chosen + "`", file,
                      "--odometry-topic or [input] odometry_topic: the log has " + quotedList(odometryLabels));
   if (summary.scans == 0 && summary.misplaced.count > 0)
     throw InputError("the laser is not on the robot", "sensor `" + uses.begin()->first + "` in " + file,

@@ -206,6 +206,21 @@ TEST(RawlogSource, RangesInMillimetresAreReported) {
           "only 1 of 30 ranges are above 0 and below the laser's maximum: LOG; expected ranges in metres"));
 }
 
+TEST(RawlogSource, TheFirstOdometryMayHaveNoLabel) {
+  test::Log log;
+  for (int i = 0; i < 4; ++i) {
+    const auto unnamed = test::odometry(10 + i, {0.1 * i, 0, 0}),
+               other = test::odometry(10.5 + i, {-5. * i, 0, 0});
+    unnamed->sensorLabel.clear();
+    other->sensorLabel = "VISUAL";
+    for (const auto& each : test::Log{unnamed, scan(10 + i), other}) log.push_back(each);
+  }
+  const Replayed r = replayed(log);
+  EXPECT_THAT(r.x, areNear({0, 0.1, 0.2, 0.3}));
+  EXPECT_EQ(r.summary.odometryLabel, "");
+  EXPECT_EQ(r.summary.otherOdometry.count, 4u);
+}
+
 TEST(RawlogSource, UsesTheNamedOdometry) {
   test::Log log;
   for (int i = 0; i < 4; ++i) {

@@ -202,6 +202,32 @@ TEST_P(EveryExtractor, FindsLinesOnWallsAgainAndAgain) {
   }
 }
 
+TEST_P(EveryExtractor, ALineHasTheLeastNumberOfPoints) {
+  LineExtractionOptions options;
+  options.method = GetParam();
+  options.segmentation.minPoints = 40;
+  RandomStream random(16, 0, 0);
+  size_t lines = 0;
+  for (int i = 0; i < 20; ++i) {
+    const TPose2D robot(test::uniform(random, -1, 3), test::uniform(random, 0, 2), 0);
+    const LaserScan scan = roomScan(robot, 0.02, random);
+    for (const LineSegment& line : extractLines(scan, options)) {
+      const TPoint2D along = (line.end - line.start) * (1 / line.length);
+      size_t points = 0;
+      for (const auto& beam : scan.beams) {
+        const TPoint2D p(beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle)),
+            q = p - line.start;
+        const double at = q.x * along.x + q.y * along.y;
+        points +=
+            -0.1 < at && at < line.length + 0.1 && std::abs(signedDistance(p, line.rho, line.theta)) < 0.3;
+      }
+      EXPECT_GE(points, 40u);
+      ++lines;
+    }
+  }
+  EXPECT_GT(lines, 20u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, EveryExtractor, testing::ValuesIn(lineExtractors()),
                          [](const auto& extractor) { return extractor.param->name; });
 
