@@ -37,11 +37,15 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
   add(log.jumps, "odometry jump(s) of over 100 m or far above the robot's speed", "taken as no motion");
   add(log.wrongSweeps,
       "scan time(s) (first beam to last) below 0 or over " + numberText(kLongestSweep) + " s",
-      "these scans are not corrected for the robot's motion");
+      "scans after it are not corrected for the robot's motion");
   for (const auto& [label, seconds] : log.sweeps)
     if (!log.isDeskewed)
       all.push_back("laser `" + label + "` takes " + fixedText(1000 * seconds, 1) + " ms for a scan: " +
                     file + "; without odometry the beams are not corrected for the robot's motion");
+  if (log.hasMotion)
+    for (const std::string& label : log.turning)
+      all.push_back("time of a scan is unknown: laser `" + label + "` in " + file +
+                    "; input.scan_rate=HZ (turns per second) corrects the scans for the robot's motion");
   if (log.bag) all.insert(all.end(), log.bag->notes.begin(), log.bag->notes.end());
   all.insert(all.end(), log.ignored.begin(), log.ignored.end());
   return all;

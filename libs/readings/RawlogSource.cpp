@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/Degree.h"
 #include "base/Errors.h"
 #include "files/InputFile.h"
 #include "files/RawlogReader.h"
@@ -28,6 +29,8 @@ void note(Oddity& oddity, size_t entry) {
 std::string placeOf(const LogReader& reader, const std::string& file) {
   return reader.unit() + (" " + std::to_string(reader.entry())) + " of " + file;
 }
+
+constexpr double kAllAround = 340 * kDegree;  // aperture
 
 using Uses = std::map<std::string, std::map<ScanGrouper::Use, size_t>>;  ///< scans of each laser, by use
 
@@ -148,7 +151,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (odometry.sensorLabel != summary.odometryLabel) return note(summary.otherOdometry, reader.entry());
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
-    readingsMove |= pose != *first;
+    readingsMove |= pose.x != first->x || pose.y != first->y;
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
     const ScanGrouper::Use use = grouper.useOf(scan);
@@ -162,7 +165,11 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     summary.beams += scan.getScanSize();
     for (size_t i = 0; i < scan.getScanSize(); ++i) summary.returns += isReturn(scan, i);
     grouper.add(scan);
-    if (const double sweep = sweeps.of(scan); sweep > 0) summary.sweeps[scan.sensorLabel] = sweep;
+    summary.mountings.try_emplace(scan.sensorLabel, laserPose.value_or(scan.sensorPose));
+    if (const double sweep = sweeps.of(scan); sweep > 0)
+      summary.sweeps[scan.sensorLabel] = sweep;
+    else if (scan.aperture > kAllAround && !options.sweep().seconds && !options.sweep().rate)
+      summary.turning.insert(scan.sensorLabel);
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
     const auto [before, isNew] = last.try_emplace(scan.sensorLabel, t);
@@ -177,7 +184,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (isStopped()) throw std::runtime_error("interrupted: " + placeOf(reader, file));
     if (const auto increment = incrementOf(object)) {
       noteOdometry(isFinite(*increment), summary.hasActions, wrongActions);
-      actionsMove |= isFinite(*increment) && *increment != TPose2D();
+      actionsMove |= isFinite(*increment) && (increment->x != 0 || increment->y != 0);
       if (isFinite(*increment) && isJump({}, *increment)) note(actionJumps, reader.entry());
     } else if (isAction(object)) {
       note(summary.noOdometry, reader.entry());
@@ -218,6 +225,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
   summary.ignored = reader.ignoredLasers();
   noteIgnored(summary, uses);
+  for (const auto& sweep : summary.sweeps) summary.turning.erase(sweep.first);
   summary.isDeskewed =
       options.requireOdometry && summary.hasMotion && (summary.hasActions || summary.hasOdometryReadings);
 

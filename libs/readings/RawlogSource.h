@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "base/Options.h"
@@ -54,14 +55,16 @@ struct RawlogSummary {
   Oddity noOdometry;                                                      ///< actions
   Oddity wrongSweeps;                                                     ///< impossible scan times
   Oddity jumps;                                                           ///< of the odometry (OdometryJumps)
-  Oddity brokenLines;                    ///< of a text log; messages of a bag
-  size_t beams = 0, returns = 0;         ///< of the scans used; returns are of valid range
-  Oddity passedOver;                     ///< observations of classes that are not read
-  std::string passedOverClasses;         ///< a list
-  std::map<std::string, double> sweeps;  ///< s, last known of each laser
-  bool isDeskewed = false;               ///< beams are corrected by these where the robot moves
+  Oddity brokenLines;                                     ///< of a text log; messages of a bag
+  size_t beams = 0, returns = 0;                          ///< of the scans used; returns are of valid range
+  Oddity passedOver;                                      ///< observations of classes that are not read
+  std::string passedOverClasses;                          ///< a list
+  std::map<std::string, double> sweeps;                   ///< s, last known of each laser
+  std::map<std::string, mrpt::poses::CPose3D> mountings;  ///< of each laser used: pose on the robot at first
+  std::set<std::string> turning;                          ///< lasers that see all around, in an unknown time
+  bool isDeskewed = false;  ///< beams are corrected by these where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
-  bool hasMotion = false;              ///< the odometry changes
+  bool hasMotion = false;              ///< the odometry's position changes
   double duration = 0;                 ///< s, of the scans; Duration
   size_t entries = 0;                  ///< lines of a text log, messages of a bag
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"

@@ -116,9 +116,9 @@ TEST(RawlogSource, ScansAfterTheLastOdometryHaveItsPose) {
 }
 
 TEST(RawlogSource, EqualTimestamps) {
-  const Replayed r =
-      replayed({test::odometry(10, {0, 0, 0}), scan(10), scan(10), test::odometry(10, {1, 0, 0}), scan(10),
-                test::odometry(10, {2, 0, 0}), test::odometry(10, {3, 0, 0}), scan(10)});
+  const Replayed r = replayed(
+      {test::odometry(10, {0, 0, 0}), scan(10), scan(10), test::odometry(10, {1, 0, 0}), scan(10, {1, 0, 0}),
+       test::odometry(10, {2, 0, 0}), test::odometry(10, {3, 0, 0}), scan(10, {3, 0, 0})});
   EXPECT_THAT(r.x, areNear({0, 0, 1, 3})) << "log order kept";
   EXPECT_EQ(r.summary.repeatedStamps.count, 3u);
   EXPECT_EQ(r.summary.repeatedStamps.first, 3u);
@@ -272,7 +272,7 @@ TEST(RawlogSource, MissingTimestamps) {
   EXPECT_EQ(r.summary.unstamped.first, 4u);
 
   const Replayed none = replayed({test::odometry(test::kNoTime, {0, 0, 0}), scan(test::kNoTime),
-                                  test::odometry(test::kNoTime, {1, 0, 0}), scan(test::kNoTime)});
+                                  test::odometry(test::kNoTime, {1, 0, 0}), scan(test::kNoTime, {1, 0, 0})});
   EXPECT_THAT(none.times, areNear({0, 0}));
   EXPECT_THAT(none.x, areNear({0, 1}));
   EXPECT_EQ(none.summary.duration, 0);
@@ -337,6 +337,28 @@ TEST(RawlogSource, NoOdometry) {
                            test::frame({scan(2)})};
   EXPECT_TRUE(replayed(standing).summary.hasActions);
   EXPECT_FALSE(replayed(standing).summary.hasMotion);
+}
+
+TEST(RawlogSource, OdometryOfTheHeadingAloneIsNoMotion) {
+  EXPECT_FALSE(replayed({test::odometry(1, {3, 4, 0}), scan(1), test::odometry(2, {3, 4, 0.2}), scan(2)})
+                   .summary.hasMotion);
+  EXPECT_FALSE(
+      replayed({test::action({}), test::frame({scan(1)}), test::action({0, 0, 0.2}), test::frame({scan(2)})})
+          .summary.hasMotion);
+}
+
+TEST(RawlogSource, ALaserThatSeesAllAroundShouldHaveAScanTime) {
+  const auto turning = [](double time) {
+    auto all = scan(time);
+    all->aperture = static_cast<float>(2 * M_PI);
+    return all;
+  };
+  const test::Log log{test::odometry(1, {}), turning(1), test::odometry(2, {1, 0, 0}), turning(2)};
+  EXPECT_THAT(replayed(log).summary.turning, ElementsAre("LASER"));
+  readings::InputOptions options;
+  options.scanTime = 0;
+  EXPECT_TRUE(replayed(log, options).summary.turning.empty());
+  EXPECT_TRUE(replayed({scan(1), scan(2)}).summary.turning.empty());
 }
 
 TEST(RawlogSource, OdometryOfEitherFormIsIgnoredOnRequest) {

@@ -10,6 +10,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +26,11 @@ namespace hybrid_slam::readings {
 /// The scans taken at one time, and the odometry motion since the previous reading.
 struct Reading {
   /// At most one scan per laser, the latest last. The sensor poses of earlier ones are corrected by the
-  /// odometry motion since.
+  /// odometry motion since. Empty if all lasers repeat their last scan.
   Scans scans;
   double timestamp = 0;        ///< s, of the latest scan; without one, that of the previous reading
   mrpt::math::TPose2D motion;  ///< m, rad
+  std::optional<std::string> repeating = {};  ///< label of a laser that repeats its last scan: not used
 };
 
 /// Where the odometry of a log is.
@@ -49,7 +51,9 @@ constexpr size_t kMostEarly = 5;
 /// sensor has its own frame. The last five readings before the first odometry reading use that one, and
 /// earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the odometry
 /// (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over 10 m
-/// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped.
+/// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped,
+/// and those that repeat the last scan of their laser bit by bit although the odometry has moved since: some
+/// drivers do so when they lose the laser.
 /// Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
 /// ScanGrouper decides which scans are used and which of them form one reading.
 ///
@@ -108,6 +112,8 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   bool isEarly(const Waiting& scan) const;
   /// Corrects the scan for the motion during its sweep, if that is known.
   mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
+  /// Returns whether the laser repeats its last scan while the robot moves.
+  bool isRepeated(const Waiting& scan, const mrpt::math::TPose2D& odometry);
   void complete(const Waiting& scan);
   void endReading();
 
@@ -119,8 +125,10 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   std::deque<Reading> ready_;
   std::deque<Waiting> waiting_;  ///< until odometry after them arrives
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
-  std::vector<std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>>
-      collected_;                                    ///< with odometry
+  using ScanAt = std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>;  ///< with odometry
+  std::vector<ScanAt> collected_;
+  std::optional<ScanAt> repeated_;        ///< the last one of the current reading
+  std::map<std::string, ScanAt> newest_;  ///< of each laser, as measured: the first of those that are equal
   std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
   std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
   std::optional<std::string> odometryLabel_;         ///< of the sensor whose odometry is used

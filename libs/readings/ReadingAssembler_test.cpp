@@ -181,5 +181,46 @@ TEST(ReadingAssembler, JumpsFasterThanTheRobotAreNoMotion) {
   EXPECT_NEAR(endOf(readings).x, 17 * 0.05 + 19 * 0.05 * std::cos(1), 1e-6);
 }
 
+/// A copy of a scan at a later time.
+mrpt::obs::CObservation2DRangeScan::Ptr again(const mrpt::obs::CObservation2DRangeScan& scan, double time) {
+  auto copy = mrpt::obs::CObservation2DRangeScan::Create(scan);
+  copy->timestamp = test::stamp(time);
+  return copy;
+}
+
+TEST(ReadingAssembler, ALaserThatRepeatsItsScanWhileTheRobotMovesIsNotUsed) {
+  const auto first = scan(1);
+  const std::vector<Reading> readings = assembled(
+      {odometry(1, {0, 0, 0}), first, odometry(2, {0, 0, 0}), again(*first, 2), odometry(3, {0.5, 0, 0}),
+       again(*first, 3), odometry(4, {0.5, 0, 0.1}), again(*first, 4), odometry(5, {1, 0, 0.1}), scan(5)});
+  std::vector<size_t> scans;
+  for (const Reading& reading : readings) scans.push_back(reading.scans.size());
+  EXPECT_EQ(scans, (std::vector<size_t>{1, 1, 0, 0, 1})) << "a robot that stands may see the same twice";
+  EXPECT_NEAR(readings[2].timestamp, 3, 1e-6);
+  EXPECT_NEAR(readings[2].motion.x, 0.5, 1e-9);
+  EXPECT_NEAR(endOf(readings).x, 1, 1e-9) << "no motion is lost";
+}
+
+TEST(ReadingAssembler, TheScansOfOtherLasersAreUsedWhileOneRepeatsItsOwn) {
+  const auto first = scan(1, {}, 181, "FRONT");
+  const std::vector<Reading> readings =
+      assembled({odometry(1, {0, 0, 0}), test::frame({first, scan(1, {}, 181, "REAR")}),
+                 odometry(2, {1, 0, 0}), test::frame({again(*first, 2), scan(2, {}, 181, "REAR")})});
+  ASSERT_EQ(readings.size(), 2u);
+  ASSERT_EQ(readings[1].scans.size(), 1u);
+  EXPECT_EQ(readings[1].scans[0]->sensorLabel, "REAR");
+  EXPECT_EQ(readings[0].repeating, std::nullopt);
+  EXPECT_EQ(readings[1].repeating, "FRONT");
+}
+
+TEST(ReadingAssembler, InTheOpenEqualScansAreUsed) {
+  const auto first = scan(1);
+  for (size_t i = 9; i < first->getScanSize(); ++i) first->setScanRangeValidity(i, false);
+  const std::vector<Reading> readings =
+      assembled({odometry(1, {0, 0, 0}), first, odometry(2, {1, 0, 0}), again(*first, 2)});
+  ASSERT_EQ(readings.size(), 2u);
+  EXPECT_EQ(readings[1].scans.size(), 1u);
+}
+
 }  // namespace
 }  // namespace hybrid_slam::readings

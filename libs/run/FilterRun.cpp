@@ -106,6 +106,7 @@ FilterRun::~FilterRun() = default;
 
 bool FilterRun::process(const readings::Reading& reading) {
   isConsistent_ = false;
+  noteRepeatedScan(reading);
   readings::Reading moved = reading;
   if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
   if (stuckOdometry_) replaceStuckOdometry(moved);
@@ -115,6 +116,13 @@ bool FilterRun::process(const readings::Reading& reading) {
   saveIfDue();
   if (isUpdate || scans_ % 100 == 0) checkMemory();
   return isUpdate;
+}
+
+void FilterRun::noteRepeatedScan(const readings::Reading& reading) {
+  if (!reading.repeating || hasRepeatedScans_) return;
+  hasRepeatedScans_ = true;
+  notes_.push_back("laser `" + *reading.repeating + "` repeats its last scan while the robot moves: " +
+                   "such scans are not used, first at " + fixedText(reading.timestamp, 3) + " s");
 }
 
 void FilterRun::replaceStuckOdometry(readings::Reading& reading) {

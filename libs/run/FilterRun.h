@@ -145,6 +145,7 @@ class FilterRun {
  private:
   template <class State>
   void visit(State& state);
+  void noteRepeatedScan(const readings::Reading& reading);
   void replaceStuckOdometry(readings::Reading& reading);
   bool filter(const readings::Reading& reading);
   bool isMemoryFull();
@@ -197,6 +198,7 @@ class FilterRun {
   std::function<void()> beforeSession_ = [] {};
   Clock::time_point lastCheckpoint_ = Clock::now();
   uint32_t fingerprint_ = 0;  ///< of the processed readings
+  bool hasRepeatedScans_ = false;
   bool isConsistent_ = true;  ///< no reading has failed halfway
   double secondsBefore_ = 0;  ///< wall time of the resumed run
   size_t scans_ = 0;

@@ -188,7 +188,11 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const s
     evidence.spacing = lengthsAlong(best.path).back() / static_cast<double>(best.path.size() - 1);
   if (!scanOdometry_) {
     evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
-    evidence.turns = turnsOf(recorder_.motionsOfUpdates(), best.path);
+    const std::vector<mrpt::math::TPose2D> odometry = recorder_.motionsOfUpdates();
+    evidence.turns = turnsOf(odometry, best.path);
+    evidence.gap = longestGapOf(odometry, best.path);
+    evidence.early = log.early.count;
+    evidence.stuckScans = counts_.stuckScans;
   }
   evidence.scans = log.scans;
   finished.verdict = verdictOf(evidence);

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/DeskewedScan.h"
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/Numbers.h"
@@ -95,7 +96,12 @@ std::vector<LogSetting> updates(std::vector<float> steps) {
           {"improved_proposal", "update_angle_deg", isSparse ? "1" : "5", reason}};
 }
 
-std::string describe(const LaserScan& scan) {
+/// @param mounting  pose of the laser on the robot
+std::string describe(const mrpt::obs::CObservation2DRangeScan& observation,
+                     const mrpt::poses::CPose3D& mounting) {
+  const auto placed = copyOf(observation);
+  placed->sensorPose = mounting;  // that of a reading includes the robot's motion
+  const LaserScan scan = toLaserScan(*placed, kNoLimit);
   const auto degrees = [](double angle) {
     return numberText(std::round(mrpt::RAD2DEG(angle) * 1e3) / 1e3 + 0.0);
   };  // not -0
@@ -141,7 +147,8 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
       steps.push_back(static_cast<float>(reading.motion.norm()));
     for (const auto& observation : reading.scans) {
       const LaserScan scan = toLaserScan(*observation, kNoLimit);
-      if (lasers.count(observation->sensorLabel) == 0) lasers[observation->sensorLabel] = describe(scan);
+      const std::string& label = observation->sensorLabel;
+      if (lasers.count(label) == 0) lasers[label] = describe(*observation, log.mountings.at(label));
       limit = std::max(limit, scan.maxRange);
       const Beam* last = nullptr;
       for (const Beam& beam : scan.beams) {
@@ -167,9 +174,10 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   found.settings = cellSize(ranges, spacings);
   for (const LogSetting& setting : updates(std::move(steps))) found.settings.push_back(setting);
   if (!log.hasMotion)
-    found.settings.push_back({"input", "require_odometry", "false",
-                              std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
-                                  ": motion is predicted from the previous steps"});
+    found.settings.push_back(
+        {"input", "require_odometry", "false",
+         std::string(found.hasOdometry ? "odometry whose position never changes" : "no odometry") +
+             ": motion is predicted from the previous steps"});
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
   return found;
 }

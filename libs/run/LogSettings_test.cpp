@@ -138,10 +138,25 @@ TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
     return c.input.requireOdometry;
   };
   EXPECT_FALSE(usesOdometry([](size_t) { return test::TPose2D(1, 2, 3); }));
-  EXPECT_EQ(lines.back(),
-            "input.require_odometry = false: odometry that never changes: motion is predicted from the "
-            "previous steps");
+  EXPECT_EQ(
+      lines.back(),
+      "input.require_odometry = false: odometry whose position never changes: motion is predicted from the "
+      "previous steps");
   EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(i == 3 ? 0.01 : 0, 0, 0); }));
+}
+
+TEST_F(LogSettingsTest, TheMountingOfASecondLaserIsWithoutTheRobotsMotion) {
+  test::Log log;
+  for (int i = 0; i < 20; ++i) {
+    const double x = 0.1 * i;
+    log.push_back(test::odometry(1 + 0.1 * i, {x, 0, 0}));
+    log.push_back(test::scan(1.01 + 0.1 * i, {x, 0, 0}, 181, "A"));
+    log.push_back(test::scan(1.06 + 0.1 * i, {x, 0, 0}, 181, "B"));
+  }
+  const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
+  EXPECT_THAT(readLogSettings(file, input, readings::summarise(file, input)).lasers,
+              ElementsAre(HasSubstr("laser A: 181 beams every 1 deg, at x 0.00 m"),
+                          HasSubstr("laser B: 181 beams every 1 deg, at x 0.00 m")));
 }
 
 TEST_F(LogSettingsTest, DescribesTheLaser) {

@@ -199,7 +199,7 @@ test::Log straightDrive(double length) {
   for (int i = 0; i * 70 < length; ++i) {
     const mrpt::math::TPose2D pose(49.5 * i, 49.5 * i, 0);
     const auto scan = test::scan(1000 + 10 * i, {}, 61);
-    for (size_t k = 0; k < 61; ++k) scan->setScanRange(k, k % 2 == 0 ? 4.F : 5.F);
+    for (size_t k = 0; k < 61; ++k) scan->setScanRange(k, (k + static_cast<size_t>(i)) % 2 == 0 ? 4.F : 5.F);
     log.push_back(test::odometry(1000 + 10 * i, pose));
     log.push_back(scan);
   }

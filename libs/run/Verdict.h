@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/loops/LaserAgreement.h"
 #include "slam/loops/RevisitCheck.h"
 
 namespace hybrid_slam::run {
@@ -46,18 +47,33 @@ struct Turns {
 /// @param path      a pose for each update
 Turns turnsOf(const std::vector<mrpt::math::TPose2D>& odometry, const std::vector<mrpt::math::TPose2D>& path);
 
+/// A part of the path without scans.
+struct Gap {
+  double length = 0;         ///< m, by the odometry
+  mrpt::math::TPoint2D end;  ///< m, map frame
+};
+/// Returns the longest step between two updates.
+/// @param odometry  motion from each update to the next one, at the index of the next
+/// @param path      a pose for each update
+Gap longestGapOf(const std::vector<mrpt::math::TPose2D>& odometry,
+                 const std::vector<mrpt::math::TPose2D>& path);
+
 /// Evidence that a verdict is based on.
 struct Evidence {
-  std::vector<Revisit> returning;  ///< scans compared with what was mapped 20 m of path before
-  std::vector<Revisit> recent;     ///< scans compared with what was mapped 2 m of path before
-  std::vector<Revisit> earlier;    ///< scans compared with the map that the run continues
-  double spread = 0;               ///< m, standard deviation of the particles at the end
-  size_t slips = 0, updates = 0;   ///< updates whose odometry was rejected, and all
-  size_t odometryFaults = 0;       ///< impossible odometry readings, and jumps
-  Turns turns;                     ///< in both directions
-  size_t scans = 0;                ///< of the log
-  double beams = NAN;              ///< mean number of beams compared in a scan, at most 90; NaN: no scan
-  double spacing = 0;              ///< m of path between two updates, mean
+  std::vector<Revisit> returning;   ///< scans compared with what was mapped 20 m of path before
+  std::vector<Revisit> recent;      ///< scans compared with what was mapped 2 m of path before
+  std::vector<Revisit> earlier;     ///< scans compared with the map that the run continues
+  std::vector<LaserOffset> lasers;  ///< how the lasers fit each other
+  double spread = 0;                ///< m, standard deviation of the particles at the end
+  size_t slips = 0, updates = 0;    ///< updates whose odometry was rejected, and all
+  size_t odometryFaults = 0;        ///< impossible odometry readings, and jumps
+  Turns turns;                      ///< in both directions
+  size_t scans = 0;                 ///< of the log
+  double beams = NAN;               ///< mean number of beams compared in a scan, at most 90; NaN: no scan
+  double spacing = 0;               ///< m of path between two updates, mean
+  Gap gap;                          ///< the longest
+  size_t early = 0;                 ///< scans of the log before its first odometry, which are not used
+  size_t stuckScans = 0;            ///< whose odometry stood still while the robot moved
   std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were
 };
 

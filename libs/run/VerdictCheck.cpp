@@ -47,8 +47,15 @@ void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
   const size_t update = updates_++;
   if (last_) distance_ += distanceBetween(*last_, pose);
   last_ = pose;
+  lasers_.add(pose, scans, distance_);
   if (!steps_.isDue(pose)) return;
   comparisons_.add(pose, beamsToCompare(scans, maxRange_), distance_, update);
+}
+
+Evidence VerdictCheck::evidence() const {
+  Evidence evidence = comparisons_.evidence();
+  evidence.lasers = lasers_.offsets();
+  return evidence;
 }
 
 void ComparedScans::add(const TPose2D& pose, size_t update, const Scans& scans) {

@@ -49,17 +49,19 @@ class VerdictCheck {
  public:
   /// @param maxRange  m, of the beams that the map uses
   /// @param earlier   map that the run continues, or null
-  explicit VerdictCheck(double maxRange, const OccupancyGrid* earlier = nullptr) : maxRange_(maxRange) {
+  explicit VerdictCheck(double maxRange, const OccupancyGrid* earlier = nullptr)
+      : maxRange_(maxRange), lasers_(RevisitCheck::rangeOf(maxRange)) {
     if (earlier) comparisons_.compareWith(toCompare(*earlier));
   }
 
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
-  Evidence evidence() const { return comparisons_.evidence(); }
+  Evidence evidence() const;
 
  private:
   double maxRange_;
   ScanComparisons comparisons_;
+  LaserAgreement lasers_;
   ComparisonSteps steps_;
   std::optional<mrpt::math::TPose2D> last_;
   double distance_ = 0;

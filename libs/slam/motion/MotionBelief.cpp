@@ -59,6 +59,7 @@ bool MotionBelief::isPlausible(const MotionModelOptions& options) const {
 void MotionBelief::learn(const mrpt::math::TPose2D& odometry, const mrpt::math::TPose2D& motion,
                          const MotionModelOptions& options) {
   const MotionStep seen(odometry);
+  if (odometry.norm() > kLongestStep) return;                                    // no longer one arc
   const double turn = seen.turn + mrpt::math::wrapToPi(motion.phi - seen.turn);  // the shorter direction
   const MotionStep made(mrpt::math::TPose2D(motion.x, motion.y, turn));
   distance_.learn(seen, made.distance, options.distance, options.minStdXY);

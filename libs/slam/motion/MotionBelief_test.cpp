@@ -129,5 +129,14 @@ TEST(MotionBelief, AModelWithoutNoiseStaysFinite) {
   EXPECT_TRUE(std::isfinite(model.turn.variance(MotionStep(1, 0, 1), 0)));
 }
 
+TEST(MotionBelief, AStepOverAGapTeachesNothing) {
+  const MotionModelOptions options = unsure({}, 0.05);
+  MotionBelief belief;
+  belief.learn({kLongestStep + 0.1, 0, 0.3}, {2, 0.5, 0.5}, options);
+  EXPECT_EQ(belief.model(options).distance.meanD, options.distance.meanD);
+  belief.learn({kLongestStep - 0.1, 0, 0.3}, {2, 0.5, 0.5}, options);
+  EXPECT_NE(belief.model(options).distance.meanD, options.distance.meanD);
+}
+
 }  // namespace
 }  // namespace hybrid_slam

@@ -28,14 +28,23 @@ struct MotionStep {
   double turn;             ///< rad
 };
 
+/// Longest step, m, whose errors grow in proportion to it. A longer one, as after a gap between the scans,
+/// counts as several with independent errors: its variance grows in proportion.
+constexpr double kLongestStep = 1.5;
+
 /// One of D, C, T: a normal distribution that depends on the odometry's translation d (m) and rotation t
 /// (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2, plus 2 covariance
-/// d t if the means are uncertain (MotionBelief).
+/// d t if the means are uncertain (MotionBelief). In the variance, d^2 of a step above kLongestStep is
+/// |d| kLongestStep.
 struct MotionTerm {
   double mean(const MotionStep& odometry) const { return meanD * odometry.distance + meanT * odometry.turn; }
   double variance(const MotionStep& odometry, double minStd) const {
-    return varianceD * odometry.distance * odometry.distance + varianceT * odometry.turn * odometry.turn +
-           2 * covariance * odometry.distance * odometry.turn + minStd * minStd;
+    const double length = std::abs(odometry.distance);
+    const double d = length <= kLongestStep
+                         ? odometry.distance
+                         : std::copysign(std::sqrt(length * kLongestStep), odometry.distance);
+    return varianceD * d * d + varianceT * odometry.turn * odometry.turn +
+           2 * covariance * d * odometry.turn + minStd * minStd;
   }
 
   double meanD, meanT;

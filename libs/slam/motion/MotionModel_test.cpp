@@ -76,6 +76,24 @@ TEST(MotionModel, SampledMomentsFollowTheFormulas) {
     }
 }
 
+TEST(MotionModel, TheVarianceOfALongStepIsThatOfSeveralShortOnes) {
+  const MotionTerm term{1, 0, 0.004, 0.006};
+  const double one = term.variance(MotionStep(kLongestStep, 0, 0), 0);
+  EXPECT_DOUBLE_EQ(one, 0.004 * kLongestStep * kLongestStep);
+  for (const int steps : {2, 7, 20}) {
+    EXPECT_NEAR(term.variance(MotionStep(steps * kLongestStep, 0, 0), 0), steps * one, 1e-12);
+    EXPECT_NEAR(term.variance(MotionStep(-steps * kLongestStep, 0, 0), 0), steps * one, 1e-12);
+  }
+}
+
+TEST(MotionModel, NoVarianceIsNegativeWhereTheMeansAreCorrelated) {
+  MotionTerm term{1, 0, 0.004, 0.006};
+  term.covariance = std::sqrt(0.004 * 0.006);
+  for (const double distance : {-30., -1., 1., 30.})
+    for (double turn = -3; turn <= 3; turn += 0.01)
+      EXPECT_GE(term.variance(MotionStep(distance, 0, turn), 0), -1e-12);
+}
+
 TEST(MotionModel, PureRotationMovesTheRobotOnlyByWhatTheTurnAllows) {
   expectMoments({0, 0, 0.8}, MotionModelOptions());
   MotionModelOptions exact = biased();  // no noise: D = mu_Dt t, C = mu_Ct t, T = mu_Tt t

@@ -1,0 +1,72 @@
+#include "slam/loops/LaserAgreement.h"
+
+#include <gtest/gtest.h>
+
+#include "base/Degree.h"
+#include "base/PoseDistance.h"
+#include "testing/RoomLog.h"
+
+namespace hybrid_slam {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// The offsets of three laps in the room with a laser in front and one behind.
+/// @param error  of the rear laser's logged pose (m, rad)
+std::vector<LaserOffset> offsetsWith(const TPose2D& error) {
+  const TPose2D front(0.2, 0, 0), rear(-0.2, 0, M_PI);
+  LaserAgreement agreement(8);
+  double distance = 0;
+  TPose2D last = test::poseOnLap(0, 80);
+  for (size_t i = 0; i < 240; ++i) {
+    const TPose2D pose = test::poseOnLap(i, 80);
+    distance += distanceBetween(last, pose);
+    last = pose;
+    const auto scan = [&](const TPose2D& mounting, const TPose2D& logged, const char* label) {
+      auto seen = test::scan(0.1 * static_cast<double>(i), pose + mounting, 181, label);
+      seen->sensorPose = mrpt::poses::CPose3D(logged);
+      return seen;
+    };
+    agreement.add(pose, {scan(front, front, "FRONT"), scan(rear, rear + error, "REAR")}, distance);
+  }
+  return agreement.offsets();
+}
+
+TEST(LaserAgreement, LasersWithRightPosesAgree) {
+  const std::vector<LaserOffset> offsets = offsetsWith({});
+  ASSERT_EQ(offsets.size(), 1u);
+  EXPECT_GE(offsets[0].scans, 20u);
+  EXPECT_NEAR(offsets[0].offset.phi, 0, 0.2 * kDegree);
+  EXPECT_LT(offsets[0].offset.norm(), 0.04);
+  EXPECT_FALSE(offsets[0].isLarge());
+}
+
+/// The scans have to be turned back around the laser, which is 0.2 m behind the robot's centre.
+TEST(LaserAgreement, AWrongYawIsMeasured) {
+  for (const double yaw : {-4., -1.5, 1.5, 4.}) {
+    const std::vector<LaserOffset> offsets = offsetsWith({0, 0, yaw * kDegree});
+    ASSERT_EQ(offsets.size(), 1u) << yaw;
+    EXPECT_EQ(offsets[0].laser, "REAR");
+    EXPECT_EQ(offsets[0].reference, "FRONT");
+    EXPECT_NEAR(offsets[0].offset.phi / kDegree, -yaw, 0.3) << yaw;
+    EXPECT_TRUE(offsets[0].isLarge()) << yaw;
+  }
+}
+
+TEST(LaserAgreement, AWrongPositionIsMeasured) {
+  const std::vector<LaserOffset> offsets = offsetsWith({0.2, 0, 0});  // forward of the rear laser: backward
+  ASSERT_EQ(offsets.size(), 1u);
+  EXPECT_NEAR(offsets[0].offset.x, 0.2, 0.05);
+  EXPECT_TRUE(offsets[0].isLarge());
+}
+
+TEST(LaserAgreement, OneLaserHasNothingToAgreeWith) {
+  LaserAgreement agreement(8);
+  for (size_t i = 0; i < 240; ++i)
+    agreement.add(test::poseOnLap(i, 80), {test::scan(0, test::poseOnLap(i, 80))},
+                  0.1 * static_cast<double>(i));
+  EXPECT_TRUE(agreement.offsets().empty());
+}
+
+}  // namespace
+}  // namespace hybrid_slam
