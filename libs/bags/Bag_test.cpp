@@ -191,6 +191,20 @@ TEST(RecordingFolder, ItsFilesAreOrderedByTheirLastNumber) {
   EXPECT_THAT(files[2], testing::EndsWith("v1.5_10.mcap"));
 }
 
+TEST(RecordingFolder, SeveralRecordingsAreAnErrorUnlessMetadataListTheFiles) {
+  const files::TemporaryFolder folder;
+  const auto all = messages(5, Encoding::cdr);
+  test::writeDatabase(folder.path("monday_0.db3"), all);
+  test::writeDatabase(folder.path("tuesday_0.db3"), all);
+  EXPECT_THAT(errorOfBag(folder.path("")), HasSubstr("several recordings in one folder: " + folder.path("")));
+  EXPECT_THAT(errorOfBag(folder.path("")),
+              HasSubstr("expected the files of one; it has `monday_0.db3` and `tuesday_0.db3`"));
+  folder.write(
+      "metadata.yaml",
+      "rosbag2_bagfile_information:\n  relative_file_paths:\n    - monday_0.db3\n    - tuesday_0.db3\n");
+  EXPECT_EQ(read(folder.path("")).messages.size(), 2 * all.size());
+}
+
 TEST(RecordingFolder, AFileThatIsThereTwiceOrNotListedIsNotRead) {
   const files::TemporaryFolder folder;
   const auto all = messages(5, Encoding::cdr);

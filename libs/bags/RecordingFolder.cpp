@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <utility>
 
 #include "bags/ByteCursor.h"
 #include "base/Errors.h"
@@ -23,13 +24,20 @@ std::string plainName(const fs::path& file) {
   return (file.extension() == ".zstd" ? file.stem() : file.filename()).string();
 }
 
+/// Splits the name of a file at its last number: `drive_`, `2` for `drive_2.db3`. Without a number, all of it
+/// is the first part.
+std::pair<std::string, std::string> splitAtNumber(const std::string& file) {
+  const std::string name = fs::path(plainName(file)).stem().string();
+  const size_t end = name.find_last_of("0123456789");
+  if (end == std::string::npos) return {name, ""};
+  const size_t begin = name.find_last_not_of("0123456789", end) + 1;
+  return {name.substr(0, begin), name.substr(begin, end + 1 - begin)};
+}
+
 /// Compares names by their last numbers: `drive_2.db3` comes before `drive_10.db3`.
 bool comesBefore(const std::string& a, const std::string& b) {
   const auto numberAt = [](const std::string& file) {
-    const std::string name = fs::path(plainName(file)).stem().string();
-    const size_t end = name.find_last_of("0123456789");
-    const size_t begin = end == std::string::npos ? end : name.find_last_not_of("0123456789", end);
-    const std::string digits = end == std::string::npos ? "" : name.substr(begin + 1, end - begin);
+    const std::string digits = splitAtNumber(file).second;
     return std::string(20 - std::min<size_t>(digits.size(), 20), '0') + digits;
   };
   const std::string nameA = fs::path(a).filename().string(), nameB = fs::path(b).filename().string();
@@ -73,7 +81,14 @@ std::vector<std::string> filesOfRecording(const std::string& folder) {
 
 RecordingFolder::RecordingFolder(const std::string& path) : files_(filesOfRecording(path)) {
   if (files_.empty()) throw InputError("not a recording", path, "expected a folder with files .db3 or .mcap");
-  for (const std::string& name : listedFiles(path))
+  const std::vector<std::string> listed = listedFiles(path);
+  const std::string first = fs::path(files_.front()).filename().string();
+  for (const std::string& file : files_)
+    if (listed.empty() && splitAtNumber(file).first != splitAtNumber(files_.front()).first)
+      throw InputError("several recordings in one folder", path,
+                       "expected the files of one; it has `" + printable(first) + "` and `" +
+                           printable(fs::path(file).filename().string()) + "`");
+  for (const std::string& name : listed)
     if (missing_.empty() &&
         std::none_of(files_.begin(), files_.end(), [&](const auto& file) { return plainName(file) == name; }))
       missing_ = name;

@@ -18,7 +18,8 @@ std::vector<std::string> filesOfRecording(const std::string& folder);
 /// One that metadata.yaml lists and that is not there is a defect too.
 class RecordingFolder : public Bag {
  public:
-  /// @throws InputError if there is no file
+  /// @throws InputError if there is no file, or files of several recordings (names that differ in more than
+  ///         their last number) that no metadata.yaml lists
   explicit RecordingFolder(const std::string& path);
   /// @throws InputError if the first file cannot be opened
   std::optional<StoredMessage> next() override;
