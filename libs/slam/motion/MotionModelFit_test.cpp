@@ -42,7 +42,19 @@ TEST(MotionModelFit, RecoversTheParametersOfSimulatedOdometry) {
   }
 }
 
-/// The test above is only meaningful if its bounds are narrow.
+TEST(MotionModelFit, RecoversTheVariancesFromStepsOverGaps) {
+  RandomStream random(6, 0, 0);
+  std::vector<TPose2D> odometry;
+  for (size_t i = 0; i < kSteps; ++i)
+    odometry.push_back(MotionStep(2 + 8 * random.uniform(), 0, 1.4 * (random.uniform() - 0.5)).increment());
+  const MotionModelOptions truth = test::trueModel(), prior;
+  const auto samples = simulate(truth, odometry, random);
+  const MotionModelOptions fitted = fitMotionModel(samples, prior, determine(samples));
+  EXPECT_NEAR(fitted.distance.varianceD, truth.distance.varianceD, 0.1 * truth.distance.varianceD);
+  EXPECT_NEAR(fitted.turn.varianceD, truth.turn.varianceD, 0.1 * truth.turn.varianceD);
+}
+
+/// The first test is only meaningful if its bounds are narrow.
 TEST(MotionModelFit, TheBoundsOfTheRecoveryAreNarrow) {
   RandomStream random(1, 0, 0);
   const test::Parameters errors =
