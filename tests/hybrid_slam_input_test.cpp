@@ -126,7 +126,7 @@ TEST_F(HybridSlamInput, ScansAreMatchedWhereThereIsNoOdometry) {
     }
   };
   expectMapped(std::nullopt, "= false: no odometry");
-  expectMapped(test::TPose2D(3, 4, 0.5), "= false: odometry whose position never changes");
+  expectMapped(test::TPose2D(3, 4, 0.5), "= false: odometry that never changes");
 }
 
 TEST_F(HybridSlamInput, ARobotThatStandsStillStays) {

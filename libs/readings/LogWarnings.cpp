@@ -42,7 +42,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
     if (!log.isDeskewed)
       all.push_back("laser `" + label + "` takes " + fixedText(1000 * seconds, 1) + " ms for a scan: " +
                     file + "; without odometry the beams are not corrected for the robot's motion");
-  if (log.hasMotion)
+  if (log.hasMotion || log.hasTurns)
     for (const std::string& label : log.turning)
       all.push_back("time of a scan is unknown: laser `" + label + "` in " + file +
                     "; input.scan_rate=HZ (turns per second) corrects the scans for the robot's motion");

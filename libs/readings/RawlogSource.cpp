@@ -74,6 +74,10 @@ void InputOptions::describe(OptionTable& t) {
   t.add("require_odometry", requireOdometry,
         "false: odometry is ignored; motion is predicted from the previous step and corrected by scan "
         "matching");
+  t.add(
+      "heading_odometry", headingOdometry,
+      "true: only the heading of the odometry is used, such as that of a gyroscope; scan matching gives the "
+      "position");
   t.add("replace_stuck_odometry", replaceStuckOdometry,
         "where the odometry stands still while the scans move, as after a lost connection to the robot's "
         "base: scan matching gives the motion, until the odometry agrees with it again");
@@ -140,7 +144,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   };
   std::optional<TPose2D> first;
   std::set<std::string> odometryLabels;
-  bool actionsMove = false, readingsMove = false;
+  bool actionsMove = false, readingsMove = false, actionsTurn = false, readingsTurn = false;
   OdometryJumps jumps;
   const auto noteReading = [&](const CObservationOdometry& odometry) {
     const TPose2D pose = odometry.odometry.asTPose();
@@ -152,6 +156,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (!first) first = pose;
     if (jumps.isJump(pose, timeOf(odometry))) note(summary.jumps, reader.entry());
     readingsMove |= pose.x != first->x || pose.y != first->y;
+    readingsTurn |= pose.phi != first->phi;
   };
   const auto noteScan = [&](const CObservation2DRangeScan& scan) {
     const ScanGrouper::Use use = grouper.useOf(scan);
@@ -185,6 +190,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (const auto increment = incrementOf(object)) {
       noteOdometry(isFinite(*increment), summary.hasActions, wrongActions);
       actionsMove |= isFinite(*increment) && (increment->x != 0 || increment->y != 0);
+      actionsTurn |= isFinite(*increment) && increment->phi != 0;
       if (isFinite(*increment) && isJump({}, *increment)) note(actionJumps, reader.entry());
     } else if (isAction(object)) {
       note(summary.noOdometry, reader.entry());
@@ -206,6 +212,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     hasBegun = hasBegun || beginning.next();
   }
   summary.hasMotion = summary.hasOdometryReadings ? readingsMove : actionsMove;  // readings replace actions
+  summary.hasTurns = summary.hasOdometryReadings ? readingsTurn : actionsTurn;
   if (!summary.hasOdometryReadings) {
     summary.jumps = actionJumps;
     if (wrongActions.count > 0) summary.wrongOdometry = wrongActions;
@@ -226,8 +233,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.ignored = reader.ignoredLasers();
   noteIgnored(summary, uses);
   for (const auto& sweep : summary.sweeps) summary.turning.erase(sweep.first);
-  summary.isDeskewed =
-      options.requireOdometry && summary.hasMotion && (summary.hasActions || summary.hasOdometryReadings);
+  summary.isDeskewed = options.requireOdometry && (summary.hasMotion || summary.hasTurns) &&
+                       (summary.hasActions || summary.hasOdometryReadings);
 
   if (uses.empty())
     throw InputError("no laser scans", file, "expected objects of class CObservation2DRangeScan");

@@ -25,6 +25,7 @@ struct InputOptions : Options {
   std::string laserPose = "auto";  ///< of the only laser, see laserPoseIn; auto: as the log states
   std::string odometryTopic;       ///< of a bag
   bool requireOdometry = true;
+  bool headingOdometry = false;
   bool replaceStuckOdometry = true;
   double maxOdometryGap = 1;
   std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
@@ -65,6 +66,7 @@ struct RawlogSummary {
   bool isDeskewed = false;  ///< beams are corrected by these where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;              ///< the odometry's position changes
+  bool hasTurns = false;               ///< its heading changes
   double duration = 0;                 ///< s, of the scans; Duration
   size_t entries = 0;                  ///< lines of a text log, messages of a bag
   std::string unit;                    ///< of `entries` and `Oddity::first`: "entry", "line" or "message"

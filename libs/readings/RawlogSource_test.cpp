@@ -339,12 +339,16 @@ TEST(RawlogSource, NoOdometry) {
   EXPECT_FALSE(replayed(standing).summary.hasMotion);
 }
 
-TEST(RawlogSource, OdometryOfTheHeadingAloneIsNoMotion) {
-  EXPECT_FALSE(replayed({test::odometry(1, {3, 4, 0}), scan(1), test::odometry(2, {3, 4, 0.2}), scan(2)})
-                   .summary.hasMotion);
-  EXPECT_FALSE(
-      replayed({test::action({}), test::frame({scan(1)}), test::action({0, 0, 0.2}), test::frame({scan(2)})})
-          .summary.hasMotion);
+TEST(RawlogSource, OdometryOfTheHeadingAlone) {
+  for (const test::Log& log :
+       {test::Log{test::odometry(1, {3, 4, 0}), scan(1), test::odometry(2, {3, 4, 0.2}), scan(2)},
+        test::Log{test::action({}), test::frame({scan(1)}), test::action({0, 0, 0.2}),
+                  test::frame({scan(2)})}}) {
+    EXPECT_FALSE(replayed(log).summary.hasMotion);
+    EXPECT_TRUE(replayed(log).summary.hasTurns);
+  }
+  EXPECT_FALSE(replayed({test::odometry(1, {3, 4, 0}), scan(1), test::odometry(2, {3, 4, 0}), scan(2)})
+                   .summary.hasTurns);
 }
 
 TEST(RawlogSource, ALaserThatSeesAllAroundShouldHaveAScanTime) {

@@ -101,6 +101,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
       ++jumps_;
     else
       travelled_ = travelled_ + *increment;
+    travel();
   }
   isInTrack_ = false;
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
@@ -116,6 +117,14 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
     }
   });
+}
+
+void ReadingAssembler::travel() {
+  constexpr double kStep = 0.05;  // the odometry of a robot that stands may tremble
+  const double step = (travelled_ - travelledTo_).norm();
+  if (step < kStep) return;
+  way_ += step;
+  travelledTo_ = travelled_;
 }
 
 void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
@@ -179,7 +188,9 @@ void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
     else
       scan.odometry = *lastOdometry_;
   }
+  if (!lastOdometry_) travelledTo_ = pose;
   lastOdometry_ = travelled_ = pose;
+  travel();
   lastOdometryTime_ = time;
   track_.add(time, pose);
   completeReady();
@@ -275,7 +286,8 @@ void ReadingAssembler::endReading() {
   if (isStamped(*latest)) lastTimestamp_ = seconds(latest->timestamp);
   reading.timestamp = lastTimestamp_;
   if (repeated_) reading.repeating = repeated_->first->sensorLabel;
-  if (!first_) reading.motion = odometry - atLastReading_;
+  if (!first_) reading.motion = odometry - atLastReading_, reading.way = way_;
+  way_ = 0;
   first_ = false;
   atLastReading_ = odometry;
   ready_.push_back(reading);

@@ -30,6 +30,7 @@ struct Reading {
   Scans scans;
   double timestamp = 0;        ///< s, of the latest scan; without one, that of the previous reading
   mrpt::math::TPose2D motion;  ///< m, rad
+  double way = 0;              ///< m, along the odometry, since the previous reading
   std::optional<std::string> repeating = {};  ///< label of a laser that repeats its last scan: not used
 };
 
@@ -90,6 +91,8 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   std::optional<Reading> next();
 
  private:
+  /// Adds to the way, once the odometry is 5 cm farther.
+  void travel();
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
   bool hasOdometryReadings() const { return source_ == OdometrySource::readings; }
   bool hasManyBeams() const;
@@ -137,6 +140,8 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
+  mrpt::math::TPose2D travelledTo_;    ///< odometry pose up to which `way_` counts
+  double way_ = 0;                     ///< m, since the last reading
   double lastTimestamp_ = 0;
   bool isInTrack_ = false;  ///< the odometry of this pair
   OdometrySource source_;

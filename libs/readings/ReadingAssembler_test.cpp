@@ -199,6 +199,20 @@ TEST(ReadingAssembler, ALaserThatRepeatsItsScanWhileTheRobotMovesIsNotUsed) {
   EXPECT_NEAR(readings[2].timestamp, 3, 1e-6);
   EXPECT_NEAR(readings[2].motion.x, 0.5, 1e-9);
   EXPECT_NEAR(endOf(readings).x, 1, 1e-9) << "no motion is lost";
+  EXPECT_NEAR(readings[2].way, 0.5, 1e-9);
+}
+
+TEST(ReadingAssembler, TheWayOfAReadingIsAlongTheOdometry) {
+  test::Log log{odometry(1, {0, 0, 0}), scan(1)};
+  for (int i = 0; i < 100; ++i) log.push_back(odometry(2 + 0.1 * i, {0.01 * (i % 2), 0, 0}));  // trembles
+  log.push_back(scan(11.9));
+  for (int i = 1; i <= 20; ++i) log.push_back(odometry(12 + i, {i <= 10 ? 1. * i : 20. - i, 0, 0}));
+  log.push_back(scan(32));
+  const std::vector<Reading> readings = assembled(log);
+  ASSERT_EQ(readings.size(), 3u);
+  EXPECT_EQ(readings[1].way, 0);
+  EXPECT_NEAR(readings[2].way, 20, 1e-9) << "out and back";
+  EXPECT_LT(readings[2].motion.norm(), 0.02);
 }
 
 TEST(ReadingAssembler, TheScansOfOtherLasersAreUsedWhileOneRepeatsItsOwn) {

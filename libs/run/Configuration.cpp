@@ -126,8 +126,10 @@ std::string configurationManual() {
          "| `improved_proposal.update_distance`, `update_angle_deg` | 0.02 m, 1 deg (every scan of a moving "
          "robot) "
          "where the median distance between scans is over 0.3 m, else 0.1 m, 5 deg |\n"
-         "| `input.require_odometry` | false where odometry is missing or its position never changes, else "
-         "true |\n\n"
+         "| `input.require_odometry` | false where odometry is missing or never changes, else true |\n"
+         "| `input.heading_odometry` | true where the odometry's heading changes and its position never "
+         "does, "
+         "else false |\n\n"
          "The laser's pose on the robot (unless `input.laser_pose` is set), its angles and its number of "
          "beams are part\n"
          "of each scan.\n";

@@ -91,7 +91,7 @@ FilterRun::FilterRun(Configuration& configuration, Clock::time_point start)
       if (const std::string warning = search_->warning(); !warning.empty()) notes_.push_back(warning);
     }
   }
-  if (!configuration.input.requireOdometry)
+  if (!configuration.input.requireOdometry || configuration.input.headingOdometry)
     scanOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
   else if (configuration.input.replaceStuckOdometry)
     stuckOdometry_.emplace(configuration.filter.grid, configuration.filter.matcher);
@@ -108,7 +108,8 @@ bool FilterRun::process(const readings::Reading& reading) {
   isConsistent_ = false;
   noteRepeatedScan(reading);
   readings::Reading moved = reading;
-  if (scanOdometry_) moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp);
+  if (scanOdometry_)
+    moved.motion = scanOdometry_->motionTo(reading.scans, reading.timestamp, measuredTurn(reading));
   if (stuckOdometry_) replaceStuckOdometry(moved);
   const bool isUpdate = filter(moved);
   if (search_) searchPlace(moved);
@@ -116,6 +117,12 @@ bool FilterRun::process(const readings::Reading& reading) {
   saveIfDue();
   if (isUpdate || scans_ % 100 == 0) checkMemory();
   return isUpdate;
+}
+
+std::optional<double> FilterRun::measuredTurn(const readings::Reading& reading) const {
+  const readings::InputOptions& input = configuration_.input;
+  if (!input.requireOdometry || !input.headingOdometry) return std::nullopt;
+  return reading.motion.phi;
 }
 
 void FilterRun::noteRepeatedScan(const readings::Reading& reading) {

@@ -145,6 +145,8 @@ class FilterRun {
  private:
   template <class State>
   void visit(State& state);
+  /// Returns the turn (rad) since the reading before, where the odometry measures that alone.
+  std::optional<double> measuredTurn(const readings::Reading& reading) const;
   void noteRepeatedScan(const readings::Reading& reading);
   void replaceStuckOdometry(readings::Reading& reading);
   bool filter(const readings::Reading& reading);

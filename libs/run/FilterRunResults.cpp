@@ -172,8 +172,12 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const s
     isUpdate.push_back(uses_[i] == ReadingUse::update);
   const auto compare = [&] {
     LogAgain again(file, configuration_.input, log);
+    size_t read = 0;
     saveSimpleMap(folder_, again, isUpdate, best.path,
-                  [&check](const auto& pose, const Scans& scans) { check.add(pose, scans); });
+                  [&](const readings::Reading& reading, const auto* pose) {
+                    check.addWay(reading.way, uses_[read++] != ReadingUse::skipped && !reading.scans.empty());
+                    if (pose) check.add(*pose, reading.scans);
+                  });
   };
   const bool isCompared = log.scans == 0 || writeOrNote("map.simplemap.gz", whyMissing, compare);
   Evidence evidence = check.evidence();
@@ -188,12 +192,9 @@ void FilterRun::writeMap(FinishedRun& finished, const FinishedMap& best, const s
     evidence.spacing = lengthsAlong(best.path).back() / static_cast<double>(best.path.size() - 1);
   if (!scanOdometry_) {
     evidence.odometryFaults = log.jumps.count + log.wrongOdometry.count;
-    const std::vector<mrpt::math::TPose2D> odometry = recorder_.motionsOfUpdates();
-    evidence.turns = turnsOf(odometry, best.path);
-    evidence.gap = longestGapOf(odometry, best.path);
-    evidence.early = log.early.count;
-    evidence.stuckScans = counts_.stuckScans;
+    evidence.turns = turnsOf(recorder_.motionsOfUpdates(), best.path);
   }
+  evidence.early = log.early.count;
   evidence.scans = log.scans;
   finished.verdict = verdictOf(evidence);
   // The poses of a relaxed path are matches to the map of all scans; the particles knew the earlier ones.

@@ -173,11 +173,13 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   }
   found.settings = cellSize(ranges, spacings);
   for (const LogSetting& setting : updates(std::move(steps))) found.settings.push_back(setting);
-  if (!log.hasMotion)
-    found.settings.push_back(
-        {"input", "require_odometry", "false",
-         std::string(found.hasOdometry ? "odometry whose position never changes" : "no odometry") +
-             ": motion is predicted from the previous steps"});
+  if (!log.hasMotion && log.hasTurns)
+    found.settings.push_back({"input", "heading_odometry", "true",
+                              "the odometry's position never changes: scan matching gives it"});
+  else if (!log.hasMotion)
+    found.settings.push_back({"input", "require_odometry", "false",
+                              std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
+                                  ": motion is predicted from the previous steps"});
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
   return found;
 }

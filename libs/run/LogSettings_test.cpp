@@ -138,11 +138,13 @@ TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
     return c.input.requireOdometry;
   };
   EXPECT_FALSE(usesOdometry([](size_t) { return test::TPose2D(1, 2, 3); }));
-  EXPECT_EQ(
-      lines.back(),
-      "input.require_odometry = false: odometry whose position never changes: motion is predicted from the "
-      "previous steps");
+  EXPECT_EQ(lines.back(),
+            "input.require_odometry = false: odometry that never changes: motion is predicted from the "
+            "previous steps");
   EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(i == 3 ? 0.01 : 0, 0, 0); }));
+  EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(1, 2, i == 3 ? 0.01 : 0); }));
+  EXPECT_EQ(lines.back(),
+            "input.heading_odometry = true: the odometry's position never changes: scan matching gives it");
 }
 
 TEST_F(LogSettingsTest, TheMountingOfASecondLaserIsWithoutTheRobotsMotion) {

@@ -18,7 +18,7 @@ namespace {
 class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
  public:
   StreamedSimpleMap(LogAgain& log, const std::vector<bool>& isUpdate,
-                    const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit)
+                    const std::vector<mrpt::math::TPose2D>& path, const ReadingVisitor& visit)
       : log_(&log), isUpdate_(&isUpdate), path_(&path), visit_(&visit) {}
 
   /// Writes scans and poses only. MRPT 2.5.8 reads this version and no later one; 2.14.7 reads both.
@@ -28,12 +28,12 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
     size_t written = 0;
     for (const bool isUpdate : *isUpdate_) {
       const readings::Reading reading = log_->next();
-      if (!isUpdate) continue;
+      const mrpt::math::TPose2D* const robot = isUpdate ? &(*path_)[written++] : nullptr;
+      (*visit_)(reading, robot);
+      if (!robot) continue;
       mrpt::obs::CSensoryFrame frame;
       for (const auto& scan : reading.scans) frame.insert(scan);
-      const mrpt::math::TPose2D& robot = (*path_)[written++];
-      (*visit_)(robot, reading.scans);
-      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D(robot)};
+      const mrpt::poses::CPose3D pose{mrpt::poses::CPose2D(*robot)};
       out << mrpt::poses::CPose3DPDFGaussian(pose) << frame;
     }
   } catch (...) {
@@ -49,14 +49,14 @@ class StreamedSimpleMap : public mrpt::maps::CSimpleMap {
   LogAgain* log_;
   const std::vector<bool>* isUpdate_;
   const std::vector<mrpt::math::TPose2D>* path_;
-  const UpdateVisitor* visit_;
+  const ReadingVisitor* visit_;
   mutable std::exception_ptr failure_;
 };
 
 }  // namespace
 
 void saveSimpleMap(const files::OutputFolder& folder, LogAgain& log, const std::vector<bool>& isUpdate,
-                   const std::vector<mrpt::math::TPose2D>& path, const UpdateVisitor& visit) {
+                   const std::vector<mrpt::math::TPose2D>& path, const ReadingVisitor& visit) {
   files::RawlogWriter file(folder.path("map.simplemap.gz"));
   const StreamedSimpleMap map(log, isUpdate, path, visit);
   file.write(map);

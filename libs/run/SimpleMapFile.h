@@ -13,18 +13,18 @@
 
 namespace hybrid_slam::run {
 
-/// Called with the pose (map frame) and the scans of each update.
-using UpdateVisitor = std::function<void(const mrpt::math::TPose2D&, const Scans&)>;
+/// Called with each reading, and at an update its pose (map frame), else null.
+using ReadingVisitor = std::function<void(const readings::Reading&, const mrpt::math::TPose2D*)>;
 
 /// Writes `map.simplemap.gz`: the scans of the updates, reread from the log, at the best particle's poses
 /// (map frame, without covariance).
 /// @param isUpdate  for each processed reading of the log, whether it caused an update
 /// @param path      one pose per update
-/// @param visit     called with each update's scans, to parse the log only once
+/// @param visit     called with each reading, to parse the log only once
 /// @throws UnreadableLog if the log ends early or cannot be read; there is no file then
 void saveSimpleMap(
     const files::OutputFolder& folder, LogAgain& log, const std::vector<bool>& isUpdate,
     const std::vector<mrpt::math::TPose2D>& path,
-    const UpdateVisitor& visit = [](const mrpt::math::TPose2D&, const Scans&) {});
+    const ReadingVisitor& visit = [](const readings::Reading&, const mrpt::math::TPose2D*) {});
 
 }  // namespace hybrid_slam::run

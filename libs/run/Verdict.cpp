@@ -27,7 +27,7 @@ constexpr double kJump = 0.5;      // share of a scan's beams that contradict th
 constexpr size_t kJumpScans = 3;   // in succession
 constexpr double kLongPlace = 15;  // m of path
 constexpr double kSpread = 0.5;    // m
-constexpr double kSlips = 0.2;     // share of the updates
+constexpr double kSlips = 0.1;     // share of the updates
 constexpr size_t kFewestSlips = 10;
 constexpr double kTurn = 3 * kDegree;
 constexpr size_t kFewestTurns = 10;  // against the odometry
@@ -157,14 +157,6 @@ Turns turnsOf(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& 
   return turns;
 }
 
-Gap longestGapOf(const std::vector<TPose2D>& odometry, const std::vector<TPose2D>& path) {
-  Gap longest;
-  for (size_t i = 1; i < std::min(odometry.size(), path.size()); ++i)
-    if (const double length = odometry[i].norm(); length > longest.length)
-      longest = {length, {path[i].x, path[i].y}};
-  return longest;
-}
-
 Verdict verdictOf(const Evidence& evidence) {
   const Verdict strict = byScans(evidence.returning, evidence.recent);
   Verdict verdict = byScans(withoutNarrowThings(evidence.returning), withoutNarrowThings(evidence.recent));
@@ -201,31 +193,25 @@ Verdict verdictOf(const Evidence& evidence) {
          "scans are too far apart to judge the map: " + fixedText(evidence.spacing, 1) + " m");
   for (const LaserOffset& laser : evidence.lasers)
     if (laser.isLarge())
-      find(Level::doubtful,
-           "laser `" + laser.laser + "` sees the walls turned by " +
-               fixedText(std::abs(laser.offset.phi) / kDegree, 1) + " deg and moved by " +
-               fixedText(laser.offset.norm(), 2) + " m against laser `" + laser.reference +
-               "`: one of their poses on the robot is wrong in the log; input.sensor_label chooses a laser");
+      find(Level::doubtful, "laser `" + laser.laser + "` sees the walls turned by " +
+                                fixedText(std::abs(laser.turn) / kDegree, 1) + " deg against laser `" +
+                                laser.reference +
+                                "`: the heading of one of them on the robot is wrong in the log; "
+                                "input.sensor_label chooses a laser");
   if (evidence.gap.length > kLongGap)
-    find(Level::doubtful, "no scans along " + fixedText(evidence.gap.length, 1) + " m of odometry up to " +
-                              text(evidence.gap.end));
+    find(Level::doubtful, "no scans along " + fixedText(evidence.gap.length, 1) + " m of odometry from " +
+                              text(evidence.gap.start) + " on");
   if (static_cast<double>(evidence.early) > kEarly * static_cast<double>(evidence.early + evidence.scans))
     find(Level::doubtful, share(evidence.early, evidence.early + evidence.scans) +
                               " scans are not used: they are older than all odometry");
   if (!evidence.notCompared.empty())
     find(Level::doubtful, "not all scans were compared with the map: " + evidence.notCompared);
-  const auto shareOf = [](size_t count, size_t all) {
-    return all > 0 ? static_cast<double>(count) / static_cast<double>(all) : 0;
-  };
   const bool isOdometryUseless =
-      evidence.slips + evidence.stuckScans >= kFewestSlips &&
-      shareOf(evidence.slips, evidence.updates) + shareOf(evidence.stuckScans, evidence.scans) > kSlips;
+      evidence.slips >= kFewestSlips &&
+      static_cast<double>(evidence.slips) > kSlips * static_cast<double>(evidence.updates);
   if (isOdometryUseless || (verdict.level != Level::consistent && evidence.slips > 0))
     find(Level::doubtful,
          "odometry rejected in " + counted(evidence.slips, "update(s)") +
-             (evidence.stuckScans > 0 ? ", and standing still in " + counted(evidence.stuckScans, "scan(s)") +
-                                            " of a robot that moves"
-                                      : "") +
              (isOdometryUseless
                   ? ": the laser's pose on the robot (input.laser_pose) or the times of scans and "
                     "odometry may be wrong"

@@ -49,14 +49,9 @@ Turns turnsOf(const std::vector<mrpt::math::TPose2D>& odometry, const std::vecto
 
 /// A part of the path without scans.
 struct Gap {
-  double length = 0;         ///< m, by the odometry
-  mrpt::math::TPoint2D end;  ///< m, map frame
+  double length = 0;           ///< m, along the odometry
+  mrpt::math::TPoint2D start;  ///< m, map frame
 };
-/// Returns the longest step between two updates.
-/// @param odometry  motion from each update to the next one, at the index of the next
-/// @param path      a pose for each update
-Gap longestGapOf(const std::vector<mrpt::math::TPose2D>& odometry,
-                 const std::vector<mrpt::math::TPose2D>& path);
 
 /// Evidence that a verdict is based on.
 struct Evidence {
@@ -73,7 +68,6 @@ struct Evidence {
   double spacing = 0;               ///< m of path between two updates, mean
   Gap gap;                          ///< the longest
   size_t early = 0;                 ///< scans of the log before its first odometry, which are not used
-  size_t stuckScans = 0;            ///< whose odometry stood still while the robot moved
   std::string notCompared;  ///< why the scans were not compared to the end of the run; empty: they were
 };
 

@@ -43,6 +43,13 @@ Evidence ScanComparisons::evidence() const {
   return evidence;
 }
 
+void VerdictCheck::addWay(double way, bool hasScans) {
+  way_ += way;
+  if (way_ > gap_.length)
+    gap_ = {way_, last_ ? mrpt::math::TPoint2D(last_->x, last_->y) : mrpt::math::TPoint2D()};
+  if (hasScans) way_ = 0;
+}
+
 void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
   const size_t update = updates_++;
   if (last_) distance_ += distanceBetween(*last_, pose);
@@ -55,6 +62,7 @@ void VerdictCheck::add(const TPose2D& pose, const Scans& scans) {
 Evidence VerdictCheck::evidence() const {
   Evidence evidence = comparisons_.evidence();
   evidence.lasers = lasers_.offsets();
+  evidence.gap = gap_;
   return evidence;
 }
 

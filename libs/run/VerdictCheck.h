@@ -54,6 +54,9 @@ class VerdictCheck {
     if (earlier) comparisons_.compareWith(toCompare(*earlier));
   }
 
+  /// Call it for each reading, before `add`. @param way  m, along the odometry, since the reading before
+  /// @param hasScans  that the filter has taken
+  void addWay(double way, bool hasScans);
   /// @param pose  of the next update, map frame; @param scans  of it
   void add(const mrpt::math::TPose2D& pose, const Scans& scans);
   Evidence evidence() const;
@@ -66,6 +69,8 @@ class VerdictCheck {
   std::optional<mrpt::math::TPose2D> last_;
   double distance_ = 0;
   size_t updates_ = 0;
+  double way_ = 0;  ///< m, along the odometry, since the last scan
+  Gap gap_;         ///< the longest
 };
 
 /// The scans to compare in an ongoing run, whose path may still change: about 2 kB per metre of path. Copies

@@ -153,5 +153,24 @@ TEST(VerdictCheck, BeamsThatTheMapDoesNotUseAreNotCompared) {
   EXPECT_GT(contradictionOf(path, scans, kMaxRange), 0.2);
 }
 
+TEST(VerdictCheck, TheLongestWayWithoutScansIsTheGap) {
+  VerdictCheck check(kMaxRange);
+  const auto drive = [&check](const TPose2D& pose) {
+    check.addWay(0.1, true);
+    check.add(pose, {test::scan(0, pose)});
+  };
+  drive({0, 0, 0});
+  check.addWay(2, true);  // a scan that causes no update ends the gap
+  drive({1, 0, 0});
+  EXPECT_EQ(check.evidence().gap.length, 2);
+  check.addWay(2, false);
+  check.addWay(3, false);
+  drive({0, 1, 0});
+  EXPECT_NEAR(check.evidence().gap.length, 5.1, 1e-9);
+  EXPECT_EQ(check.evidence().gap.start, mrpt::math::TPoint2D(1, 0));
+  check.addWay(7, false);
+  EXPECT_EQ(check.evidence().gap.length, 7) << "to the end of the log";
+}
+
 }  // namespace
 }  // namespace hybrid_slam::run

@@ -62,25 +62,21 @@ TEST(Verdict, ScansFarApartCannotConfirmAMap) {
 TEST(Verdict, LasersThatSeeDifferentWallsAreInDoubt) {
   Evidence evidence;
   evidence.returning = scans(100), evidence.recent = scans(200);
-  evidence.lasers = {{"REAR", "FRONT", {0.05, 0, 0.5 * kDegree}, 50}};
+  evidence.lasers = {{"REAR", "FRONT", 0.5 * kDegree, 50}};
   EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
-  evidence.lasers[0].offset = {0.03, -0.04, -1.5 * kDegree};
+  evidence.lasers[0].turn = -1.5 * kDegree;
   EXPECT_THAT(verdictOf(evidence).line(),
-              HasSubstr("doubtful: laser `REAR` sees the walls turned by 1.5 deg and moved by 0.05 m against "
-                        "laser `FRONT`"));
-  evidence.lasers[0].offset = {0.15, 0, 0};
-  EXPECT_EQ(verdictOf(evidence).level, Level::doubtful);
+              HasSubstr("doubtful: laser `REAR` sees the walls turned by 1.5 deg against laser `FRONT`"));
 }
 
 TEST(Verdict, AGapBetweenTheScansIsInDoubt) {
-  const std::vector<TPose2D> path{{0, 0, 0}, {1, 0, 0}, {1.5, 2, 0}, {2, 2, 0}};
   Evidence evidence;
   evidence.returning = scans(100), evidence.recent = scans(200);
-  evidence.gap = longestGapOf({{}, {1, 0, 0}, {2.9, 0, 0}, {0.5, 0, 0}}, path);
+  evidence.gap = {2.9, {1, 0}};
   EXPECT_EQ(verdictOf(evidence).level, Level::consistent);
-  evidence.gap = longestGapOf({{}, {1, 0, 0}, {16, -12, 0}, {0.5, 0, 0}}, path);
+  evidence.gap = {20, {1.5, 2}};
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: no scans along 20.0 m of odometry up to (1.5, 2.0) m");
+            "verdict: doubtful: no scans along 20.0 m of odometry from (1.5, 2.0) m on");
 }
 
 TEST(Verdict, ScansBeforeAllOdometryAreInDoubtIfManyAreNotUsed) {
@@ -91,20 +87,6 @@ TEST(Verdict, ScansBeforeAllOdometryAreInDoubtIfManyAreNotUsed) {
   evidence.early = 995, evidence.scans = 5;
   EXPECT_EQ(verdictOf(evidence).line(),
             "verdict: doubtful: 100 % of 1000 scans are not used: they are older than all odometry");
-}
-
-TEST(Verdict, OdometryThatIsOftenRejectedOrStuckIsInDoubt) {
-  Evidence evidence;
-  evidence.returning = scans(100), evidence.recent = scans(200);
-  evidence.slips = 11, evidence.updates = 100, evidence.stuckScans = 200, evidence.scans = 2000;
-  EXPECT_THAT(
-      verdictOf(evidence).line(),
-      HasSubstr("doubtful: odometry rejected in 11 updates, and standing still in 200 scans of a robot "
-                "that moves: the laser's pose"));
-  evidence.stuckScans = 150;
-  EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
-  evidence.slips = 0, evidence.stuckScans = 450;
-  EXPECT_EQ(verdictOf(evidence).level, Level::doubtful);
 }
 
 TEST(Verdict, SaysThatNoPlaceWasSeenTwice) {
@@ -272,7 +254,7 @@ TEST(Verdict, SlipsAloneAreNoReason) {
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
   evidence.slips = 9, evidence.updates = 9;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
-  evidence.slips = 40, evidence.updates = 200;
+  evidence.slips = 20, evidence.updates = 200;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
 }
 
@@ -313,11 +295,11 @@ TEST(Verdict, TurnsOfTheOdometryAreComparedWithThoseOfThePath) {
   EXPECT_EQ(turns.against, 3u);
 }
 
-TEST(Verdict, OdometryThatIsMostlyRejectedIsDoubtful) {
+TEST(Verdict, OdometryThatIsOftenRejectedIsDoubtful) {
   Evidence evidence;
-  evidence.returning = scans(100), evidence.slips = 41, evidence.updates = 200;
+  evidence.returning = scans(100), evidence.slips = 21, evidence.updates = 200;
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: odometry rejected in 41 updates: the laser's pose on the robot "
+            "verdict: doubtful: odometry rejected in 21 updates: the laser's pose on the robot "
             "(input.laser_pose) or the times of scans and odometry may be wrong");
 }
 

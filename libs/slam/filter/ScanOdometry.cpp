@@ -1,6 +1,7 @@
 #include "slam/filter/ScanOdometry.h"
 
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kStdXY = 0.1, kStdPhi = mrpt::DEG2RAD(10.0);  // of the prediction
+constexpr double kFarTurn = mrpt::DEG2RAD(10.0);               // from the prediction
 constexpr SearchWindow kWindow{0.4, mrpt::DEG2RAD(30.0)};
 constexpr size_t kPlaces = 4;    // starting points of the local optimisation
 constexpr double kMinFit = 0.1;  // good matches fit 0.2 to 0.7
@@ -27,11 +29,13 @@ constexpr double kKeyDistance = 0.1, kKeyAngle = mrpt::DEG2RAD(5.0);
 ScanOdometry::ScanOdometry(const GridOptions& grid, const ScanMatcherOptions& matcher)
     : grid_(decisive(grid)), matchedBeams_(matcher.beams), matcher_(matcher), map_(grid.resolution) {}
 
-TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp) {
+TPose2D ScanOdometry::motionTo(const Scans& observed, double timestamp, std::optional<double> turn) {
   const LaserScans scans = toLaserScans(observed, grid_.maxRange);
   const TPose2D before = pose_;
   const double duration = timestamp - lastTime_;
-  const TPose2D expected = predicted(duration);
+  TPose2D expected = predicted(duration);
+  // Near the prediction the search finds the turn by itself, and better than odometry with wrong times.
+  if (turn && std::abs(mrpt::math::wrapToPi(*turn - expected.phi)) > kFarTurn) expected.phi = *turn;
   pose_ = before + expected;
   const ScanBeams beams(scans, BeamSelection(scans).take(matchedBeams_));
   if (beams.rays.empty()) {  // without returns: keep the map, and slow down

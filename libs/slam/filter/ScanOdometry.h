@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "base/LaserScan.h"
 #include "slam/grid/OccupancyGrid.h"
@@ -23,7 +24,9 @@ class ScanOdometry {
   /// Returns the motion since the previous scans, in the robot frame at those (m, rad); zero for the first
   /// scans.
   /// @param timestamp  s; if the step is shorter than the last one, the predicted motion is scaled down
-  mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp);
+  /// @param turn  rad, since the previous scans, where it is measured: replaces the predicted one if that is
+  /// over 10 deg off
+  mrpt::math::TPose2D motionTo(const Scans& observed, double timestamp, std::optional<double> turn = {});
   /// Sets the motion (m, rad) and duration (s) of the last step, from which the next one is predicted.
   void setLastMotion(const mrpt::math::TPose2D& motion, double duration) {
     lastMotion_ = motion, lastDuration_ = duration;

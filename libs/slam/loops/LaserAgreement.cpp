@@ -24,7 +24,7 @@ constexpr double kMinFit = 0.25;                   // good matches fit 0.2 to 0.
 constexpr SearchWindow kSearch{0.3, 6 * kDegree};  // around where the poses of the lasers say
 constexpr double kStdXY = 0.1, kStdPhi = 5 * kDegree;
 constexpr size_t kFewestMatches = 20;
-constexpr double kLargeTurn = 0.7 * kDegree, kLargeShift = 0.1;  // m
+constexpr double kLargeTurn = 0.7 * kDegree;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-bool LaserOffset::isLarge() const { return std::abs(offset.phi) > kLargeTurn || offset.norm() > kLargeShift; }
+bool LaserOffset::isLarge() const { return std::abs(turn) > kLargeTurn; }
 
 void LaserAgreement::add(const TPose2D& pose, const Scans& scans, double distance) {
   for (const auto& scan : scans) {
@@ -68,17 +68,13 @@ void LaserAgreement::matchToReference(const Seen& seen) {
     const ScanMatch match = matcher.match(beams, place, map, prior);
     if (match.logPosterior > best.logPosterior) best = match;
   }
-  if (best.fit >= kMinFit) offsets_[seen.laser].push_back(best.pose - seen.pose);
+  if (best.fit >= kMinFit) turns_[seen.laser].push_back((best.pose - seen.pose).phi);
 }
 
 std::vector<LaserOffset> LaserAgreement::offsets() const {
   std::vector<LaserOffset> all;
-  for (const auto& [laser, matches] : offsets_) {
-    if (matches.size() < kFewestMatches) continue;
-    std::vector<double> x, y, phi;
-    for (const TPose2D& match : matches) x.push_back(match.x), y.push_back(match.y), phi.push_back(match.phi);
-    all.push_back({laser, *reference_, {median(x), median(y), median(phi)}, matches.size()});
-  }
+  for (const auto& [laser, turns] : turns_)
+    if (turns.size() >= kFewestMatches) all.push_back({laser, *reference_, median(turns), turns.size()});
   return all;
 }
 

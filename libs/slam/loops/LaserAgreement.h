@@ -1,5 +1,5 @@
 /// @file LaserAgreement.h
-/// @brief Compares what the lasers of a robot see, to find a wrong pose of a laser on the robot.
+/// @brief Compares what the lasers of a robot see, to find a wrong heading of a laser on the robot.
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
@@ -18,17 +18,15 @@ namespace hybrid_slam {
 /// How the scans of a laser fit those of another one.
 struct LaserOffset {
   std::string laser, reference;  ///< labels
-  /// Motion of the laser's scans (robot frame; m, rad) after which they fit: the median of all matches, in
-  /// each coordinate.
-  mrpt::math::TPose2D offset;
-  size_t scans = 0;  ///< matched
+  double turn = 0;               ///< rad, after which the laser's scans fit: the median of all matches
+  size_t scans = 0;              ///< matched
   /// Whether the lasers see different walls: a map of both is bent.
   bool isLarge() const;
 };
 
 /// Matches the scans of each laser to those that the first one takes within 2.5 m of path. If the poses of
-/// the lasers on the robot are right, they fit as they are; if one is wrong, the same motion is needed
-/// everywhere.
+/// the lasers on the robot are right, they fit as they are; if one has a wrong heading, the same turn is
+/// needed everywhere. Only the turn is judged: along a corridor, the position of a match is arbitrary.
 class LaserAgreement {
  public:
   /// @param maxRange  m, of the beams compared
@@ -49,11 +47,11 @@ class LaserAgreement {
   void matchToReference(const Seen& seen);
 
   double maxRange_;
-  std::optional<std::string> reference_;                             ///< label of the first laser
-  std::deque<Seen> seen_;                                            ///< within the window, by distance
-  size_t matched_ = 0;                                               ///< of these, from the first on
-  std::map<std::string, mrpt::math::TPose2D> last_;                  ///< pose of each laser's newest scan
-  std::map<std::string, std::vector<mrpt::math::TPose2D>> offsets_;  ///< of each match
+  std::optional<std::string> reference_;              ///< label of the first laser
+  std::deque<Seen> seen_;                             ///< within the window, by distance
+  size_t matched_ = 0;                                ///< of these, from the first on
+  std::map<std::string, mrpt::math::TPose2D> last_;   ///< pose of each laser's newest scan
+  std::map<std::string, std::vector<double>> turns_;  ///< of each match
 };
 
 }  // namespace hybrid_slam

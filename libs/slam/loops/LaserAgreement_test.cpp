@@ -36,28 +36,19 @@ TEST(LaserAgreement, LasersWithRightPosesAgree) {
   const std::vector<LaserOffset> offsets = offsetsWith({});
   ASSERT_EQ(offsets.size(), 1u);
   EXPECT_GE(offsets[0].scans, 20u);
-  EXPECT_NEAR(offsets[0].offset.phi, 0, 0.2 * kDegree);
-  EXPECT_LT(offsets[0].offset.norm(), 0.04);
+  EXPECT_NEAR(offsets[0].turn, 0, 0.2 * kDegree);
   EXPECT_FALSE(offsets[0].isLarge());
 }
 
-/// The scans have to be turned back around the laser, which is 0.2 m behind the robot's centre.
 TEST(LaserAgreement, AWrongYawIsMeasured) {
   for (const double yaw : {-4., -1.5, 1.5, 4.}) {
     const std::vector<LaserOffset> offsets = offsetsWith({0, 0, yaw * kDegree});
     ASSERT_EQ(offsets.size(), 1u) << yaw;
     EXPECT_EQ(offsets[0].laser, "REAR");
     EXPECT_EQ(offsets[0].reference, "FRONT");
-    EXPECT_NEAR(offsets[0].offset.phi / kDegree, -yaw, 0.3) << yaw;
+    EXPECT_NEAR(offsets[0].turn / kDegree, -yaw, 0.3) << yaw;
     EXPECT_TRUE(offsets[0].isLarge()) << yaw;
   }
-}
-
-TEST(LaserAgreement, AWrongPositionIsMeasured) {
-  const std::vector<LaserOffset> offsets = offsetsWith({0.2, 0, 0});  // forward of the rear laser: backward
-  ASSERT_EQ(offsets.size(), 1u);
-  EXPECT_NEAR(offsets[0].offset.x, 0.2, 0.05);
-  EXPECT_TRUE(offsets[0].isLarge());
 }
 
 TEST(LaserAgreement, OneLaserHasNothingToAgreeWith) {
