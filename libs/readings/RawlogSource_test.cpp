@@ -351,20 +351,6 @@ TEST(RawlogSource, OdometryOfTheHeadingAlone) {
                    .summary.hasTurns);
 }
 
-TEST(RawlogSource, ALaserThatSeesAllAroundShouldHaveAScanTime) {
-  const auto turning = [](double time) {
-    auto all = scan(time);
-    all->aperture = static_cast<float>(2 * M_PI);
-    return all;
-  };
-  const test::Log log{test::odometry(1, {}), turning(1), test::odometry(2, {1, 0, 0}), turning(2)};
-  EXPECT_THAT(replayed(log).summary.turning, ElementsAre("LASER"));
-  readings::InputOptions options;
-  options.scanTime = 0;
-  EXPECT_TRUE(replayed(log, options).summary.turning.empty());
-  EXPECT_TRUE(replayed({scan(1), scan(2)}).summary.turning.empty());
-}
-
 TEST(RawlogSource, OdometryOfEitherFormIsIgnoredOnRequest) {
   readings::InputOptions options;
   options.requireOdometry = false;

@@ -3,11 +3,14 @@
 
 #include "files/TemporaryFolder.h"
 #include "readings/RawlogSource.h"
+#include "testing/ReplayedLog.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::readings {
 namespace {
 
+using test::replayed;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(RawlogSummary, CanBeStopped) {
@@ -31,6 +34,20 @@ TEST(RawlogSummary, ATruncatedLogGivesItsReadablePart) {
   size_t scans = 0;
   while (source.next()) ++scans;
   EXPECT_EQ(scans, 6u);
+}
+
+TEST(RawlogSummary, ALaserThatSeesAllAroundShouldHaveAScanTime) {
+  const auto turning = [](double time) {
+    auto all = test::scan(time);
+    all->aperture = static_cast<float>(2 * M_PI);
+    return all;
+  };
+  const test::Log log{test::odometry(1, {}), turning(1), test::odometry(2, {1, 0, 0}), turning(2)};
+  EXPECT_THAT(replayed(log).summary.turning, ElementsAre("LASER"));
+  readings::InputOptions options;
+  options.scanTime = 0;
+  EXPECT_TRUE(replayed(log, options).summary.turning.empty());
+  EXPECT_TRUE(replayed({test::scan(1), test::scan(2)}).summary.turning.empty());
 }
 
 }  // namespace
