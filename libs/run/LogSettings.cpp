@@ -148,7 +148,9 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
     for (const auto& observation : reading.scans) {
       const LaserScan scan = toLaserScan(*observation, kNoLimit);
       const std::string& label = observation->sensorLabel;
-      if (lasers.count(label) == 0) lasers[label] = describe(*observation, log.mountings.at(label));
+      const auto mounting = log.mountings.find(label);  // none if the log has changed
+      if (lasers.count(label) == 0 && mounting != log.mountings.end())
+        lasers[label] = describe(*observation, mounting->second);
       limit = std::max(limit, scan.maxRange);
       const Beam* last = nullptr;
       for (const Beam& beam : scan.beams) {

@@ -36,21 +36,21 @@ TEST(ScanOdometry, ALap) {
 
 /// Jerks of 50 deg are out of reach of the search, unless the turn is measured.
 TEST(ScanOdometry, AMeasuredTurnIsThePrediction) {
-  const auto errorWith = [](double scale, bool isMeasured) {
+  const auto errorOf = [](bool isMeasured) {
     ScanOdometry odometry{GridOptions(), ScanMatcherOptions()};
     TPose2D pose, before, truth;
     for (int i = 0; i < 12; ++i) {
       truth = {0.5, 0.2, i % 4 == 0 ? 0 : i % 2 == 0 ? 0.9 : -0.9};
       const std::optional<double> turn =
-          isMeasured ? std::optional(scale * (truth - before).phi) : std::nullopt;
+          isMeasured ? std::optional(1.03 * (truth - before).phi) : std::nullopt;
       pose = pose + odometry.motionTo({test::scan(1, truth)}, i, i == 0 ? std::nullopt : turn);
       if (i == 0) pose = truth;
       before = truth;
     }
     return std::abs((pose - truth).phi);
   };
-  EXPECT_LT(errorWith(1.03, true), 0.03);
-  EXPECT_GT(errorWith(1.03, false), 0.3);
+  EXPECT_LT(errorOf(true), 0.03);
+  EXPECT_GT(errorOf(false), 0.3);
 }
 
 /// Every tenth scan has no returns, and four in succession: the map is kept, and the robot found again.

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kStep = 0.25, kStepAngle = 15 * kDegree;  // between two scans of a laser
 constexpr double kWindow = 2.5;                            // m of path, before and after a scan
-constexpr double kCell = 0.05;                             // m
+constexpr size_t kMostSeen = 100;  // before and after a scan: a robot may turn on the spot for hours
+constexpr double kCell = 0.05;     // m
 constexpr size_t kBeams = 90, kFewestBeams = 20;
 constexpr double kMinFit = 0.25;                   // good matches fit 0.2 to 0.7
 constexpr SearchWindow kSearch{0.3, 6 * kDegree};  // around where the poses of the lasers say
@@ -45,10 +46,17 @@ void LaserAgreement::add(const TPose2D& pose, const Scans& scans, double distanc
     last->second = pose;
     seen_.push_back({label, pose, distance, ScanBeams(toLaserScan(*scan, maxRange_))});
   }
-  for (; matched_ < seen_.size() && seen_[matched_].distance < distance - kWindow; ++matched_)
+  const auto isDue = [&] {
+    return matched_ < seen_.size() &&
+           (seen_[matched_].distance < distance - kWindow || seen_.size() - matched_ > kMostSeen);
+  };
+  for (; isDue(); ++matched_)
     if (seen_[matched_].laser != reference_) matchToReference(seen_[matched_]);
-  for (; matched_ > 0 && seen_.front().distance < seen_[matched_ - 1].distance - kWindow; --matched_)
-    seen_.pop_front();
+  const auto isOld = [&] {
+    return matched_ > 0 &&
+           (seen_.front().distance < seen_[matched_ - 1].distance - kWindow || matched_ > kMostSeen);
+  };
+  for (; isOld(); --matched_) seen_.pop_front();
 }
 
 void LaserAgreement::matchToReference(const Seen& seen) {

@@ -51,6 +51,22 @@ TEST(LaserAgreement, AWrongYawIsMeasured) {
   }
 }
 
+/// The scans of a robot that only turns are all within the window; of them, the last ones are kept.
+TEST(LaserAgreement, ARobotThatTurnsOnTheSpot) {
+  LaserAgreement agreement(8);
+  for (size_t i = 0; i < 720; ++i) {
+    const TPose2D pose(1, 0.5, 20. * static_cast<double>(i) * kDegree);
+    const auto front = test::scan(0.1 * static_cast<double>(i), pose, 181, "FRONT"),
+               rear = test::scan(0.1 * static_cast<double>(i), pose, 181, "REAR");
+    rear->sensorPose = mrpt::poses::CPose3D(TPose2D(0, 0, 2 * kDegree));
+    agreement.add(pose, {front, rear}, 0);
+  }
+  const std::vector<LaserOffset> offsets = agreement.offsets();
+  ASSERT_EQ(offsets.size(), 1u);
+  EXPECT_GT(offsets[0].scans, 600u) << "without waiting for the robot to drive on";
+  EXPECT_NEAR(offsets[0].turn / kDegree, -2, 0.3);
+}
+
 TEST(LaserAgreement, OneLaserHasNothingToAgreeWith) {
   LaserAgreement agreement(8);
   for (size_t i = 0; i < 240; ++i)
