@@ -2,10 +2,10 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/Degree.h"
+#include "base/Median.h"
 #include "base/PoseDistance.h"
 
 namespace hybrid_slam::readings {
@@ -21,12 +21,6 @@ constexpr double kDistance = 0.02, kAngle = 1 * kDegree;  // m, rad: of rows tha
 constexpr double kSame = 0.005, kSameAngle = 0.005;       // m, rad: of rows without that decision
 constexpr double kShare = 0.9;
 
-double medianOfValues(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The medians of x, y and the heading.
 TPose2D medianOf(const std::vector<TPose2D>& poses) {
   std::vector<double> x, y, phi;
@@ -34,8 +28,7 @@ TPose2D medianOf(const std::vector<TPose2D>& poses) {
     x.push_back(pose.x), y.push_back(pose.y);
     phi.push_back(mrpt::math::wrapToPi(pose.phi - poses.front().phi));
   }
-  return {medianOfValues(x), medianOfValues(y),
-          mrpt::math::wrapToPi(poses.front().phi + medianOfValues(phi))};
+  return {median(x), median(y), mrpt::math::wrapToPi(poses.front().phi + median(phi))};
 }
 
 }  // namespace

@@ -23,9 +23,10 @@ namespace {
 
 constexpr size_t kMostWaiting = 1000;  // scans
 constexpr size_t kMostWaitingBeams = 10'000'000;
-constexpr double kFarthestApart = 10;            // m between the scans of one reading
-constexpr double kMoved = 0.05, kTurned = 0.02;  // m, rad: scans must differ, and odometry is interpolated
-constexpr size_t kFewestReturns = 10;            // of equal scans: in the open, a laser often sees nothing
+constexpr double kFarthestApart = 10;  // m between the scans of one reading
+constexpr double kMovedOn = 0.05,
+                 kTurnedOn = 0.02;     // m, rad: scans must differ, and odometry is interpolated
+constexpr size_t kFewestReturns = 10;  // of equal scans: in the open, a laser often sees nothing
 
 /// Marks invalid beams, because MRPT uses valid ones unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
@@ -254,7 +255,7 @@ bool ReadingAssembler::isRepeated(const Waiting& scan, const TPose2D& odometry) 
     return false;
   }
   const TPose2D moved = odometry - newest->second.second;
-  return moved.norm() > kMoved || std::abs(moved.phi) > kTurned;
+  return moved.norm() > kMovedOn || std::abs(moved.phi) > kTurnedOn;
 }
 
 void ReadingAssembler::complete(const Waiting& scan) {

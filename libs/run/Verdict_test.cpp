@@ -254,7 +254,7 @@ TEST(Verdict, SlipsAloneAreNoReason) {
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
   evidence.slips = 9, evidence.updates = 9;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
-  evidence.slips = 20, evidence.updates = 200;
+  evidence.slips = 40, evidence.updates = 200;
   EXPECT_EQ(verdictOf(evidence).line(), "verdict: consistent");
 }
 
@@ -297,9 +297,9 @@ TEST(Verdict, TurnsOfTheOdometryAreComparedWithThoseOfThePath) {
 
 TEST(Verdict, OdometryThatIsOftenRejectedIsDoubtful) {
   Evidence evidence;
-  evidence.returning = scans(100), evidence.slips = 21, evidence.updates = 200;
+  evidence.returning = scans(100), evidence.slips = 41, evidence.updates = 200;
   EXPECT_EQ(verdictOf(evidence).line(),
-            "verdict: doubtful: odometry rejected in 21 updates: the laser's pose on the robot "
+            "verdict: doubtful: odometry rejected in 41 updates: the laser's pose on the robot "
             "(input.laser_pose) or the times of scans and odometry may be wrong");
 }
 

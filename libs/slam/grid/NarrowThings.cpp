@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "base/Median.h"
 #include "slam/grid/RaySamples.h"
 
 namespace hybrid_slam {
@@ -26,10 +29,7 @@ double angularStep(const std::vector<Ray>& rays) {
   for (size_t i = 1; i < rays.size(); ++i)
     if (rays[i].laser == rays[i - 1].laser)
       steps.push_back(std::abs(rays[i].dirX * rays[i - 1].dirY - rays[i].dirY * rays[i - 1].dirX));
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0 : median(std::move(steps));
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/Degree.h"
+#include "base/Median.h"
 #include "base/PoseDistance.h"
 #include "slam/grid/CorrelativeSearch.h"
 #include "slam/grid/ScanMatcher.h"
@@ -26,12 +26,6 @@ constexpr SearchWindow kSearch{0.3, 6 * kDegree};  // around where the poses of 
 constexpr double kStdXY = 0.1, kStdPhi = 5 * kDegree;
 constexpr size_t kFewestMatches = 20;
 constexpr double kLargeTurn = 0.7 * kDegree;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
