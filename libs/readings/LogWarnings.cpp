@@ -43,7 +43,7 @@ std::vector<std::string> warningsOf(const RawlogSummary& log, const std::string&
       all.push_back("laser `" + label + "` takes " + fixedText(1000 * seconds, 1) + " ms for a scan: " +
                     file + "; without odometry the beams are not corrected for the robot's motion");
   if (log.hasMotion || log.hasTurns)
-    for (const std::string& label : log.turning)
+    for (const std::string& label : log.spinning)
       all.push_back("time of a scan is unknown: laser `" + label + "` in " + file +
                     "; input.scan_rate=HZ (turns per second) corrects the scans for the robot's motion");
   if (log.bag) all.insert(all.end(), log.bag->notes.begin(), log.bag->notes.end());

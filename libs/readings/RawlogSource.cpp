@@ -174,7 +174,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
     if (const double sweep = sweeps.of(scan); sweep > 0)
       summary.sweeps[scan.sensorLabel] = sweep;
     else if (scan.aperture > kAllAround && !options.sweep().seconds && !options.sweep().rate)
-      summary.turning.insert(scan.sensorLabel);
+      summary.spinning.insert(scan.sensorLabel);
     if (!isStamped(scan)) return note(summary.unstamped, reader.entry());
     const double t = seconds(scan.timestamp);
     const auto [before, isNew] = last.try_emplace(scan.sensorLabel, t);
@@ -232,7 +232,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   summary.lasers.assign(grouper.lasers().begin(), grouper.lasers().end());
   summary.ignored = reader.ignoredLasers();
   noteIgnored(summary, uses);
-  for (const auto& sweep : summary.sweeps) summary.turning.erase(sweep.first);
+  for (const auto& sweep : summary.sweeps) summary.spinning.erase(sweep.first);
   summary.isDeskewed = options.requireOdometry && (summary.hasMotion || summary.hasTurns) &&
                        (summary.hasActions || summary.hasOdometryReadings);
 

@@ -62,7 +62,7 @@ struct RawlogSummary {
   std::string passedOverClasses;                          ///< a list
   std::map<std::string, double> sweeps;                   ///< s, last known of each laser
   std::map<std::string, mrpt::poses::CPose3D> mountings;  ///< of each laser used: pose on the robot at first
-  std::set<std::string> turning;                          ///< lasers that see all around, in an unknown time
+  std::set<std::string> spinning;                         ///< lasers that see all around, in an unknown time
   bool isDeskewed = false;  ///< beams are corrected by these where the robot moves
   bool hasActions = false, hasOdometryReadings = false;
   bool hasMotion = false;              ///< the odometry's position changes

@@ -43,11 +43,11 @@ TEST(RawlogSummary, ALaserThatSeesAllAroundShouldHaveAScanTime) {
     return all;
   };
   const test::Log log{test::odometry(1, {}), turning(1), test::odometry(2, {1, 0, 0}), turning(2)};
-  EXPECT_THAT(replayed(log).summary.turning, ElementsAre("LASER"));
+  EXPECT_THAT(replayed(log).summary.spinning, ElementsAre("LASER"));
   readings::InputOptions options;
   options.scanTime = 0;
-  EXPECT_TRUE(replayed(log, options).summary.turning.empty());
-  EXPECT_TRUE(replayed({test::scan(1), test::scan(2)}).summary.turning.empty());
+  EXPECT_TRUE(replayed(log, options).summary.spinning.empty());
+  EXPECT_TRUE(replayed({test::scan(1), test::scan(2)}).summary.spinning.empty());
 }
 
 }  // namespace

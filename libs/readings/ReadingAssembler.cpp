@@ -24,26 +24,11 @@ namespace {
 constexpr size_t kMostWaiting = 1000;  // scans
 constexpr size_t kMostWaitingBeams = 10'000'000;
 constexpr double kFarthestApart = 10;  // m between the scans of one reading
-constexpr double kMovedOn = 0.05,
-                 kTurnedOn = 0.02;     // m, rad: scans must differ, and odometry is interpolated
-constexpr size_t kFewestReturns = 10;  // of equal scans: in the open, a laser often sees nothing
 
 /// Marks invalid beams, because MRPT uses valid ones unchecked.
 void markInvalidBeams(CObservation2DRangeScan& scan) {
   for (size_t i = 0; i < scan.getScanSize(); ++i)
     if (!isReturn(scan, i)) scan.setScanRangeValidity(i, false);
-}
-
-bool hasSameReturns(const CObservation2DRangeScan& a, const CObservation2DRangeScan& b) {
-  if (a.getScanSize() != b.getScanSize()) return false;
-  size_t returns = 0;
-  for (size_t i = 0; i < a.getScanSize(); ++i) {
-    if (a.getScanRangeValidity(i) != b.getScanRangeValidity(i)) return false;
-    if (!a.getScanRangeValidity(i)) continue;
-    if (a.getScanRange(i) != b.getScanRange(i)) return false;
-    ++returns;
-  }
-  return returns >= kFewestReturns;
 }
 
 }  // namespace
@@ -247,17 +232,6 @@ CObservation2DRangeScan::Ptr ReadingAssembler::corrected(const Waiting& scan) co
   return stands ? scan.scan : deskew(*scan.scan, motion);
 }
 
-bool ReadingAssembler::isRepeated(const Waiting& scan, const TPose2D& odometry) {
-  const auto [newest, isFirst] = newest_.try_emplace(scan.scan->sensorLabel, scan.scan, odometry);
-  if (isFirst) return false;
-  if (!hasSameReturns(*newest->second.first, *scan.scan)) {
-    newest->second = {scan.scan, odometry};
-    return false;
-  }
-  const TPose2D moved = odometry - newest->second.second;
-  return moved.norm() > kMovedOn || std::abs(moved.phi) > kTurnedOn;
-}
-
 void ReadingAssembler::complete(const Waiting& scan) {
   const TPose2D odometry = isEarly(scan) ? track_.at(seconds(scan.scan->timestamp)) : *scan.odometry;
   if (scan.reading != current_) endReading();
@@ -266,7 +240,7 @@ void ReadingAssembler::complete(const Waiting& scan) {
   if (!collected_.empty() && !((odometry - collected_.back().second).norm() <= kFarthestApart))
     collected_.clear();
   markInvalidBeams(*scan.scan);
-  if (isRepeated(scan, odometry))
+  if (frozenLasers_.isFrozen(scan.scan, odometry))
     repeated_ = {scan.scan, odometry};
   else
     collected_.emplace_back(corrected(scan), odometry);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/LaserScan.h"
+#include "readings/FrozenLasers.h"
 #include "readings/OdometryJumps.h"
 #include "readings/OdometryTrack.h"
 #include "readings/ScanGrouper.h"
@@ -53,8 +54,7 @@ constexpr size_t kMostEarly = 5;
 /// earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the odometry
 /// (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over 10 m
 /// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped,
-/// and those that repeat the last scan of their laser bit by bit although the odometry has moved since: some
-/// drivers do so when they lose the laser.
+/// and those of frozen lasers (FrozenLasers).
 /// Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
 /// ScanGrouper decides which scans are used and which of them form one reading.
 ///
@@ -115,8 +115,6 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   bool isEarly(const Waiting& scan) const;
   /// Corrects the scan for the motion during its sweep, if that is known.
   mrpt::obs::CObservation2DRangeScan::Ptr corrected(const Waiting& scan) const;
-  /// Returns whether the laser repeats its last scan while the robot moves.
-  bool isRepeated(const Waiting& scan, const mrpt::math::TPose2D& odometry);
   void complete(const Waiting& scan);
   void endReading();
 
@@ -130,8 +128,8 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
   using ScanAt = std::pair<mrpt::obs::CObservation2DRangeScan::Ptr, mrpt::math::TPose2D>;  ///< with odometry
   std::vector<ScanAt> collected_;
-  std::optional<ScanAt> repeated_;        ///< the last one of the current reading
-  std::map<std::string, ScanAt> newest_;  ///< of each laser, as measured: the first of those that are equal
+  FrozenLasers frozenLasers_;
+  std::optional<ScanAt> repeated_;                   ///< the last one of the current reading
   std::optional<mrpt::math::TPose2D> lastOdometry_;  ///< without the jumps
   std::optional<mrpt::math::TPose2D> lastReading_;   ///< as read
   std::optional<std::string> odometryLabel_;         ///< of the sensor whose odometry is used

@@ -1,0 +1,87 @@
+#include "readings/FrozenLasers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/Degree.h"
+#include "base/Segments.h"
+#include "readings/Timestamps.h"
+
+namespace hybrid_slam::readings {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation2DRangeScan;
+
+namespace {
+
+constexpr size_t kFewestReturns = 10;  // in the open, a laser often sees nothing
+constexpr double kMovedOn = 0.05,
+                 kTurnedOn = 0.02;  // m, rad: scans must differ, and odometry is interpolated
+constexpr double kDrift = 0.01, kTurnDrift = 0.5 * kDegree;  // m/s, rad/s, of a robot that stands
+constexpr double kOnWall = 0.005;  // m; of a moved scan with noise, a third of the points are closer
+constexpr double kMostOnWall = 0.8;
+constexpr size_t kPoints = 90;  // compared with the walls
+
+bool hasSameReturns(const CObservation2DRangeScan& a, const CObservation2DRangeScan& b) {
+  if (a.getScanSize() != b.getScanSize()) return false;
+  size_t returns = 0;
+  for (size_t i = 0; i < a.getScanSize(); ++i) {
+    if (a.getScanRangeValidity(i) != b.getScanRangeValidity(i)) return false;
+    if (!a.getScanRangeValidity(i)) continue;
+    if (a.getScanRange(i) != b.getScanRange(i)) return false;
+    ++returns;
+  }
+  return returns >= kFewestReturns;
+}
+
+/// Returns whether odometry moves so slowly that the robot may stand. @param later, before  scans
+bool isDrift(const TPose2D& moved, const CObservation2DRangeScan& before,
+             const CObservation2DRangeScan& later) {
+  if (!isStamped(before) || !isStamped(later)) return false;
+  const double time = seconds(later.timestamp) - seconds(before.timestamp);
+  return moved.norm() <= kDrift * time && std::abs(moved.phi) <= kTurnDrift * time;
+}
+
+/// Returns whether a moved laser may see the same: its points lie on the walls that it saw before.
+/// @param moved  of the robot
+bool isAlongWalls(const CObservation2DRangeScan& scan, const TPose2D& moved) {
+  const TPose2D sensor(scan.sensorPose.asTPose());
+  const double step = scan.aperture / static_cast<double>(scan.getScanSize() - 1);
+  std::vector<TPoint2D> points;  // frame of the laser; the direction of the beams does not matter
+  for (size_t i = 0; i < scan.getScanSize(); ++i) {
+    if (!scan.getScanRangeValidity(i)) continue;
+    const double angle = (static_cast<double>(i) * step - scan.aperture / 2) * (scan.rightToLeft ? 1 : -1);
+    points.emplace_back(scan.getScanRange(i) * std::cos(angle), scan.getScanRange(i) * std::sin(angle));
+  }
+  const TPose2D laser = (moved + sensor) - sensor;
+  const size_t stride = (points.size() + kPoints - 1) / kPoints;
+  size_t all = 0, onWall = 0;
+  for (size_t i = 0; i < points.size(); i += stride, ++all) {
+    const TPoint2D point = laser.composePoint(points[i]);
+    for (size_t j = 1; j < points.size(); ++j)
+      if ((point - nearestOnSegment(point, points[j - 1], points[j])).norm() < kOnWall) {
+        ++onWall;
+        break;
+      }
+  }
+  return static_cast<double>(onWall) >= kMostOnWall * static_cast<double>(all);
+}
+
+}  // namespace
+
+bool FrozenLasers::isFrozen(const CObservation2DRangeScan::Ptr& scan, const TPose2D& odometry) {
+  const auto [newest, isFirst] = newest_.try_emplace(scan->sensorLabel, Seen{scan, odometry});
+  if (isFirst) return false;
+  Seen& before = newest->second;
+  if (hasSameReturns(*before.scan, *scan)) {
+    const TPose2D moved = odometry - before.odometry;
+    if (moved.norm() <= kMovedOn && std::abs(moved.phi) <= kTurnedOn) return false;
+    if (!isDrift(moved, *before.scan, *scan) && !isAlongWalls(*scan, moved)) return true;
+  }
+  before = {scan, odometry};
+  return false;
+}
+
+}  // namespace hybrid_slam::readings
