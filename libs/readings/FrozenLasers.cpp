@@ -44,9 +44,11 @@ bool isDrift(const TPose2D& moved, const CObservation2DRangeScan& before,
   return moved.norm() <= kDrift * time && std::abs(moved.phi) <= kTurnDrift * time;
 }
 
-/// Returns whether a moved laser may see the same: its points lie on the walls that it saw before.
+/// Returns whether a moved laser may see the same: its points lie on the walls that it saw before. It has not
+/// turned then, and a small turn is an error of the odometry.
 /// @param moved  of the robot
 bool isAlongWalls(const CObservation2DRangeScan& scan, const TPose2D& moved) {
+  if (std::abs(moved.phi) > kTurnedOn) return false;
   const TPose2D sensor(scan.sensorPose.asTPose());
   const double step = scan.aperture / static_cast<double>(scan.getScanSize() - 1);
   std::vector<TPoint2D> points;  // frame of the laser; the direction of the beams does not matter
@@ -55,11 +57,11 @@ bool isAlongWalls(const CObservation2DRangeScan& scan, const TPose2D& moved) {
     const double angle = (static_cast<double>(i) * step - scan.aperture / 2) * (scan.rightToLeft ? 1 : -1);
     points.emplace_back(scan.getScanRange(i) * std::cos(angle), scan.getScanRange(i) * std::sin(angle));
   }
-  const TPose2D laser = (moved + sensor) - sensor;
+  const TPoint2D shift = TPose2D(0, 0, -sensor.phi).composePoint(TPoint2D(moved.x, moved.y));
   const size_t stride = (points.size() + kPoints - 1) / kPoints;
   size_t all = 0, onWall = 0;
   for (size_t i = 0; i < points.size(); i += stride, ++all) {
-    const TPoint2D point = laser.composePoint(points[i]);
+    const TPoint2D point = points[i] + shift;
     for (size_t j = 1; j < points.size(); ++j)
       if ((point - nearestOnSegment(point, points[j - 1], points[j])).norm() < kOnWall) {
         ++onWall;
