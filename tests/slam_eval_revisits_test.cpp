@@ -60,6 +60,13 @@ TEST_F(Revisits, OptionsAreApplied) {
   EXPECT_EQ(figures(call + "--max-range 0.5").at("revisits"), 0);  // no wall is this close
 }
 
+TEST_F(Revisits, TheLaserMayBeElsewhereThanTheLogSays) {
+  writeLaps(240, 0);
+  EXPECT_GT(figures(call + "--laser-pose '0.3, 0, 10'").at("max_m"), 0.1);
+  EXPECT_LT(figures(call + "--laser-pose '0, 0, 0'").at("max_m"), 1e-5);
+  EXPECT_THAT(errorLine(call + "--laser-pose here"), HasSubstr("key `laser_pose`"));
+}
+
 TEST_F(Revisits, ALaserThatIsIgnoredIsAWarning) {
   writeLaps(80, 0);
   test::Log log = test::laps(80);

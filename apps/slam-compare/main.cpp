@@ -101,6 +101,14 @@ LogSpan readLog(const CommandLine& line, const comparison::RunSetup& setup) {
   return {recorder.trajectory({}), summary.duration};
 }
 
+/// How the runs read the log.
+readings::InputOptions inputOf(const CommandLine& line, const comparison::RunSetup& setup) {
+  run::Configuration configuration = setup.configuration();
+  const auto summary = readings::summarise(line.files.log, configuration.input, [] { return stop.load(); });
+  run::applyLogSettings(run::readLogSettings(line.files.log, configuration.input, summary), configuration);
+  return configuration.input;
+}
+
 /// Allows one comparison at a time in a folder.
 class FolderLock {
  public:
@@ -265,7 +273,7 @@ int execute(const CommandLine& line, const std::string& command) {
     return 0;
   }
   if (truth.revisits || truth.plan)
-    truth.takeScans(readings::loadEndPoints(line.files.log, setup.configuration().input));
+    truth.takeScans(readings::loadEndPoints(line.files.log, inputOf(line, setup)));
   const auto isFinished = [](const comparison::ComparisonRun& r) { return r.folder.isFinished(); };
   if (line.isReportOnly && std::none_of(sweep.begin(), sweep.end(), isFinished))
     throw InputError("no finished run", "folder " + line.output, "expected runs of this command");

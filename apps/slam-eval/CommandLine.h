@@ -23,6 +23,7 @@ struct CommandLine {
   double referenceTolerance = 0.02;  // s
   evaluation::RevisitOptions revisits;
   double maxRange = std::numeric_limits<double>::infinity();  // m
+  std::string laserPose = "auto";
 };
 
 /// The subcommands: each is true if it was given.
@@ -52,8 +53,12 @@ inline void addReference(CLI::App& command, CommandLine& line) {
       ->capture_default_str();
 }
 
-inline void addMaxRange(CLI::App& command, CommandLine& line) {
+inline void addBeams(CLI::App& command, CommandLine& line) {
   command.add_option("--max-range", line.maxRange, "largest range of the beams used, m (default: the log's)");
+  command
+      .add_option("--laser-pose", line.laserPose,
+                  "pose of the only laser on the robot: that in config.ini of the run, [input] laser_pose")
+      ->capture_default_str();
 }
 
 inline void addRevisits(CLI::App& command, CommandLine& line) {
@@ -65,7 +70,7 @@ inline void addRevisits(CLI::App& command, CommandLine& line) {
       ->capture_default_str();
   command.add_option("--path", line.revisits.path, "least distance driven between the two scans, m")
       ->capture_default_str();
-  addMaxRange(command, line);
+  addBeams(command, line);
 }
 
 inline void addNeesRelations(CLI::App& command, CommandLine& line) {
@@ -85,7 +90,7 @@ inline void addPlan(CLI::App& command, CommandLine& line) {
   command.add_flag("--align", line.aligns, "first move the plan rigidly onto the truth");
   command.add_option("--rawlog", line.rawlog, "log of the laser, for the part of the true walls that it saw");
   command.add_option("--reference", line.reference, "its true poses in the frame of the true plan, TUM file");
-  addMaxRange(command, line);
+  addBeams(command, line);
 }
 
 inline Commands describe(CLI::App& app, CommandLine& line) {

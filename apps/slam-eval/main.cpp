@@ -153,10 +153,17 @@ Json neesRelationsJson(const CommandLine& line) {
   return json;
 }
 
+std::vector<readings::EndPoints> loadEndPoints(const CommandLine& line) {
+  readings::InputOptions input;
+  input.laserPose = line.laserPose;
+  input.check();
+  return readings::loadEndPoints(line.rawlog, input, line.maxRange, warn);
+}
+
 Json revisitsJson(const CommandLine& line) {
   const files::Trajectory trajectory = files::loadTum(line.trajectory);
-  const evaluation::RevisitErrors errors = evaluation::revisitErrors(
-      trajectory, readings::loadEndPoints(line.rawlog, {}, line.maxRange, warn), line.revisits);
+  const evaluation::RevisitErrors errors =
+      evaluation::revisitErrors(trajectory, loadEndPoints(line), line.revisits);
   const auto figure = [&](double value) { return errors.revisits > 0 ? Json(value) : Json(); };
   return {{"scans", errors.scans},
           {"revisits", errors.revisits},
@@ -189,8 +196,7 @@ Json planJson(const CommandLine& line) {
   const std::vector<PlanLine> truth = loadWalls(line.truth);
   std::vector<mrpt::math::TPoint2D> ends;
   if (!line.rawlog.empty())
-    ends = evaluation::placedEndPoints(readings::loadEndPoints(line.rawlog, {}, line.maxRange, warn),
-                                       files::loadTum(line.reference));
+    ends = evaluation::placedEndPoints(loadEndPoints(line), files::loadTum(line.reference));
   const mrpt::math::TPose2D alignment =
       line.aligns ? evaluation::alignmentOf(plan, truth) : mrpt::math::TPose2D();
   plan = evaluation::moved(std::move(plan), alignment);

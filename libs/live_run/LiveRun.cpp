@@ -36,8 +36,7 @@ const std::string& recordingName(const LiveOptions& options) {
 LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet)
     : assembler_(readings::labelsOf(configuration.input.sensorLabel),
                  readings::odometrySource(configuration.input, true), configuration.input.maxOdometryGap,
-                 readings::sweepTimesOf(configuration.input, true),
-                 readings::laserPoseIn(configuration.input.laserPose), configuration.input.odometryTopic),
+                 readings::laserSettings(configuration.input, true), configuration.input.odometryTopic),
       configuration_(configuration),
       log_(log),
       isQuiet_(isQuiet),

@@ -17,7 +17,7 @@ TPose2D turning(double t) { return {0.5, 0.2, 1.5 * (t - 100)}; }
 TPose2D driving(double t) { return {0.5 * (t - 100), 0.4, 0.5}; }
 
 std::vector<Reading> readingsOf(const Log& log, OdometrySource odometry, const SweepTimes& sweeps = {}) {
-  ReadingAssembler assembler({}, odometry, 1, sweeps);
+  ReadingAssembler assembler({}, odometry, 1, {sweeps});
   std::vector<Reading> all;
   for (const auto& object : log) assembler.take(object);
   assembler.finish();
@@ -133,7 +133,7 @@ TEST(Deskewing, AScanOfAStandingRobotIsNotCopied) {
 }
 
 TEST(Deskewing, WaitsForTheOdometryUpToTheLastBeam) {
-  ReadingAssembler assembler({}, OdometrySource::readings, 1, SweepTimes(0.1));
+  ReadingAssembler assembler({}, OdometrySource::readings, 1, {SweepTimes(0.1)});
   assembler.take(test::odometry(100, turning(100)));
   assembler.take(test::sweptScan({}, 100, turning));
   assembler.take(test::odometry(100.06, turning(100.06)));

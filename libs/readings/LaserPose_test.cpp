@@ -70,7 +70,7 @@ TEST(LaserPose, ReplacesThatOfTheLog) {
 
 /// A recording of the same objects keeps the scans as measured.
 TEST(LaserPose, LeavesTheObjectsOfTheLog) {
-  ReadingAssembler assembler({}, OdometrySource::readings, 1, {}, laserPoseIn("1, 0, 0, 180"));
+  ReadingAssembler assembler({}, OdometrySource::readings, 1, {{}, laserPoseIn("1, 0, 0, 180")});
   const auto measured = scan(10);
   for (const auto& object : test::Log{test::odometry(10, {}), measured, test::odometry(11, {})})
     assembler.take(object);

@@ -68,6 +68,8 @@ void InputOptions::describe(OptionTable& t) {
   t.add("laser_pose", laserPose,
         "X, Y, YAW[, ROLL] (m, deg): pose of the only laser on the robot, instead of that in the log; "
         "ROLL 180: mounted upside down; auto: as the log states");
+  t.add("min_range", minRange, 0, 10, "m",
+        "smallest range used, of all lasers; shorter ones may be of the robot's own parts");
   t.add("odometry_topic", odometryTopic,
         "sensor label of the odometry to use; empty: that of the first reading (bag: topic; empty: the only "
         "one, or the transforms)");
@@ -98,8 +100,9 @@ void InputOptions::check() const {
   laserPoseIn(laserPose);
 }
 
-SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry) {
-  return hasOdometry && options.requireOdometry ? SweepTimes(options.sweep()) : SweepTimes(0);
+LaserSettings laserSettings(const InputOptions& options, bool hasOdometry) {
+  return {hasOdometry && options.requireOdometry ? SweepTimes(options.sweep()) : SweepTimes(0),
+          laserPoseIn(options.laserPose), options.minRange};
 }
 
 OdometrySource odometrySource(const InputOptions& options, bool hasReadings) {
@@ -127,8 +130,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   SweepTimes sweeps(options.sweep());
   const auto laserPose = laserPoseIn(options.laserPose);
   ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
-  ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap, SweepTimes(0),
-                             laserPose, chosen);  // to its first reading
+  ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap,
+                             {SweepTimes(0), laserPose}, chosen);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
   Uses uses;
@@ -263,8 +266,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : assembler_(labelsOf(options.sensorLabel), odometrySource(options, summary.hasOdometryReadings),
                  options.maxOdometryGap,
-                 sweepTimesOf(options, summary.hasActions || summary.hasOdometryReadings),
-                 laserPoseIn(options.laserPose), summary.odometryLabel),
+                 laserSettings(options, summary.hasActions || summary.hasOdometryReadings),
+                 summary.odometryLabel),
       file_(file),
       reader_(file, summary.bag) {}
 

@@ -23,6 +23,7 @@ struct BagPlan;
 struct InputOptions : Options {
   std::string sensorLabel;         ///< list of labels, see labelsOf; of a bag: topics
   std::string laserPose = "auto";  ///< of the only laser, see laserPoseIn; auto: as the log states
+  double minRange = 0;             ///< m, of all lasers
   std::string odometryTopic;       ///< of a bag
   bool requireOdometry = true;
   bool headingOdometry = false;
@@ -36,8 +37,9 @@ struct InputOptions : Options {
   void check() const;
 };
 
-/// Returns the times of the lasers' sweeps; none without odometry, which the correction of beams needs.
-SweepTimes sweepTimesOf(const InputOptions& options, bool hasOdometry);
+/// Returns what the options say of the lasers. Without odometry, which the correction of beams needs, sweeps
+/// have no times.
+LaserSettings laserSettings(const InputOptions& options, bool hasOdometry);
 
 /// Returns which odometry of a log is used, by whether it has observations of it.
 OdometrySource odometrySource(const InputOptions& options, bool hasReadings);

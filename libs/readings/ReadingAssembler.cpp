@@ -26,9 +26,9 @@ constexpr size_t kMostWaitingBeams = 10'000'000;
 constexpr double kFarthestApart = 10;  // m between the scans of one reading
 
 /// Marks invalid beams, because MRPT uses valid ones unchecked.
-void markInvalidBeams(CObservation2DRangeScan& scan) {
+void markInvalidBeams(CObservation2DRangeScan& scan, double minRange) {
   for (size_t i = 0; i < scan.getScanSize(); ++i)
-    if (!isReturn(scan, i)) scan.setScanRangeValidity(i, false);
+    if (!isReturn(scan, i) || scan.getScanRange(i) < minRange) scan.setScanRangeValidity(i, false);
 }
 
 }  // namespace
@@ -61,12 +61,10 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
 }
 
 ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry,
-                                   double maxOdometryGap, SweepTimes sweeps,
-                                   std::optional<mrpt::poses::CPose3D> laserPose,
+                                   double maxOdometryGap, LaserSettings settings,
                                    const std::string& odometryLabel)
-    : grouper_(lasers, maxOdometryGap, laserPose.has_value()),
-      sweeps_(std::move(sweeps)),
-      laserPose_(std::move(laserPose)),
+    : grouper_(lasers, maxOdometryGap, settings.pose.has_value()),
+      settings_(std::move(settings)),
       track_(maxOdometryGap),
       maxOdometryGap_(maxOdometryGap),
       source_(odometry) {
@@ -91,7 +89,7 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
   }
   isInTrack_ = false;
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
-    if (const auto sweep = sweepTimeIn(*observation)) sweeps_.take(*sweep);
+    if (const auto sweep = sweepTimeIn(*observation)) settings_.sweeps.take(*sweep);
     if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) grouper_.expect(scan->sensorLabel);
   });
@@ -114,9 +112,9 @@ void ReadingAssembler::travel() {
 }
 
 void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
-  if (laserPose_) {
+  if (settings_.pose) {
     scan = copyOf(*scan);  // a recording has it as measured
-    scan->sensorPose = *laserPose_;
+    scan->sensorPose = *settings_.pose;
   }
   if (!hasOdometryReadings() && !isInTrack_ && isStamped(*scan)) {
     track_.add(seconds(scan->timestamp), travelled_);
@@ -124,7 +122,7 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
     completeReady();
   }
   const size_t reading = grouper_.add(*scan);
-  waiting_.push_back({scan, reading, grouper_.isComplete(), sweeps_.of(*scan)});
+  waiting_.push_back({scan, reading, grouper_.isComplete(), settings_.sweeps.of(*scan)});
   if (hasOdometryReadings() && !lastOdometry_) {
     while (waiting_.back().reading - waiting_.front().reading >= kMostEarly ||
            (waiting_.size() > 1 && hasManyBeams()))
@@ -239,7 +237,7 @@ void ReadingAssembler::complete(const Waiting& scan) {
   // Wrong odometry may move a robot far between two lasers: only the latest scans are one reading.
   if (!collected_.empty() && !((odometry - collected_.back().second).norm() <= kFarthestApart))
     collected_.clear();
-  markInvalidBeams(*scan.scan);
+  markInvalidBeams(*scan.scan, settings_.minRange);
   if (frozenLasers_.isFrozen(scan.scan, odometry))
     repeated_ = {scan.scan, odometry};
   else

@@ -46,6 +46,14 @@ enum class OdometrySource {
 /// same time, but a robot may have moved since an earlier scan.
 constexpr size_t kMostEarly = 5;
 
+/// What is known of the lasers besides their scans.
+struct LaserSettings {
+  SweepTimes sweeps = {};  ///< durations of the scans; default: as the log states
+  std::optional<mrpt::poses::CPose3D> pose =
+      {};               ///< of the only laser on the robot; default: as the scans state
+  double minRange = 0;  ///< m; shorter ranges are not used
+};
+
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
 /// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
@@ -55,7 +63,8 @@ constexpr size_t kMostEarly = 5;
 /// (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over 10 m
 /// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped,
 /// and those of frozen lasers (FrozenLasers).
-/// Beams that are NaN, infinite, not positive, or at or beyond the scan's maximum range are marked invalid.
+/// Beams that are NaN, infinite, not positive, below the smallest range of the settings, or at or beyond the
+/// scan's maximum range are marked invalid.
 /// ScanGrouper decides which scans are used and which of them form one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
@@ -69,12 +78,9 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
  public:
   /// @param lasers          labels of the lasers to use; none: all
   /// @param maxOdometryGap  s; odometry is interpolated between readings no farther apart
-  /// @param sweeps          durations of the scans; default: as the log states
-  /// @param laserPose       of the only laser on the robot; default: as the scans state
   /// @param odometryLabel   of the sensor whose odometry readings are used; empty: that of the first one
   ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry, double maxOdometryGap,
-                   SweepTimes sweeps = {}, std::optional<mrpt::poses::CPose3D> laserPose = {},
-                   const std::string& odometryLabel = {});
+                   LaserSettings settings = {}, const std::string& odometryLabel = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   /// Returns whether a scan is used, or the reason why not.
@@ -119,8 +125,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   void endReading();
 
   ScanGrouper grouper_;
-  SweepTimes sweeps_;
-  std::optional<mrpt::poses::CPose3D> laserPose_;
+  LaserSettings settings_;
   OdometryTrack track_;
   double maxOdometryGap_;
   std::deque<Reading> ready_;

@@ -11,6 +11,8 @@
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/Numbers.h"
+#include "run/RobotParts.h"
+#include "slam/filter/MountingEstimate.h"
 
 namespace hybrid_slam::run {
 namespace {
@@ -21,6 +23,10 @@ constexpr double kNoLimit = 200;                             // m; upper bound o
 constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
 constexpr double kCentimetre = 0.01;                         // m
 constexpr double kSparsePoints = 0.1;                        // m between neighbours on a wall
+constexpr double kMargin = 0.05;                             // m
+constexpr double kFarOff = mrpt::DEG2RAD(15.0);              // the filter copes with less
+constexpr double kHalfBeam =
+    mrpt::DEG2RAD(1.0);  // logs of other formats begin with a beam, not with half a step
 
 /// Returns the value (m) that a laser logs for no return; 0 if it marks these beams as invalid. Some lasers
 /// log one value, or several close together, for all of them, with few returns just below.
@@ -115,6 +121,35 @@ std::string describe(const mrpt::obs::CObservation2DRangeScan& observation,
          " m, " + degrees(scan.sensorPose.phi) + " deg on the robot";
 }
 
+/// Where the log gives the only laser no place on the robot: its orientation, if that is far from zero.
+std::vector<LogSetting> laserPose(const std::vector<readings::Reading>& first,
+                                  const readings::RawlogSummary& log) {
+  if (log.lasers.size() != 1 || log.mountings.empty() || !log.hasMotion || !log.hasTurns) return {};
+  const mrpt::poses::CPose3D& given = log.mountings.begin()->second;
+  if (given.norm() > kCentimetre || std::abs(given.yaw()) > kHalfBeam || std::abs(given.roll()) > kHalfBeam)
+    return {};
+  MountingEstimate estimate{GridOptions(), ScanMatcherOptions()};
+  for (const readings::Reading& reading : first) {
+    if (estimate.isDone()) break;
+    estimate.add(reading.motion, reading.scans, reading.timestamp);
+  }
+  const auto mounting = estimate.mounting();
+  if (!mounting || (std::abs(mounting->yaw) < kFarOff && !mounting->isUpsideDown)) return {};
+  return {{"input", "laser_pose",
+           "0, 0, " + fixedText(mrpt::RAD2DEG(mounting->yaw), 0) + (mounting->isUpsideDown ? ", 180" : ""),
+           "the log does not state it, and its scans move and turn like this"}};
+}
+
+/// A little more than the longest range at the robot's own parts.
+std::vector<LogSetting> minRange(const std::vector<readings::Reading>& first) {
+  RobotParts parts;
+  for (const readings::Reading& reading : first) parts.add(reading);
+  const double farthest = parts.farthest();
+  if (farthest == 0) return {};
+  return {{"input", "min_range", fixedText(farthest + kMargin, 2),
+           "some beams always measure up to " + fixedText(farthest, 2) + " m: the robot itself"}};
+}
+
 /// Returns the first readings, up to one that the run will report as an error.
 std::vector<readings::Reading> firstReadings(const std::string& file, readings::InputOptions input,
                                              const readings::RawlogSummary& log) {
@@ -182,6 +217,8 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
     found.settings.push_back({"input", "require_odometry", "false",
                               std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
                                   ": motion is predicted from the previous steps"});
+  for (const LogSetting& setting : minRange(first)) found.settings.push_back(setting);
+  for (const LogSetting& setting : laserPose(first, log)) found.settings.push_back(setting);
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});
   return found;
 }

@@ -37,6 +37,9 @@ struct LogSettings {
 /// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot if scans are
 ///   sparse and overlap little; else 0.1 m and 5 deg.
 /// - `input.require_odometry`: false where odometry is missing or never changes.
+/// - `input.min_range`: 5 cm above the ranges at the robot's own parts, where beams end at them (RobotParts).
+/// - `input.laser_pose`: the orientation of the only laser, where the log gives it none and the scans move or
+///   turn otherwise than the odometry (MountingEstimate).
 ///
 /// @param log  summary of the file
 LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,

@@ -6,12 +6,15 @@
 
 #include <functional>
 
+#include "base/Degree.h"
 #include "files/TemporaryFolder.h"
+#include "testing/RingDrive.h"
 #include "testing/TestLogs.h"
 
 namespace hybrid_slam::run {
 namespace {
 
+using mrpt::math::TPose2D;
 using test::CObservation2DRangeScan;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -145,6 +148,33 @@ TEST_F(LogSettingsTest, OdometryThatNeverChangesIsNoOdometry) {
   EXPECT_TRUE(usesOdometry([](size_t i) { return test::TPose2D(1, 2, i == 3 ? 0.01 : 0); }));
   EXPECT_EQ(lines.back(),
             "input.heading_odometry = true: the odometry's position never changes: scan matching gives it");
+}
+
+TEST_F(LogSettingsTest, ALaserWithoutAPlaceOnTheRobotMayBeTurned) {
+  const auto pose = [this](double yaw, double x) {
+    const std::string file = folder.path("drive.rawlog");
+    RandomStream random(1, 0, 0);
+    test::Log log;
+    TPose2D odometry;
+    for (const test::DrivenPose& at : test::driveAlong(test::ring(), {{0, 0}, {31.5, 0}, {31.5, 21}}, 0)) {
+      const double time = 0.5 * static_cast<double>(log.size());
+      const LaserScan seen =
+          test::scanOf(test::ring(), at.truth, {x, 0, yaw * kDegree}, 181, M_PI, 0.01, random);
+      const auto scan = test::observed(seen)[0];
+      scan->sensorPose = mrpt::poses::CPose3D(x, 0, 0, 0, 0, 0);
+      scan->timestamp = test::stamp(time);
+      odometry = odometry + at.motion;
+      log.push_back(test::odometry(time, odometry));
+      log.push_back(scan);
+    }
+    test::writeGzipped(file, log);
+    for (const LogSetting& setting : readLogSettings(file, input, readings::summarise(file, input)).settings)
+      if (setting.key == "laser_pose") return setting.value;
+    return std::string("none");
+  };
+  EXPECT_EQ(pose(90, 0), "0, 0, 90");
+  EXPECT_EQ(pose(0, 0), "none");
+  EXPECT_EQ(pose(90, 0.2), "none") << "the log states where it is";
 }
 
 TEST_F(LogSettingsTest, TheMountingOfASecondLaserIsWithoutTheRobotsMotion) {

@@ -1,5 +1,6 @@
 #include "slam/motion/MotionModel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -35,6 +36,14 @@ MotionStep::MotionStep(const TPose2D& p)
 TPose2D MotionStep::increment() const {
   const double c = std::cos(turn / 2), s = std::sin(turn / 2);
   return {c * distance - s * drift, s * distance + c * drift, turn};
+}
+
+double distanceOfVariance(const MotionStep& odometry) {
+  constexpr double kArc = 0.02;  // m
+  const double ahead = std::abs(odometry.distance);
+  const double sideways = std::max(0.0, std::abs(odometry.drift) - std::max(kArc, ahead));
+  const double length = sideways > 0 ? std::hypot(ahead, sideways) : ahead;
+  return std::copysign(length <= kLongestStep ? length : std::sqrt(length * kLongestStep), odometry.distance);
 }
 
 void MotionModelOptions::describe(OptionTable& t) {

@@ -31,12 +31,10 @@ struct MotionStep {
 /// Longest step, m, whose errors grow in proportion to it. A longer one, as after a gap between the scans,
 /// counts as several with independent errors: its variance grows in proportion.
 constexpr double kLongestStep = 1.5;
-/// Returns the d (m) of the variance for a distance of the odometry: its square is kLongestStep |d| for steps
-/// above kLongestStep.
-inline double distanceOfVariance(double distance) {
-  const double length = std::abs(distance);
-  return length <= kLongestStep ? distance : std::copysign(std::sqrt(length * kLongestStep), distance);
-}
+/// Returns the d (m) of the variance for a step of the odometry: its square is kLongestStep |d| for steps
+/// above kLongestStep. The sideways motion of an omnidirectional robot counts, too, as far as it exceeds the
+/// motion along the heading and 2 cm: less is an arc, or an error.
+double distanceOfVariance(const MotionStep& odometry);
 
 /// One of D, C, T: a normal distribution that depends on the odometry's translation d (m) and rotation t
 /// (rad):  mean = meanD d + meanT t,  variance = varianceD d^2 + varianceT t^2 + minStd^2, plus 2 covariance
@@ -44,7 +42,7 @@ inline double distanceOfVariance(double distance) {
 struct MotionTerm {
   double mean(const MotionStep& odometry) const { return meanD * odometry.distance + meanT * odometry.turn; }
   double variance(const MotionStep& odometry, double minStd) const {
-    const double d = distanceOfVariance(odometry.distance);
+    const double d = distanceOfVariance(odometry);
     return varianceD * d * d + varianceT * odometry.turn * odometry.turn +
            2 * covariance * d * odometry.turn + minStd * minStd;
   }

@@ -104,7 +104,7 @@ void improveVariances(MotionTerm& term, const std::vector<Row>& rows, double min
                       const Determination& determined) {
   Quadratic q;
   for (const Row& row : rows) {
-    const double d = distanceOfVariance(row.odometry.distance);
+    const double d = distanceOfVariance(row.odometry);
     const Vector2d x(d * d, row.odometry.turn * row.odometry.turn);
     const double v = varianceOf(term, row, minStd), w = row.weight / (2 * v * v);
     const double r = row.value - term.mean(row.odometry);

@@ -86,6 +86,19 @@ TEST(MotionModel, TheVarianceOfALongStepIsThatOfSeveralShortOnes) {
   }
 }
 
+TEST(MotionModel, TheVarianceOfSidewaysMotionIsThatOfItsLength) {
+  const MotionTerm term{1, 0, 0.004, 0.001};
+  const auto variance = [&term](double distance, double drift) {
+    return term.variance(MotionStep(distance, drift, 0), 0);
+  };
+  EXPECT_NEAR(variance(0, 0.5), 0.004 * 0.48 * 0.48, 1e-12);
+  EXPECT_EQ(variance(0, -0.5), variance(0, 0.5));
+  EXPECT_NEAR(variance(0, 3), 0.004 * kLongestStep * 2.98, 1e-12) << "several short ones";
+  EXPECT_NEAR(variance(0.3, 0.5), 0.004 * (0.3 * 0.3 + 0.2 * 0.2), 1e-12);
+  for (const double drift : {0.02, 0.1, 0.3}) EXPECT_EQ(variance(0.3, drift), variance(0.3, 0)) << "an arc";
+  EXPECT_EQ(variance(0, 0.02), 0) << "an error";
+}
+
 TEST(MotionModel, NoVarianceIsNegativeWhereTheMeansAreCorrelated) {
   MotionTerm term{1, 0, 0.004, 0.006};
   term.covariance = std::sqrt(0.004 * 0.006);
