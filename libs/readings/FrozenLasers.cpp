@@ -20,7 +20,7 @@ constexpr size_t kFewestReturns = 10;  // in the open, a laser often sees nothin
 constexpr double kMovedOn = 0.05,
                  kTurnedOn = 0.02;  // m, rad: scans must differ, and odometry is interpolated
 constexpr double kDrift = 0.01, kTurnDrift = 0.5 * kDegree;  // m/s, rad/s, of a robot that stands
-constexpr double kOnWall = 0.005;  // m; of a moved scan with noise, a third of the points are closer
+constexpr double kOnWall = 0.002;  // m; few points of a moved scan with noise are closer
 constexpr double kMostOnWall = 0.8;
 constexpr size_t kPoints = 90;  // compared with the walls
 

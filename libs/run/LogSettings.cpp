@@ -23,6 +23,7 @@ constexpr double kNoLimit = 200;                             // m; upper bound o
 constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
 constexpr double kCentimetre = 0.01;                         // m
 constexpr double kSparsePoints = 0.1;                        // m between neighbours on a wall
+constexpr double kLeastDriven = 30;                          // m
 constexpr double kMargin = 0.05;                             // m
 constexpr double kFarOff = mrpt::DEG2RAD(15.0);              // the filter copes with less
 constexpr double kHalfBeam =
@@ -121,7 +122,7 @@ std::string describe(const mrpt::obs::CObservation2DRangeScan& observation,
          " m, " + degrees(scan.sensorPose.phi) + " deg on the robot";
 }
 
-/// Where the log gives the only laser no place on the robot: its orientation, if that is far from zero.
+/// Where the log gives the only laser no place on the robot: its heading, if that is far from zero.
 std::vector<LogSetting> laserPose(const std::vector<readings::Reading>& first,
                                   const readings::RawlogSummary& log) {
   if (log.lasers.size() != 1 || log.mountings.empty() || !log.hasMotion || !log.hasTurns) return {};
@@ -133,11 +134,10 @@ std::vector<LogSetting> laserPose(const std::vector<readings::Reading>& first,
     if (estimate.isDone()) break;
     estimate.add(reading.motion, reading.scans, reading.timestamp);
   }
-  const auto mounting = estimate.mounting();
-  if (!mounting || (std::abs(mounting->yaw) < kFarOff && !mounting->isUpsideDown)) return {};
-  return {{"input", "laser_pose",
-           "0, 0, " + fixedText(mrpt::RAD2DEG(mounting->yaw), 0) + (mounting->isUpsideDown ? ", 180" : ""),
-           "the log does not state it, and its scans move and turn like this"}};
+  const auto yaw = estimate.yaw();
+  if (!yaw || std::abs(*yaw) < kFarOff) return {};
+  return {{"input", "laser_pose", "0, 0, " + fixedText(mrpt::RAD2DEG(*yaw), 0),
+           "the log does not state it, and its scans move like this"}};
 }
 
 /// A little more than the longest range at the robot's own parts.
@@ -150,18 +150,21 @@ std::vector<LogSetting> minRange(const std::vector<readings::Reading>& first) {
            "some beams always measure up to " + fixedText(farthest, 2) + " m: the robot itself"}};
 }
 
-/// Returns the first readings, up to one that the run will report as an error.
+/// Returns the first readings, up to one that the run will report as an error: kReadings, and more as long as
+/// the robot has hardly moved.
 std::vector<readings::Reading> firstReadings(const std::string& file, readings::InputOptions input,
                                              const readings::RawlogSummary& log) {
   input.scanTime = 0, input.scanRate.reset();  // the ranges as logged, not as corrected by the motion
   readings::RawlogSource source(file, input, log);
   std::vector<readings::Reading> all;
   size_t beams = 0;
+  double way = 0;
   try {
-    while (all.size() < kReadings && beams < kMostBeams) {
+    while ((all.size() < kReadings || (log.hasMotion && way < kLeastDriven)) && beams < kMostBeams) {
       const auto reading = source.next();
       if (!reading) break;
       all.push_back(*reading);
+      way += reading->motion.norm();
       for (const auto& scan : reading->scans) beams += scan->getScanSize();
     }
   } catch (const InputError&) {

@@ -16,7 +16,8 @@ struct LogSetting {
   std::string reason;  ///< the evidence in the log
 };
 
-/// Properties of the first 2,000 readings of a log, with ranges as measured.
+/// Properties of the first 2,000 readings of a log, or more if the robot has moved less than 30 m by then.
+/// Ranges are as measured.
 struct LogSettings {
   bool hasOdometry = false;
   /// One line for each laser that is used: beams, spacing, place on the robot; or that it has no scan in the
@@ -38,8 +39,8 @@ struct LogSettings {
 ///   sparse and overlap little; else 0.1 m and 5 deg.
 /// - `input.require_odometry`: false where odometry is missing or never changes.
 /// - `input.min_range`: 5 cm above the ranges at the robot's own parts, where beams end at them (RobotParts).
-/// - `input.laser_pose`: the orientation of the only laser, where the log gives it none and the scans move or
-///   turn otherwise than the odometry (MountingEstimate).
+/// - `input.laser_pose`: the heading of the only laser, where the log gives it no place on the robot and the
+///   scans move in another direction than the odometry (MountingEstimate).
 ///
 /// @param log  summary of the file
 LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMoved = 0.05, kTurned = 5 * kDegree;  // between two readings that count
 constexpr double kLeastWay = 3, kLeastTurn = 90 * kDegree;
-constexpr float kLongest = 1, kSpread = 0.05F;  // m
+constexpr float kLongest = 0.4F, kSpread = 0.05F;  // m
 constexpr double kFewest = 0.8,
                  kOutside = 0.02;  // share of the scans with a range; above and below the spread
 constexpr size_t kFewestScans = 40, kFewestBeams = 3;

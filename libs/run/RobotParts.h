@@ -17,8 +17,8 @@ class RobotParts {
  public:
   /// Call it for each reading of a log.
   void add(const readings::Reading& reading);
-  /// Returns the longest range that at least three beams of one laser measure at the robot (m), below 1 m; 0
-  /// if there are none, or if the robot has driven less than 3 m or turned less than 90 deg.
+  /// Returns the longest range that at least three beams of one laser measure at the robot (m), below 0.4 m;
+  /// 0 if there are none, or if the robot has driven less than 3 m or turned less than 90 deg.
   double farthest() const;
 
  private:

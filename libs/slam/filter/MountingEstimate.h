@@ -11,15 +11,9 @@
 
 namespace hybrid_slam {
 
-/// The orientation of a laser on the robot.
-struct Mounting {
-  double yaw = 0;  ///< rad
-  bool isUpsideDown = false;
-};
-
 /// Compares the motion of a laser's scans, found by matching alone, with the odometry. Where the robot drives
-/// straight on, the angle between them is the yaw of the laser; a laser that is upside down turns the other
-/// way. The laser's position on the robot is not estimated.
+/// straight on, the angle between them is the yaw of the laser on the robot. Whether the laser is upside down
+/// is not estimated: mirrored odometry looks the same.
 class MountingEstimate {
  public:
   MountingEstimate(const GridOptions& grid, const ScanMatcherOptions& matcher);
@@ -29,26 +23,19 @@ class MountingEstimate {
   /// @param scans      of a laser whose pose on the robot is given as zero
   /// @param timestamp  s
   void add(const mrpt::math::TPose2D& odometry, const Scans& scans, double timestamp);
-  /// Returns whether further readings would hardly matter: 500 scans have been matched, or the mounting is
-  /// clear.
+  /// Returns whether further readings would hardly matter: the yaw is clear, or 500 scans have been matched.
   bool isDone() const;
-  /// Returns the mounting if at least 9 of 10 steps agree on it within 10 deg, and on the direction of turns.
-  std::optional<Mounting> mounting() const;
+  /// Returns the yaw (rad) if at least 9 of 10 straight steps agree on it within 10 deg, and at least 20.
+  std::optional<double> yaw() const;
 
  private:
   void endStep();
-  /// Returns the direction that most straight steps agree on (rad); empty if they do not.
-  std::optional<double> direction() const;
 
   ScanOdometry scanOdometry_;
   size_t matched_ = 0;                   ///< scans
   mrpt::math::TPose2D unmatched_;        ///< odometry since the last scan matched
   mrpt::math::TPose2D odometry_, seen_;  ///< motion in the current step
-  size_t turns_ = 0, against_ = 0;       ///< steps that turn
-  struct Straight {
-    double expected, seen;  ///< rad, direction of motion by odometry and by the scans
-  };
-  std::vector<Straight> straight_;  ///< steps
+  std::vector<double> yaws_;             ///< rad, of each straight step
 };
 
 }  // namespace hybrid_slam
