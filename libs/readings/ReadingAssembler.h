@@ -47,11 +47,10 @@ enum class OdometrySource {
 constexpr size_t kMostEarly = 5;
 
 /// What is known of the lasers besides their scans.
-struct LaserSettings {
-  SweepTimes sweeps = {};  ///< durations of the scans; default: as the log states
-  std::optional<mrpt::poses::CPose3D> pose =
-      {};               ///< of the only laser on the robot; default: as the scans state
-  double minRange = 0;  ///< m; shorter ranges are not used
+struct LaserSettings {  // NOLINT(clang-analyzer-optin.performance.Padding)
+  SweepTimes sweeps = {};                         ///< durations of the scans; default: as the log states
+  std::optional<mrpt::poses::CPose3D> pose = {};  ///< of the only laser; default: as the scans state
+  double minRange = 0;                            ///< m; shorter ranges are not used
 };
 
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
