@@ -47,7 +47,8 @@ enum class OdometrySource {
 constexpr size_t kMostEarly = 5;
 
 /// What is known of the lasers besides their scans.
-struct LaserSettings {  // NOLINT(clang-analyzer-optin.performance.Padding)
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
+struct LaserSettings {
   SweepTimes sweeps = {};                         ///< durations of the scans; default: as the log states
   std::optional<mrpt::poses::CPose3D> pose = {};  ///< of the only laser; default: as the scans state
   double minRange = 0;                            ///< m; shorter ranges are not used
