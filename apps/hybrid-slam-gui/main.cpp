@@ -113,7 +113,6 @@ int main(int argc, char** argv) {
     if (const auto code = hybrid_slam::parse(app, argc, argv)) return *code;
     files.sort();
     filter.addTo(settings, app);
-    const hybrid_slam::run::Configuration expectRight("", settings);  // a wrong file is shown in the window
     hybrid_slam::run::RunOptions run;
     session.addTo(run);
     map = MapChoice::of(run);

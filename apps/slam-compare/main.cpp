@@ -84,29 +84,23 @@ class LogTeller {
 
 struct LogSpan {
   files::Trajectory deadReckoning;
-  double duration = 0;  ///< s
+  double duration = 0;           ///< s
+  readings::InputOptions input;  ///< of the runs
 };
 
 /// One pass over the log, which finds errors before any run starts.
 LogSpan readLog(const CommandLine& line, const comparison::RunSetup& setup) {
-  const readings::InputOptions input = setup.configuration().input;
+  run::Configuration configuration = setup.configuration();
   const readings::RawlogSummary summary =
-      readings::summarise(line.files.log, input, [] { return stop.load(); });
-  readings::RawlogSource source(line.files.log, input, summary);
+      readings::summarise(line.files.log, configuration.input, [] { return stop.load(); });
+  readings::RawlogSource source(line.files.log, configuration.input, summary);
   run::TrajectoryRecorder recorder;
   while (const auto reading = source.next()) {
     expectNoStop(source.place());
     recorder.add(reading->timestamp, reading->motion, 0);
   }
-  return {recorder.trajectory({}), summary.duration};
-}
-
-/// How the runs read the log.
-readings::InputOptions inputOf(const CommandLine& line, const comparison::RunSetup& setup) {
-  run::Configuration configuration = setup.configuration();
-  const auto summary = readings::summarise(line.files.log, configuration.input, [] { return stop.load(); });
   run::applyLogSettings(run::readLogSettings(line.files.log, configuration.input, summary), configuration);
-  return configuration.input;
+  return {recorder.trajectory({}), summary.duration, configuration.input};
 }
 
 /// Allows one comparison at a time in a folder.
@@ -272,8 +266,7 @@ int execute(const CommandLine& line, const std::string& command) {
       std::cout << r.folder.path().filename().string() << '\t' << quoted(r.command) << '\n';
     return 0;
   }
-  if (truth.revisits || truth.plan)
-    truth.takeScans(readings::loadEndPoints(line.files.log, inputOf(line, setup)));
+  if (truth.revisits || truth.plan) truth.takeScans(readings::loadEndPoints(line.files.log, log.input));
   const auto isFinished = [](const comparison::ComparisonRun& r) { return r.folder.isFinished(); };
   if (line.isReportOnly && std::none_of(sweep.begin(), sweep.end(), isFinished))
     throw InputError("no finished run", "folder " + line.output, "expected runs of this command");

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/Degree.h"
+#include "base/LaserScan.h"
 #include "base/Segments.h"
 #include "readings/Timestamps.h"
 
@@ -36,7 +38,7 @@ bool hasSameReturns(const CObservation2DRangeScan& a, const CObservation2DRangeS
   return returns >= kFewestReturns;
 }
 
-/// Returns whether odometry moves so slowly that the robot may stand. @param later, before  scans
+/// Returns whether the odometry moves so slowly between two scans that the robot may stand.
 bool isDrift(const TPose2D& moved, const CObservation2DRangeScan& before,
              const CObservation2DRangeScan& later) {
   if (!isStamped(before) || !isStamped(later)) return false;
@@ -47,17 +49,13 @@ bool isDrift(const TPose2D& moved, const CObservation2DRangeScan& before,
 /// Returns whether a moved laser may see the same: its points lie on the walls that it saw before. It has not
 /// turned then, and a small turn is an error of the odometry.
 /// @param moved  of the robot
-bool isAlongWalls(const CObservation2DRangeScan& scan, const TPose2D& moved) {
+bool isAlongWalls(const CObservation2DRangeScan& observation, const TPose2D& moved) {
   if (std::abs(moved.phi) > kTurnedOn) return false;
-  const TPose2D sensor(scan.sensorPose.asTPose());
-  const double step = scan.aperture / static_cast<double>(scan.getScanSize() - 1);
-  std::vector<TPoint2D> points;  // frame of the laser; the direction of the beams does not matter
-  for (size_t i = 0; i < scan.getScanSize(); ++i) {
-    if (!scan.getScanRangeValidity(i)) continue;
-    const double angle = (static_cast<double>(i) * step - scan.aperture / 2) * (scan.rightToLeft ? 1 : -1);
-    points.emplace_back(scan.getScanRange(i) * std::cos(angle), scan.getScanRange(i) * std::sin(angle));
-  }
-  const TPoint2D shift = TPose2D(0, 0, -sensor.phi).composePoint(TPoint2D(moved.x, moved.y));
+  const LaserScan scan = toLaserScan(observation, std::numeric_limits<double>::infinity());
+  std::vector<TPoint2D> points;  // frame of the laser
+  for (const Beam& beam : scan.beams)
+    if (beam.valid) points.emplace_back(beam.range * std::cos(beam.angle), beam.range * std::sin(beam.angle));
+  const TPoint2D shift = TPose2D(0, 0, -scan.sensorPose.phi).composePoint(TPoint2D(moved.x, moved.y));
   const size_t stride = (points.size() + kPoints - 1) / kPoints;
   size_t all = 0, onWall = 0;
   for (size_t i = 0; i < points.size(); i += stride, ++all) {

@@ -42,7 +42,7 @@ bool isFrozen(CObservation2DRangeScan::Ptr (*at)(double), const TPose2D& moved, 
 
 CObservation2DRangeScan::Ptr room(double time) { return corridor(time, 3); }
 CObservation2DRangeScan::Ptr endless(double time) { return corridor(time, 100); }
-CObservation2DRangeScan::Ptr measured(double time) { return corridor(time, 100, 0.01); }
+CObservation2DRangeScan::Ptr measured(double time) { return corridor(time, 100, 0.003); }
 
 TEST(FrozenLasers, ARobotThatMovesInARoomSeesSomethingElse) {
   EXPECT_TRUE(isFrozen(room, {0.1, 0, 0}));

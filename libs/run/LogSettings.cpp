@@ -1,6 +1,7 @@
 #include "run/LogSettings.h"
 
 #include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +137,8 @@ std::vector<LogSetting> laserPose(const std::vector<readings::Reading>& first,
   }
   const auto yaw = estimate.yaw();
   if (!yaw || std::abs(*yaw) < kFarOff) return {};
-  return {{"input", "laser_pose", "0, 0, " + fixedText(mrpt::RAD2DEG(*yaw), 0),
+  return {{"input", "laser_pose",
+           "0, 0, " + fixedText(mrpt::RAD2DEG(mrpt::math::wrapToPi(given.yaw() + *yaw)), 0),
            "the log does not state it, and its scans move like this"}};
 }
 

@@ -39,7 +39,7 @@ TEST(RobotParts, EndBeamsWhereverTheRobotGoes) {
 }
 
 TEST(RobotParts, ARobotThatStandsOrDrivesAlongAWallSeesTheSame) {
-  const std::vector<float> wall(20, 0.5F);
+  const std::vector<float> wall(20, 0.3F);
   RobotParts standing, straight;
   for (size_t i = 1; i < 500; ++i) {
     standing.add(step(i, {}, {}, wall));
@@ -54,7 +54,7 @@ TEST(RobotParts, BeamsThatOftenSeeFartherAreNotAtTheRobot) {
   RobotParts found;
   for (size_t i = 1; i < 2 * kLap; ++i)
     found.add(step(i, test::poseOnLap(i - 1, kLap), test::poseOnLap(i, kLap),
-                   std::vector<float>(5, i % 20 == 0 ? 0.6F : 0.2F)));
+                   std::vector<float>(5, i % 20 == 0 ? 0.35F : 0.2F)));
   EXPECT_EQ(found.farthest(), 0);
 }
 

@@ -20,7 +20,7 @@ class MountingEstimate {
 
   /// Call it for each reading, until it is done.
   /// @param odometry   since the previous scans (m, rad)
-  /// @param scans      of a laser whose pose on the robot is given as zero
+  /// @param scans      as if the laser looked ahead
   /// @param timestamp  s
   void add(const mrpt::math::TPose2D& odometry, const Scans& scans, double timestamp);
   /// Returns whether further readings would hardly matter: the yaw is clear, or 500 scans have been matched.

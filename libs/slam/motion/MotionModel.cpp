@@ -42,7 +42,7 @@ double distanceOfVariance(const MotionStep& odometry) {
   constexpr double kArc = 0.02;  // m
   const double ahead = std::abs(odometry.distance);
   const double sideways = std::max(0.0, std::abs(odometry.drift) - std::max(kArc, ahead));
-  const double length = sideways > 0 ? std::hypot(ahead, sideways) : ahead;
+  const double length = std::hypot(ahead, sideways);
   return std::copysign(length <= kLongestStep ? length : std::sqrt(length * kLongestStep), odometry.distance);
 }
 
