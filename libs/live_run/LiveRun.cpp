@@ -36,7 +36,7 @@ const std::string& recordingName(const LiveOptions& options) {
 LiveRun::LiveRun(run::Configuration& configuration, const LiveOptions& options, EventLog& log, bool isQuiet)
     : assembler_(readings::labelsOf(configuration.input.sensorLabel),
                  readings::odometrySource(configuration.input, true), configuration.input.maxOdometryGap,
-                 readings::laserSettings(configuration.input, true), configuration.input.odometryTopic),
+                 readings::sensorSettings(configuration.input, true), configuration.input.odometryTopic),
       configuration_(configuration),
       log_(log),
       isQuiet_(isQuiet),

@@ -85,6 +85,8 @@ void InputOptions::describe(OptionTable& t) {
         "base: scan matching gives the motion, until the odometry agrees with it again");
   t.add("max_odometry_gap", maxOdometryGap, 0, 1000, "s",
         "largest gap between odometry readings for interpolation at a scan's time");
+  t.add("odometry_time_offset", odometryTimeOffset, -10, 10, "s",
+        "added to the timestamps of odometry readings: their clock may differ from that of the scans");
   t.add("scan_time", scanTime, "auto", 0, kLongestSweep, "s",
         "time from the first beam of a scan to the last, for the correction by the robot's motion; auto: as "
         "the log states; 0: no correction");
@@ -100,9 +102,9 @@ void InputOptions::check() const {
   laserPoseIn(laserPose);
 }
 
-LaserSettings laserSettings(const InputOptions& options, bool hasOdometry) {
+SensorSettings sensorSettings(const InputOptions& options, bool hasOdometry) {
   return {hasOdometry && options.requireOdometry ? SweepTimes(options.sweep()) : SweepTimes(0),
-          laserPoseIn(options.laserPose), options.minRange};
+          laserPoseIn(options.laserPose), options.minRange, options.odometryTimeOffset};
 }
 
 OdometrySource odometrySource(const InputOptions& options, bool hasReadings) {
@@ -266,7 +268,7 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
 RawlogSource::RawlogSource(const std::string& file, const InputOptions& options, const RawlogSummary& summary)
     : assembler_(labelsOf(options.sensorLabel), odometrySource(options, summary.hasOdometryReadings),
                  options.maxOdometryGap,
-                 laserSettings(options, summary.hasActions || summary.hasOdometryReadings),
+                 sensorSettings(options, summary.hasActions || summary.hasOdometryReadings),
                  summary.odometryLabel),
       file_(file),
       reader_(file, summary.bag) {}

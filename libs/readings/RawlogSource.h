@@ -29,6 +29,7 @@ struct InputOptions : Options {
   bool headingOdometry = false;
   bool replaceStuckOdometry = true;
   double maxOdometryGap = 1;
+  double odometryTimeOffset = 0;   ///< s
   std::optional<double> scanTime;  ///< s, of all lasers; empty: what the log states
   std::optional<double> scanRate;  ///< Hz, of all lasers, instead of scanTime
   SweepSetting sweep() const { return {scanTime, scanRate}; }
@@ -37,9 +38,9 @@ struct InputOptions : Options {
   void check() const;
 };
 
-/// Returns what the options say of the lasers. Without odometry, which the correction of beams needs, sweeps
+/// Returns what the options say of the sensors. Without odometry, which the correction of beams needs, sweeps
 /// have no times.
-LaserSettings laserSettings(const InputOptions& options, bool hasOdometry);
+SensorSettings sensorSettings(const InputOptions& options, bool hasOdometry);
 
 /// Returns which odometry of a log is used, by whether it has observations of it.
 OdometrySource odometrySource(const InputOptions& options, bool hasReadings);

@@ -61,12 +61,13 @@ bool hasBeams(const CObservation2DRangeScan& scan) {
 }
 
 ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry,
-                                   double maxOdometryGap, LaserSettings settings,
+                                   double maxOdometryGap, SensorSettings settings,
                                    const std::string& odometryLabel)
     : grouper_(lasers, maxOdometryGap, settings.pose.has_value()),
       settings_(std::move(settings)),
       track_(maxOdometryGap),
       maxOdometryGap_(maxOdometryGap),
+      longestWait_(maxOdometryGap + std::max(-settings_.odometryTimeOffset, 0.0)),
       source_(odometry) {
   if (!odometryLabel.empty()) odometryLabel_ = odometryLabel;
 }
@@ -132,10 +133,10 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   }
   const bool isFull = waiting_.size() >= kMostWaiting || hasManyBeams();
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
-  const bool mayLieBetween = hasOdometryReadings() && age > 0 && age <= maxOdometryGap_;
-  // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
+  const bool mayLieBetween = hasOdometryReadings() && age > 0 && age <= longestWait_;
+  // No scan waits longer, so that memory stays bounded if odometry ends before the scans. The
   // count bounds it where time stands still.
-  const bool isLong = (hasOdometryReadings() && age > maxOdometryGap_) || isFull;
+  const bool isLong = (hasOdometryReadings() && age > longestWait_) || isFull;
   if (isLong) return finishWaiting();
   if (hasOdometryReadings() && age < 0 && track_.contains(seconds(scan->timestamp)))  // after newer odometry
     waiting_.back().odometry = track_.at(seconds(scan->timestamp));
@@ -158,12 +159,13 @@ bool ReadingAssembler::isOfUsedSensor(const CObservationOdometry& odometry) {
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   const TPose2D pose = withoutJumps(odometry);
   const bool isStampedOdometry = isStamped(odometry);
-  const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
+  const double time =
+      isStampedOdometry ? seconds(odometry.timestamp) + settings_.odometryTimeOffset : lastOdometryTime_;
   for (Waiting& scan : waiting_) {
     if (scan.odometry) continue;
     const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;
     const bool isOlder =
-        isStampedOdometry && lastOdometryTime_ <= time && time < t && t - time <= maxOdometryGap_;
+        isStampedOdometry && lastOdometryTime_ <= time && time < t && t - time <= longestWait_;
     if (lastOdometry_ && isOlder) continue;  // the next reading may be newer than the scan
     if (!lastOdometry_)
       scan.odometry = pose;

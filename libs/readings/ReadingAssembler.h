@@ -46,26 +46,27 @@ enum class OdometrySource {
 /// same time, but a robot may have moved since an earlier scan.
 constexpr size_t kMostEarly = 5;
 
-/// What is known of the lasers besides their scans.
+/// What is known of the sensors besides their observations.
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding)
-struct LaserSettings {
+struct SensorSettings {
   SweepTimes sweeps = {};                         ///< durations of the scans; default: as the log states
   std::optional<mrpt::poses::CPose3D> pose = {};  ///< of the only laser; default: as the scans state
   double minRange = 0;                            ///< m; shorter ranges are not used
+  double odometryTimeOffset = 0;                  ///< s, added to the timestamps of the odometry
 };
 
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
-/// between the odometry readings around it. If timestamps step back or these readings are too far apart, the
-/// previous odometry reading is used. Odometry readings of one sensor (by its label) are used, since each
-/// sensor has its own frame. The last five readings before the first odometry reading use that one, and
-/// earlier ones are dropped. Impossible odometry readings (isPossible) are skipped. A jump of the odometry
-/// (OdometryJumps) counts as no motion; the odometry continues from the new value. Scans taken over 10 m
-/// apart never form one reading. Scans without beams or with a sensor pose that is not finite are dropped,
-/// and those of frozen lasers (FrozenLasers).
-/// Beams that are NaN, infinite, not positive, below the smallest range of the settings, or at or beyond the
-/// scan's maximum range are marked invalid.
-/// ScanGrouper decides which scans are used and which of them form one reading.
+/// between the odometry readings around it, after the time offset is added to their times. If timestamps step
+/// back or these readings are too far apart, the previous odometry reading is used. Odometry readings of one
+/// sensor (by its label) are used, since each sensor has its own frame. The last five readings before the
+/// first odometry reading use that one, and earlier ones are dropped. Impossible odometry readings
+/// (isPossible) are skipped. A jump of the odometry (OdometryJumps) counts as no motion; the odometry
+/// continues from the new value. Scans taken over 10 m apart never form one reading. Scans without beams or
+/// with a sensor pose that is not finite are dropped, and those of frozen lasers (FrozenLasers). Beams that
+/// are NaN, infinite, not positive, below the smallest range of the settings, or at or beyond the scan's
+/// maximum range are marked invalid. ScanGrouper decides which scans are used and which of them form one
+/// reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -80,7 +81,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   /// @param maxOdometryGap  s; odometry is interpolated between readings no farther apart
   /// @param odometryLabel   of the sensor whose odometry readings are used; empty: that of the first one
   ReadingAssembler(const std::vector<std::string>& lasers, OdometrySource odometry, double maxOdometryGap,
-                   LaserSettings settings = {}, const std::string& odometryLabel = {});
+                   SensorSettings settings = {}, const std::string& odometryLabel = {});
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   /// Returns whether a scan is used, or the reason why not.
@@ -125,9 +126,10 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   void endReading();
 
   ScanGrouper grouper_;
-  LaserSettings settings_;
+  SensorSettings settings_;
   OdometryTrack track_;
   double maxOdometryGap_;
+  double longestWait_;  ///< s, from a scan's time to that of the last odometry reading
   std::deque<Reading> ready_;
   std::deque<Waiting> waiting_;  ///< until odometry after them arrives
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
@@ -140,7 +142,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   std::optional<std::string> odometryLabel_;         ///< of the sensor whose odometry is used
   OdometryJumps odometryJumps_;
   size_t jumps_ = 0, dropped_ = 0;
-  double lastOdometryTime_ = 0;
+  double lastOdometryTime_ = 0;        ///< s, on the lasers' clock
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
   mrpt::math::TPose2D travelledTo_;    ///< odometry pose up to which `way_` counts

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "testing/TestLogs.h"
 
@@ -14,8 +16,8 @@ using test::odometry;
 using test::scan;
 
 /// Assembles the readings of a log of single observations.
-std::vector<Reading> assembled(const test::Log& log) {
-  ReadingAssembler assembler({}, OdometrySource::readings, 1);
+std::vector<Reading> assembled(const test::Log& log, const SensorSettings& settings = {}) {
+  ReadingAssembler assembler({}, OdometrySource::readings, 1, settings);
   std::vector<Reading> readings;
   const auto drain = [&] {
     while (auto reading = assembler.next()) readings.push_back(*reading);
@@ -33,6 +35,39 @@ TPose2D endOf(const std::vector<Reading>& readings) {
   TPose2D pose;
   for (const Reading& reading : readings) pose = pose + reading.motion;
   return pose;
+}
+
+/// Another clock of the odometry, also one that differs by more than the largest gap.
+TEST(ReadingAssembler, ATimeOffsetCorrectsTheOdometrysClock) {
+  const auto drive = [](double late, bool isSorted) {
+    std::vector<std::pair<double, test::Log::value_type>> timed;
+    for (int i = 0; i < 200; ++i) {
+      const double t = 1000 + 0.1 * i;
+      const TPose2D pose(0.001 * i * i, 0.5 * std::sin(0.1 * i), 0.3 * std::sin(0.2 * i));
+      timed.emplace_back(t + 0.05 + (isSorted ? late : 0), odometry(t + 0.05 + late, pose));
+      timed.emplace_back(t, scan(t));
+    }
+    std::stable_sort(timed.begin(), timed.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    test::Log log;
+    for (const auto& entry : timed) log.push_back(entry.second);
+    return log;
+  };
+  const std::vector<Reading> right = assembled(drive(0, true));
+  for (const double late : {-4.0, -0.7, 0.7, 4.0})
+    for (const bool isSorted : {false, true}) {
+      SensorSettings settings;
+      settings.odometryTimeOffset = -late;
+      const std::vector<Reading> readings = assembled(drive(late, isSorted), settings);
+      ASSERT_EQ(readings.back().timestamp, right.back().timestamp);
+      // Of a sorted log, the scans of the first or the last seconds have no odometry around them.
+      for (size_t back = 50; back < 100; ++back) {
+        const Reading &a = readings[readings.size() - back], &b = right[right.size() - back];
+        EXPECT_EQ(a.timestamp, b.timestamp);
+        EXPECT_NEAR((a.motion - b.motion).norm(), 0, 1e-6) << late << ' ' << isSorted << ' ' << a.timestamp;
+        EXPECT_NEAR(a.motion.phi, b.motion.phi, 1e-6);
+      }
+    }
 }
 
 TEST(ReadingAssembler, OnlyTheLastScansBeforeTheFirstOdometryAreUsed) {

@@ -12,6 +12,7 @@
 #include "base/Errors.h"
 #include "base/LaserScan.h"
 #include "base/Numbers.h"
+#include "run/OdometryTimeOffset.h"
 #include "run/RobotParts.h"
 #include "slam/filter/MountingEstimate.h"
 
@@ -27,6 +28,7 @@ constexpr double kSparsePoints = 0.1;                        // m between neighb
 constexpr double kLeastDriven = 30;                          // m
 constexpr double kMargin = 0.05;                             // m
 constexpr double kFarOff = mrpt::DEG2RAD(15.0);              // the filter copes with less
+constexpr double kLargeOffset = 0.4;                         // s
 constexpr double kHalfBeam =
     mrpt::DEG2RAD(1.0);  // logs of other formats begin with a beam, not with half a step
 
@@ -152,6 +154,18 @@ std::vector<LogSetting> minRange(const std::vector<readings::Reading>& first) {
            "some beams always measure up to " + fixedText(farthest, 2) + " m: the robot itself"}};
 }
 
+/// The time offset of the odometry, where it is large: the filter copes with less.
+std::vector<LogSetting> odometryTimeOffset(const std::vector<readings::Reading>& first,
+                                           const readings::RawlogSummary& log) {
+  if (!log.hasOdometryReadings) return {};  // actions have no time
+  OdometryTimeOffset offset;
+  for (const readings::Reading& reading : first) offset.add(reading);
+  const auto found = offset.seconds();
+  if (!found || std::abs(*found) < kLargeOffset) return {};
+  return {{"input", "odometry_time_offset", fixedText(*found, 2),
+           std::string("the odometry turns ") + (*found < 0 ? "after" : "before") + " the scans"}};
+}
+
 /// Returns the first readings, up to one that the run will report as an error: kReadings, and more as long as
 /// the robot has hardly moved.
 std::vector<readings::Reading> firstReadings(const std::string& file, readings::InputOptions input,
@@ -222,6 +236,7 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
     found.settings.push_back({"input", "require_odometry", "false",
                               std::string(found.hasOdometry ? "odometry that never changes" : "no odometry") +
                                   ": motion is predicted from the previous steps"});
+  for (const LogSetting& setting : odometryTimeOffset(first, log)) found.settings.push_back(setting);
   for (const LogSetting& setting : minRange(first)) found.settings.push_back(setting);
   for (const LogSetting& setting : laserPose(first, log)) found.settings.push_back(setting);
   found.settings.insert(found.settings.begin(), {maxRange(ranges, limit), directionNoise(ranges)});

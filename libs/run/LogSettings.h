@@ -41,6 +41,8 @@ struct LogSettings {
 /// - `input.min_range`: 5 cm above the ranges at the robot's own parts, where beams end at them (RobotParts).
 /// - `input.laser_pose`: the heading of the only laser, where the log gives it no place on the robot and the
 ///   scans move in another direction than the odometry (MountingEstimate).
+/// - `input.odometry_time_offset`: where the odometry turns at least 0.4 s after the scans, or before them
+///   (OdometryTimeOffset).
 ///
 /// @param log  summary of the file
 LogSettings readLogSettings(const std::string& file, const readings::InputOptions& input,

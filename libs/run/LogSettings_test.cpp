@@ -177,6 +177,29 @@ TEST_F(LogSettingsTest, ALaserWithoutAPlaceOnTheRobotMayBeTurned) {
   EXPECT_EQ(pose(90, 0.2), "none") << "the log states where it is";
 }
 
+TEST_F(LogSettingsTest, TheOdometryMayHaveAnotherClock) {
+  const auto offset = [this](double late) {
+    RandomStream random(1, 0, 0);
+    test::Log log;
+    TPose2D pose;
+    double turn = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double time = 1000 + 0.2 * i;
+      if (i % 10 == 0) turn = 6 * kDegree * (2 * random.uniform() - 1);
+      pose.phi += turn;
+      log.push_back(test::odometry(time + late, pose));
+      log.push_back(test::scan(time, pose));
+    }
+    const std::string file = test::writeGzipped(folder.path("log.rawlog"), log);
+    for (const LogSetting& setting : readLogSettings(file, input, readings::summarise(file, input)).settings)
+      if (setting.key == "odometry_time_offset") return setting.value + ": " + setting.reason;
+    return std::string("none");
+  };
+  EXPECT_EQ(offset(1), "-1.00: the odometry turns after the scans");
+  EXPECT_EQ(offset(-0.6), "0.60: the odometry turns before the scans");
+  EXPECT_EQ(offset(0.3), "none") << "the filter copes with it";
+}
+
 TEST_F(LogSettingsTest, TheMountingOfASecondLaserIsWithoutTheRobotsMotion) {
   test::Log log;
   for (int i = 0; i < 20; ++i) {
