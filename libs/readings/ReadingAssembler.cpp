@@ -65,9 +65,9 @@ ReadingAssembler::ReadingAssembler(const std::vector<std::string>& lasers, Odome
                                    const std::string& odometryLabel)
     : grouper_(lasers, maxOdometryGap, settings.pose.has_value()),
       settings_(std::move(settings)),
+      odometryClock_(odometry == OdometrySource::readings ? settings_.odometryTimeOffset : 0),
       track_(maxOdometryGap),
       maxOdometryGap_(maxOdometryGap),
-      longestWait_(maxOdometryGap + std::max(-settings_.odometryTimeOffset, 0.0)),
       source_(odometry) {
   if (!odometryLabel.empty()) odometryLabel_ = odometryLabel;
 }
@@ -95,13 +95,20 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
       if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) grouper_.expect(scan->sensorLabel);
   });
   forEachObservation(object, [this](const CObservation::Ptr& observation) {
-    if (const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
-      if (hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) && isOfUsedSensor(*odometry))
-        takeOdometry(*odometry);
-    } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
-      if (grouper_.useOf(*scan) == ScanGrouper::Use::taken) takeScan(scan);
-    }
+    const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation);
+    const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
+    if ((scan && grouper_.useOf(*scan) == ScanGrouper::Use::taken) ||
+        (odometry && hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) &&
+         isOfUsedSensor(*odometry)))
+      for (const CObservation::Ptr& next : odometryClock_.take(observation)) takeInOrder(next);
   });
+}
+
+void ReadingAssembler::takeInOrder(const CObservation::Ptr& observation) {
+  if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation))
+    takeScan(scan);
+  else
+    takeOdometry(dynamic_cast<const CObservationOdometry&>(*observation));
 }
 
 void ReadingAssembler::travel() {
@@ -133,10 +140,10 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
   }
   const bool isFull = waiting_.size() >= kMostWaiting || hasManyBeams();
   const double age = isStamped(*scan) ? seconds(scan->timestamp) - lastOdometryTime_ : 0;
-  const bool mayLieBetween = hasOdometryReadings() && age > 0 && age <= longestWait_;
-  // No scan waits longer, so that memory stays bounded if odometry ends before the scans. The
+  const bool mayLieBetween = hasOdometryReadings() && age > 0 && age <= maxOdometryGap_;
+  // No scan waits longer than the gap, so that memory stays bounded if odometry ends before the scans. The
   // count bounds it where time stands still.
-  const bool isLong = (hasOdometryReadings() && age > longestWait_) || isFull;
+  const bool isLong = (hasOdometryReadings() && age > maxOdometryGap_) || isFull;
   if (isLong) return finishWaiting();
   if (hasOdometryReadings() && age < 0 && track_.contains(seconds(scan->timestamp)))  // after newer odometry
     waiting_.back().odometry = track_.at(seconds(scan->timestamp));
@@ -159,13 +166,12 @@ bool ReadingAssembler::isOfUsedSensor(const CObservationOdometry& odometry) {
 void ReadingAssembler::takeOdometry(const CObservationOdometry& odometry) {
   const TPose2D pose = withoutJumps(odometry);
   const bool isStampedOdometry = isStamped(odometry);
-  const double time =
-      isStampedOdometry ? seconds(odometry.timestamp) + settings_.odometryTimeOffset : lastOdometryTime_;
+  const double time = isStampedOdometry ? seconds(odometry.timestamp) : lastOdometryTime_;
   for (Waiting& scan : waiting_) {
     if (scan.odometry) continue;
     const double t = isStamped(*scan.scan) ? seconds(scan.scan->timestamp) : lastOdometryTime_;
     const bool isOlder =
-        isStampedOdometry && lastOdometryTime_ <= time && time < t && t - time <= longestWait_;
+        isStampedOdometry && lastOdometryTime_ <= time && time < t && t - time <= maxOdometryGap_;
     if (lastOdometry_ && isOlder) continue;  // the next reading may be newer than the scan
     if (!lastOdometry_)
       scan.odometry = pose;
@@ -271,6 +277,7 @@ void ReadingAssembler::endReading() {
 }
 
 void ReadingAssembler::finish() {
+  for (const CObservation::Ptr& next : odometryClock_.finish()) takeInOrder(next);
   if (hasOdometryReadings() && !lastOdometry_) return;
   finishWaiting();
   endReading();

@@ -17,6 +17,7 @@
 
 #include "base/LaserScan.h"
 #include "readings/FrozenLasers.h"
+#include "readings/OdometryClock.h"
 #include "readings/OdometryJumps.h"
 #include "readings/OdometryTrack.h"
 #include "readings/ScanGrouper.h"
@@ -57,16 +58,16 @@ struct SensorSettings {
 
 /// Takes the objects of a log in either form: action-observation pairs, or single observations in which
 /// odometry and scans interleave. For single observations, the odometry at a scan's time is interpolated
-/// between the odometry readings around it, after the time offset is added to their times. If timestamps step
-/// back or these readings are too far apart, the previous odometry reading is used. Odometry readings of one
-/// sensor (by its label) are used, since each sensor has its own frame. The last five readings before the
-/// first odometry reading use that one, and earlier ones are dropped. Impossible odometry readings
-/// (isPossible) are skipped. A jump of the odometry (OdometryJumps) counts as no motion; the odometry
-/// continues from the new value. Scans taken over 10 m apart never form one reading. Scans without beams or
-/// with a sensor pose that is not finite are dropped, and those of frozen lasers (FrozenLasers). Beams that
-/// are NaN, infinite, not positive, below the smallest range of the settings, or at or beyond the scan's
-/// maximum range are marked invalid. ScanGrouper decides which scans are used and which of them form one
-/// reading.
+/// between the odometry readings around it, after the time offset is added to their times (OdometryClock). If
+/// timestamps step back or these readings are too far apart, the previous odometry reading is used. Odometry
+/// readings of one sensor (by its label) are used, since each sensor has its own frame. The last five
+/// readings before the first odometry reading use that one, and earlier ones are dropped. Impossible odometry
+/// readings (isPossible) are skipped. A jump of the odometry (OdometryJumps) counts as no motion; the
+/// odometry continues from the new value. Scans taken over 10 m apart never form one reading. Scans without
+/// beams or with a sensor pose that is not finite are dropped, and those of frozen lasers (FrozenLasers).
+/// Beams that are NaN, infinite, not positive, below the smallest range of the settings, or at or beyond the
+/// scan's maximum range are marked invalid. ScanGrouper decides which scans are used and which of them form
+/// one reading.
 ///
 /// Where the time of a laser's sweep is known (SweepTimes), the beams are corrected for the robot's motion
 /// since the scan's timestamp (DeskewedScan), by the odometry. Such a scan waits for the odometry up to its
@@ -98,6 +99,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   std::optional<Reading> next();
 
  private:
+  void takeInOrder(const mrpt::obs::CObservation::Ptr& observation);
   /// Adds to the way, once the odometry is 5 cm farther.
   void travel();
   void takeScan(mrpt::obs::CObservation2DRangeScan::Ptr scan);
@@ -127,9 +129,9 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
 
   ScanGrouper grouper_;
   SensorSettings settings_;
+  OdometryClock odometryClock_;
   OdometryTrack track_;
   double maxOdometryGap_;
-  double longestWait_;  ///< s, from a scan's time to that of the last odometry reading
   std::deque<Reading> ready_;
   std::deque<Waiting> waiting_;  ///< until odometry after them arrives
   size_t current_ = 0;           ///< number of the reading that `collected_` belongs to
@@ -142,7 +144,7 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   std::optional<std::string> odometryLabel_;         ///< of the sensor whose odometry is used
   OdometryJumps odometryJumps_;
   size_t jumps_ = 0, dropped_ = 0;
-  double lastOdometryTime_ = 0;        ///< s, on the lasers' clock
+  double lastOdometryTime_ = 0;
   mrpt::math::TPose2D travelled_;      ///< odometry pose, observation-only or summed actions
   mrpt::math::TPose2D atLastReading_;  ///< odometry pose of the previous reading
   mrpt::math::TPose2D travelledTo_;    ///< odometry pose up to which `way_` counts

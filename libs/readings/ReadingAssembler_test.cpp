@@ -37,12 +37,12 @@ TPose2D endOf(const std::vector<Reading>& readings) {
   return pose;
 }
 
-/// Another clock of the odometry, also one that differs by more than the largest gap.
+/// Also of a clock that differs by more than the largest gap, and of scans after a gap.
 TEST(ReadingAssembler, ATimeOffsetCorrectsTheOdometrysClock) {
   const auto drive = [](double late, bool isSorted) {
     std::vector<std::pair<double, test::Log::value_type>> timed;
     for (int i = 0; i < 200; ++i) {
-      const double t = 1000 + 0.1 * i;
+      const double t = 1000 + 0.1 * i + (i < 120 ? 0 : 3);  // a gap
       const TPose2D pose(0.001 * i * i, 0.5 * std::sin(0.1 * i), 0.3 * std::sin(0.2 * i));
       timed.emplace_back(t + 0.05 + (isSorted ? late : 0), odometry(t + 0.05 + late, pose));
       timed.emplace_back(t, scan(t));

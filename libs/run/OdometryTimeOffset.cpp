@@ -23,8 +23,8 @@ constexpr float kFarthest = 10, kOtherWall = 0.5F;  // m; larger differences cou
 constexpr double kOtherTurn = 10 * kDegree;         // larger differences count as this
 constexpr size_t kFewestTurns = 100;
 constexpr double kLeastTurned = 270 * kDegree;
-constexpr double kBetterThanNone = 0.8;     // misfit of the best offset, of that of none
-constexpr double kBetterThanNoTurns = 0.7;  // and of that of odometry that does not turn
+constexpr double kBetterThanNone = 0.85;    // misfit of the best offset, of that of none
+constexpr double kBetterThanNoTurns = 0.8;  // and of that of odometry that does not turn
 constexpr double kSame = 0.2;               // s
 
 /// Returns the ranges (m) of about one beam per degree, counter-clockwise.
