@@ -104,7 +104,7 @@ int learn(const CommandLine& line, run::Configuration configuration) {
     return isOurs;
   });
   warn(configuration.warnings);
-  const readings::RawlogSummary log =
+  readings::RawlogSummary log =
       summarise(line.files.log, configuration.input, [] { return stop.load(); });
   if (!log.hasMotion)
     throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
@@ -112,6 +112,7 @@ int learn(const CommandLine& line, run::Configuration configuration) {
   for (const std::string& text :
        applyLogSettings(run::readLogSettings(line.files.log, configuration.input, log), configuration))
     if (!line.isQuiet) std::cout << text << "\n";
+  log.adapt(line.files.log, configuration.input);
   files::GrowingFile output(line.output);  // opened now: a wrong name fails before the run
 
   int iteration = 0;

@@ -16,7 +16,7 @@ using mrpt::obs::CObservationOdometry;
 
 namespace {
 
-constexpr size_t kMostHeld = 10'000, kMostHeldBeams = 10'000'000;
+constexpr size_t kMostDelayed = 10'000, kMostDelayedBeams = 10'000'000;
 constexpr double kStepBack = 1;  // s; a longer one begins another log
 
 size_t beamsOf(const CObservation& observation) {
@@ -43,10 +43,6 @@ std::vector<CObservation::Ptr> OdometryClock::take(const CObservation::Ptr& obse
     current->timestamp = mrpt::Clock::fromDouble(std::max(stamp + offset_, 0.0));
   }
   const double time = seconds(current->timestamp);
-  if (!hasOdometry_) {
-    hasOdometry_ = static_cast<bool>(odometry);
-    return {current};
-  }
   const bool isLate = offset_ < 0;  // the odometry: scans are held
   if (isLate == static_cast<bool>(odometry)) {
     release(time, !odometry, released);  // at equal times odometry is first
@@ -67,8 +63,8 @@ std::vector<CObservation::Ptr> OdometryClock::finish() {
 
 void OdometryClock::release(double time, bool isInclusive, std::vector<CObservation::Ptr>& released) {
   const auto mayContinue = [&](double t) { return t < time || (isInclusive && t == time); };
-  while (!held_.empty() && (mayContinue(seconds(held_.front()->timestamp)) || held_.size() > kMostHeld ||
-                            heldBeams_ > kMostHeldBeams)) {
+  while (!held_.empty() && (mayContinue(seconds(held_.front()->timestamp)) || held_.size() > kMostDelayed ||
+                            heldBeams_ > kMostDelayedBeams)) {
     heldBeams_ -= beamsOf(*held_.front());
     released.push_back(held_.front());
     held_.pop_front();

@@ -12,7 +12,7 @@ namespace hybrid_slam::readings {
 
 /// Adds an offset to the timestamps of odometry readings, and holds back the scans or the odometry, so that
 /// both continue in the order of time, as if there were one clock. It takes the observations in either order:
-/// that of their timestamps, or that of arrival. Up to the first odometry reading, nothing is held back.
+/// that of their timestamps, or that of arrival.
 class OdometryClock {
  public:
   /// @param offset  s
@@ -29,8 +29,7 @@ class OdometryClock {
 
   double offset_;
   double now_ = -std::numeric_limits<double>::infinity();  ///< s, the latest timestamp
-  bool hasOdometry_ = false;
-  std::deque<mrpt::obs::CObservation::Ptr> held_;  ///< of one kind, with times on the scans' clock
+  std::deque<mrpt::obs::CObservation::Ptr> held_;          ///< of one kind, with times on the scans' clock
   size_t heldBeams_ = 0;
 };
 

@@ -112,10 +112,16 @@ OdometrySource odometrySource(const InputOptions& options, bool hasReadings) {
   return hasReadings ? OdometrySource::readings : OdometrySource::actions;
 }
 
-void RawlogSummary::ignoreOdometry() {
+void RawlogSummary::adapt(const std::string& file, const InputOptions& options) {
+  if (options.requireOdometry && (!hasOdometryReadings || options.odometryTimeOffset == 0)) return;
   scans += early.count;
-  early = {};
-  isDeskewed = false;
+  early.count = 0;
+  isDeskewed = isDeskewed && options.requireOdometry;
+  if (!options.requireOdometry) return;
+  RawlogSource source(file, options, *this);
+  source.next();
+  early.count = source.dropped();
+  scans -= early.count;
 }
 
 RawlogSummary summarise(const std::string& file, const InputOptions& options,
@@ -133,7 +139,8 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
   const auto laserPose = laserPoseIn(options.laserPose);
   ScanGrouper grouper(wanted, options.maxOdometryGap, laserPose.has_value());
   ReadingAssembler beginning(wanted, OdometrySource::readings, options.maxOdometryGap,
-                             {SweepTimes(0), laserPose}, chosen);  // to its first reading
+                             {SweepTimes(0), laserPose, 0, options.odometryTimeOffset},
+                             chosen);  // to its first reading
   bool hasBegun = false;
   size_t firstScan = 0;
   Uses uses;

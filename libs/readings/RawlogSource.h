@@ -80,8 +80,9 @@ struct RawlogSummary {
   size_t skippedReadings() const {
     return early.count + empty.count + misplaced.count + tilted.count + wrongOdometry.count + jumps.count;
   }
-  /// Makes it the summary for InputOptions::requireOdometry = false, if that was set after the log was read.
-  void ignoreOdometry();
+  /// Makes it the summary for options of the odometry that were set after the log was read: whether it is
+  /// used, and its time offset.
+  void adapt(const std::string& file, const InputOptions& options);
   /// Says where the defect is.
   std::string defectPlace(const std::string& file) const {
     return unit + " " + std::to_string(entries + 1) + " of " + file;
@@ -104,6 +105,8 @@ class RawlogSource {
   /// Returns the next reading; empty at the end of the log.
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
+  /// Number of readings before the first odometry that are dropped, once the first reading is read.
+  size_t dropped() const { return assembler_.dropped(); }
   /// Names the last object read: `entry 12 of FILE`.
   std::string place() const;
 

@@ -64,6 +64,29 @@ TEST(RawlogSource, ScansLongBeforeTheFirstOdometryAreCounted) {
   EXPECT_EQ(replayed(log).summary.early.count, 0u) << "no odometry at all";
 }
 
+/// Its odometry is stamped 3 s late, so that 30 scans come before the first reading.
+TEST(RawlogSource, WithATimeOffsetFewerScansAreEarly) {
+  test::Log log;
+  for (int i = 0; i < 130; ++i) {
+    const double time = 1000 + 0.1 * i;
+    if (i >= 30) log.push_back(test::odometry(time, {0.1 * (i - 30), 0, 0}));
+    log.push_back(scan(time, {}, 3));
+  }
+  InputOptions options;
+  const Replayed without = replayed(log, options);
+  EXPECT_EQ(without.summary.early.count, 25u);
+  options.odometryTimeOffset = -3;
+  const Replayed r = replayed(log, options);  // expects as many readings as `scans` says
+  EXPECT_EQ(r.summary.scans, 130u);
+  EXPECT_NEAR(r.x[20], 2, 1e-6);
+
+  RawlogSummary adapted = without.summary;
+  const files::TemporaryFolder folder;
+  adapted.adapt(test::writeGzipped(folder.path("log.rawlog"), log), options);
+  EXPECT_EQ(adapted.scans, 130u);
+  EXPECT_EQ(adapted.early.count, 0u);
+}
+
 TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   const test::Log log{test::odometry(10, {0, 0, 0}),
                       scan(10),

@@ -19,16 +19,16 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr size_t kReadings = 2000, kMostBeams = 10'000'000;  // the first of a log
-constexpr double kUsualRange = 20, kLongestRange = 80;       // m
-constexpr double kNoLimit = 200;                             // m; upper bound of grid.max_range
-constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
-constexpr double kCentimetre = 0.01;                         // m
-constexpr double kSparsePoints = 0.1;                        // m between neighbours on a wall
-constexpr double kLeastDriven = 30;                          // m
-constexpr double kMargin = 0.05;                             // m
-constexpr double kFarOff = mrpt::DEG2RAD(15.0);              // the filter copes with less
-constexpr double kLargeOffset = 0.4;                         // s
+constexpr size_t kReadings = 2000, kMostBeams = 10'000'000;   // the first of a log
+constexpr double kUsualRange = 20, kLongestRange = 80;        // m
+constexpr double kNoLimit = 200;                              // m; upper bound of grid.max_range
+constexpr double kSparseStep = 0.3;                           // m; the standard proposal's update distance
+constexpr double kCentimetre = 0.01;                          // m
+constexpr double kSparsePoints = 0.1;                         // m between neighbours on a wall
+constexpr double kLeastDriven = 30, kFullTurn = 2 * M_PI;  // m, rad
+constexpr double kMargin = 0.05;                              // m
+constexpr double kFarOff = mrpt::DEG2RAD(15.0);               // the filter copes with less
+constexpr double kLargeOffset = 0.25;                         // s
 constexpr double kHalfBeam =
     mrpt::DEG2RAD(1.0);  // logs of other formats begin with a beam, not with half a step
 
@@ -174,13 +174,17 @@ std::vector<readings::Reading> firstReadings(const std::string& file, readings::
   readings::RawlogSource source(file, input, log);
   std::vector<readings::Reading> all;
   size_t beams = 0;
-  double way = 0;
+  double way = 0, turned = 0;
+  const auto hasMoved = [&] {
+    return (!log.hasMotion || way >= kLeastDriven) && (!log.hasTurns || turned >= kFullTurn);
+  };
   try {
-    while ((all.size() < kReadings || (log.hasMotion && way < kLeastDriven)) && beams < kMostBeams) {
+    while ((all.size() < kReadings || !hasMoved()) && beams < kMostBeams) {
       const auto reading = source.next();
       if (!reading) break;
       all.push_back(*reading);
       way += reading->motion.norm();
+      turned += std::abs(reading->motion.phi);
       for (const auto& scan : reading->scans) beams += scan->getScanSize();
     }
   } catch (const InputError&) {

@@ -16,8 +16,8 @@ struct LogSetting {
   std::string reason;  ///< the evidence in the log
 };
 
-/// Properties of the first 2,000 readings of a log, or more if the robot has moved less than 30 m by then.
-/// Ranges are as measured.
+/// Properties of the first 2,000 readings of a log, or more if the robot has driven less than 30 m or turned
+/// less than 360 deg by then. Ranges are as measured.
 struct LogSettings {
   bool hasOdometry = false;
   /// One line for each laser that is used: beams, spacing, place on the robot; or that it has no scan in the
@@ -41,7 +41,7 @@ struct LogSettings {
 /// - `input.min_range`: 5 cm above the ranges at the robot's own parts, where beams end at them (RobotParts).
 /// - `input.laser_pose`: the heading of the only laser, where the log gives it no place on the robot and the
 ///   scans move in another direction than the odometry (MountingEstimate).
-/// - `input.odometry_time_offset`: where the odometry turns at least 0.4 s after the scans, or before them
+/// - `input.odometry_time_offset`: where the odometry turns at least 0.25 s after the scans, or before them
 ///   (OdometryTimeOffset).
 ///
 /// @param log  summary of the file

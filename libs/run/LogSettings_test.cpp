@@ -197,7 +197,7 @@ TEST_F(LogSettingsTest, TheOdometryMayHaveAnotherClock) {
   };
   EXPECT_EQ(offset(1), "-1.00: the odometry turns after the scans");
   EXPECT_EQ(offset(-0.6), "0.60: the odometry turns before the scans");
-  EXPECT_EQ(offset(0.3), "none") << "the filter copes with it";
+  EXPECT_EQ(offset(0.2), "none") << "the filter copes with it";
 }
 
 TEST_F(LogSettingsTest, TheMountingOfASecondLaserIsWithoutTheRobotsMotion) {

@@ -16,12 +16,12 @@ using mrpt::obs::CObservation2DRangeScan;
 
 namespace {
 
-constexpr double kLargestOffset = 10, kStep = 0.05;  // s
-constexpr double kLongestPause = 1;                  // s between two scans that are compared
-constexpr double kBeamStep = kDegree, kLargestTurn = 40 * kDegree;
-constexpr float kFarthest = 10, kOtherWall = 0.5F;  // m; larger differences count as this
+constexpr double kLargestOffset = 10, kOffsetStep = 0.05;  // s
+constexpr double kShortestPause = 0.1, kLongestPause = 1;  // s between two scans that are compared
+constexpr double kBeamStep = kDegree, kLargestTurn = 90 * kDegree;
+constexpr float kFarRange = 10, kOtherWall = 0.5F;  // m; larger differences count as this
 constexpr double kOtherTurn = 10 * kDegree;         // larger differences count as this
-constexpr size_t kFewestTurns = 100;
+constexpr size_t kFewestPairs = 100, kMostPairs = 5000;
 constexpr double kLeastTurned = 270 * kDegree;
 constexpr double kBetterThanNone = 0.85;    // misfit of the best offset, of that of none
 constexpr double kBetterThanNoTurns = 0.8;  // and of that of odometry that does not turn
@@ -32,14 +32,14 @@ constexpr double kSame = 0.2;               // s
 std::vector<float> rangesOf(const CObservation2DRangeScan& scan, size_t stride) {
   std::vector<float> ranges;
   for (size_t i = 0; i < scan.getScanSize(); i += stride)
-    ranges.push_back(scan.getScanRangeValidity(i) ? std::min(scan.getScanRange(i), kFarthest) : kFarthest);
+    ranges.push_back(scan.getScanRangeValidity(i) ? std::min(scan.getScanRange(i), kFarRange) : kFarRange);
   if (BeamFan(scan).isReversed()) std::reverse(ranges.begin(), ranges.end());
   return ranges;
 }
 
 /// Returns the mean difference (m) between the ranges of a scan and those of the scan before, which saw them
 /// `shift` beams farther to the left.
-double difference(const std::vector<float>& before, const std::vector<float>& after, int shift) {
+double meanDifference(const std::vector<float>& before, const std::vector<float>& after, int shift) {
   const int beams = static_cast<int>(before.size());
   const int begin = std::max(0, -shift), end = std::min(beams, beams - shift);
   double sum = 0;
@@ -52,12 +52,13 @@ double difference(const std::vector<float>& before, const std::vector<float>& af
 /// Returns how far a laser has turned between two scans with equal beams (rad).
 double turnBetween(const CObservation2DRangeScan& one, const CObservation2DRangeScan& other) {
   const double spacing = one.aperture / static_cast<double>(one.getScanSize() - 1);
-  const auto stride = static_cast<size_t>(std::max(1.0, std::round(kBeamStep / spacing)));
+  const auto stride = static_cast<size_t>(
+      std::clamp(std::round(kBeamStep / spacing), 1.0, static_cast<double>(one.getScanSize())));
   const double step = spacing * static_cast<double>(stride);
   const std::vector<float> before = rangesOf(one, stride), after = rangesOf(other, stride);
-  const int most = std::min(static_cast<int>(kLargestTurn / step), static_cast<int>(before.size()) / 2);
+  const auto most = static_cast<int>(std::min(kLargestTurn / step, static_cast<double>(before.size() / 2)));
   std::vector<double> differences;
-  for (int shift = -most; shift <= most; ++shift) differences.push_back(difference(before, after, shift));
+  for (int shift = -most; shift <= most; ++shift) differences.push_back(meanDifference(before, after, shift));
   const auto least = std::min_element(differences.begin(), differences.end());
   double shift = static_cast<double>(least - differences.begin()) - most;
   if (least != differences.begin() && least + 1 != differences.end()) {  // the vertex of a parabola
@@ -72,7 +73,7 @@ bool areAlike(const CObservation2DRangeScan& one, const CObservation2DRangeScan&
          one.aperture == other.aperture && one.getScanSize() > 2 && one.aperture > 0;
 }
 
-double offsetAt(size_t index) { return static_cast<double>(index) * kStep - kLargestOffset; }
+double offsetAt(size_t index) { return static_cast<double>(index) * kOffsetStep - kLargestOffset; }
 
 double bestOffset(const std::vector<double>& misfits) {
   return offsetAt(static_cast<size_t>(std::min_element(misfits.begin(), misfits.end()) - misfits.begin()));
@@ -85,7 +86,8 @@ void OdometryTimeOffset::add(const readings::Reading& reading) {
   if (!times_.empty() && reading.timestamp <= times_.back()) return;
   times_.push_back(reading.timestamp);
   headings_.push_back(heading_);
-  if (reading.scans.empty()) return;
+  const bool isSoon = reading.timestamp - last_.timestamp < kShortestPause;
+  if (reading.scans.empty() || turns_.size() >= kMostPairs || (isSoon && !last_.scans.empty())) return;
   const bool isNext = reading.timestamp - last_.timestamp <= kLongestPause;
   if (isNext && !last_.scans.empty() && areAlike(*last_.scans[0], *reading.scans[0]))
     turns_.push_back({last_.timestamp, reading.timestamp, turnBetween(*last_.scans[0], *reading.scans[0])});
@@ -103,7 +105,7 @@ double OdometryTimeOffset::headingAt(double time) const {
 
 std::vector<double> OdometryTimeOffset::misfits(size_t begin, size_t end) const {
   std::vector<double> sums;
-  for (size_t k = 0; offsetAt(k) < kLargestOffset + kStep / 2; ++k) {
+  for (size_t k = 0; offsetAt(k) < kLargestOffset + kOffsetStep / 2; ++k) {
     double sum = 0;
     for (size_t i = begin; i < end; ++i) {
       const double turned = headingAt(turns_[i].to - offsetAt(k)) - headingAt(turns_[i].from - offsetAt(k));
@@ -120,13 +122,13 @@ std::optional<double> OdometryTimeOffset::seconds() const {
     turned += std::abs(turn.angle);
     noTurns += std::min(std::abs(turn.angle), kOtherTurn);
   }
-  if (turns_.size() < kFewestTurns || turned < kLeastTurned) return std::nullopt;
+  if (turns_.size() < kFewestPairs || turned < kLeastTurned) return std::nullopt;
   const std::vector<double> first = misfits(0, turns_.size() / 2);
   const std::vector<double> second = misfits(turns_.size() / 2, turns_.size());
   std::vector<double> both;
   std::transform(first.begin(), first.end(), second.begin(), std::back_inserter(both), std::plus<>());
   const double offset = bestOffset(both), least = *std::min_element(both.begin(), both.end());
-  const double none = both[static_cast<size_t>(std::lround(kLargestOffset / kStep))];
+  const double none = both[static_cast<size_t>(std::lround(kLargestOffset / kOffsetStep))];
   const bool isClear = least < kBetterThanNone * none && least < kBetterThanNoTurns * noTurns;
   const bool isSame =
       std::abs(bestOffset(first) - offset) < kSame && std::abs(bestOffset(second) - offset) < kSame;

@@ -15,7 +15,7 @@ namespace {
 using mrpt::math::TPose2D;
 using test::CObservation2DRangeScan;
 
-constexpr double kStep = 0.2, kDuration = 120;  // s
+constexpr double kPeriod = 0.2, kDuration = 120;  // s
 
 /// A robot near the middle of the room that turns at another random speed every 2 s.
 class TurningRobot {
@@ -44,11 +44,12 @@ using Change = std::function<void(CObservation2DRangeScan&)>;
 
 /// Returns the estimate where odometry of the time t is stamped t + late(t).
 std::optional<double> offset(
-    const std::function<double(double)>& late, const Change& change = [](auto&) {}, double turned = 1) {
+    const std::function<double(double)>& late, const Change& change = [](auto&) {}, double turned = 1,
+    double period = kPeriod) {
   const TurningRobot robot;
   OdometryTimeOffset found;
   TPose2D last;
-  for (double t = 0; t < kDuration; t += kStep) {
+  for (double t = 0; t < kDuration; t += period) {
     readings::Reading reading;
     const auto scan = test::scan(t, robot.at(t));
     change(*scan);
@@ -71,6 +72,10 @@ TEST(OdometryTimeOffset, IsWhereTheTurnsOfScansAndOdometryAgree) {
   for (const double late : {-9.0, -2.3, -1.0, -0.4, 0.4, 1.0, 2.3, 9.0})
     EXPECT_NEAR(offset(late).value_or(0), -late, 0.06) << late;
   EXPECT_FALSE(offset(0)) << "none is as good";
+  const auto late = [](double) { return 2; };
+  const auto asItIs = [](CObservation2DRangeScan&) {};
+  EXPECT_NEAR(offset(late, asItIs, 1, 1).value_or(0), -2, 0.1) << "up to 60 deg between scans";
+  EXPECT_NEAR(offset(late, asItIs, 1, 0.02).value_or(0), -2, 0.06) << "50 Hz";
 }
 
 TEST(OdometryTimeOffset, IsThatOfALaserUpsideDown) {
@@ -95,6 +100,7 @@ TEST(OdometryTimeOffset, NeedsOdometryThatTurnsLikeTheScans) {
     for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
   })) << "no returns";
   EXPECT_FALSE(offset(late, [](auto& scan) { scan.resizeScan(1); })) << "a single beam";
+  EXPECT_FALSE(offset(late, [](auto& scan) { scan.aperture = 1e-25F; })) << "all beams in one direction";
 }
 
 TEST(OdometryTimeOffset, NeedsTurns) {
@@ -102,7 +108,7 @@ TEST(OdometryTimeOffset, NeedsTurns) {
   EXPECT_FALSE(none.seconds());
   for (int i = 0; i < 1000; ++i) {
     readings::Reading reading;
-    reading.timestamp = kStep * i;
+    reading.timestamp = kPeriod * i;
     reading.scans = {test::scan(reading.timestamp)};
     standing.add(reading);
   }

@@ -123,7 +123,7 @@ ReplayOutcome replay(Configuration& configuration, bool isQuiet, const std::atom
   readings::RawlogSummary log = summarise(file, configuration.input, [&stop] { return stop.load(); });
   const std::vector<std::string> ofLog =
       applyLogSettings(readLogSettings(file, configuration.input, log), configuration);
-  if (!configuration.input.requireOdometry) log.ignoreOdometry();
+  log.adapt(file, configuration.input);
   auto run = std::make_unique<FilterRun>(configuration, start);
   for (const std::string& line : ofLog)
     if (!isQuiet) std::cout << onOneLine(line) << "\n" << std::flush;

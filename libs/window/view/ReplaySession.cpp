@@ -141,7 +141,7 @@ void ReplaySession::readLog() {
   const auto ofLog =
       std::make_shared<const run::LogSettings>(run::readLogSettings(file, configuration_.input, summary));
   for (const std::string& line : applyLogSettings(*ofLog, configuration_)) event(line);
-  if (!configuration_.input.requireOdometry) summary.ignoreOdometry();
+  summary.adapt(file, configuration_.input);
   for (const std::string& warning : configuration_.warnings) note("warning: " + warning);
   for (const std::string& warning : readings::warningsOf(summary, file)) note("warning: " + warning);
   snapshot_.change([&](ReplaySnapshot& next) { next.ofLog = ofLog; });
