@@ -104,8 +104,7 @@ int learn(const CommandLine& line, run::Configuration configuration) {
     return isOurs;
   });
   warn(configuration.warnings);
-  readings::RawlogSummary log =
-      summarise(line.files.log, configuration.input, [] { return stop.load(); });
+  readings::RawlogSummary log = summarise(line.files.log, configuration.input, [] { return stop.load(); });
   if (!log.hasMotion)
     throw InputError("no odometry", line.files.log, "expected a log with odometry, whose errors are learnt");
   warn(readings::warningsOf(log, line.files.log));

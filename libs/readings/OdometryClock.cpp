@@ -19,6 +19,11 @@ namespace {
 constexpr size_t kMostDelayed = 10'000, kMostDelayedBeams = 10'000'000;
 constexpr double kStepBack = 1;  // s; a longer one begins another log
 
+/// An observation without a time follows the one before.
+double timeOrEarliest(const CObservation& observation) {
+  return timeOf(observation).value_or(-std::numeric_limits<double>::infinity());
+}
+
 size_t beamsOf(const CObservation& observation) {
   const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation);
   return scan ? scan->getScanSize() : 0;
@@ -27,9 +32,9 @@ size_t beamsOf(const CObservation& observation) {
 }  // namespace
 
 std::vector<CObservation::Ptr> OdometryClock::take(const CObservation::Ptr& observation) {
-  if (offset_ == 0 || !isStamped(*observation)) return {observation};
+  if (offset_ == 0) return {observation};
   std::vector<CObservation::Ptr> released;
-  const double stamp = seconds(observation->timestamp);
+  const double stamp = timeOf(*observation).value_or(now_);
   if (stamp < now_ - std::abs(offset_) - kStepBack) {
     released = finish();
     now_ = stamp;
@@ -37,15 +42,14 @@ std::vector<CObservation::Ptr> OdometryClock::take(const CObservation::Ptr& obse
   now_ = std::max(now_, stamp);
   CObservation::Ptr current = observation;
   const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
-  if (odometry) {
+  if (odometry && isStamped(*odometry)) {
     current = CObservationOdometry::Create(*odometry);  // a recording has it as measured
     // Times of text logs may begin at zero, and negative ones would overflow.
     current->timestamp = mrpt::Clock::fromDouble(std::max(stamp + offset_, 0.0));
   }
-  const double time = seconds(current->timestamp);
   const bool isLate = offset_ < 0;  // the odometry: scans are held
   if (isLate == static_cast<bool>(odometry)) {
-    release(time, !odometry, released);  // at equal times odometry is first
+    release(timeOrEarliest(*current), !odometry, released);  // at equal times odometry is first
     released.push_back(current);
   } else {
     held_.push_back(current);
@@ -63,7 +67,7 @@ std::vector<CObservation::Ptr> OdometryClock::finish() {
 
 void OdometryClock::release(double time, bool isInclusive, std::vector<CObservation::Ptr>& released) {
   const auto mayContinue = [&](double t) { return t < time || (isInclusive && t == time); };
-  while (!held_.empty() && (mayContinue(seconds(held_.front()->timestamp)) || held_.size() > kMostDelayed ||
+  while (!held_.empty() && (mayContinue(timeOrEarliest(*held_.front())) || held_.size() > kMostDelayed ||
                             heldBeams_ > kMostDelayedBeams)) {
     heldBeams_ -= beamsOf(*held_.front());
     released.push_back(held_.front());

@@ -11,7 +11,7 @@
 namespace hybrid_slam::readings {
 
 /// Adds an offset to the timestamps of odometry readings, and holds back the scans or the odometry, so that
-/// both continue in the order of time, as if there were one clock. It takes the observations in either order:
+/// both come out in order of time, as if there were one clock. It takes the observations in either order:
 /// that of their timestamps, or that of arrival.
 class OdometryClock {
  public:

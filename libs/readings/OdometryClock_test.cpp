@@ -80,6 +80,15 @@ TEST_F(OdometryClockTest, TimesAreNotNegative) {
   EXPECT_THAT(odometry(1), ElementsAre(0));
 }
 
+TEST_F(OdometryClockTest, AnObservationWithoutATimeFollowsTheOneBefore) {
+  clock = OdometryClock(-2);
+  EXPECT_THAT(scan(10), IsEmpty());
+  EXPECT_THAT(scan(test::kNoTime), IsEmpty());
+  EXPECT_THAT(odometry(13), testing::SizeIs(3));
+  clock = OdometryClock(2);
+  EXPECT_THAT(scan(test::kNoTime), testing::SizeIs(1));
+}
+
 TEST_F(OdometryClockTest, TimeThatStepsBackBeginsAnotherLog) {
   clock = OdometryClock(-2);
   EXPECT_THAT(scan(100), IsEmpty());

@@ -265,8 +265,9 @@ RawlogSummary summarise(const std::string& file, const InputOptions& options,
                      "expected a horizontal plane within 5 deg, upright or upside down");
   if (summary.scans == 0)
     throw InputError("all scans are of zero length", file, "expected scans with at least one beam");
-  if (summary.hasOdometryReadings && options.requireOdometry && beginning.dropped() > 0) {
-    summary.early = {beginning.dropped(), firstScan};
+  summary.early.first = firstScan;
+  if (summary.hasOdometryReadings && options.requireOdometry) {
+    summary.early.count = beginning.dropped();
     summary.scans -= beginning.dropped();
   }
   return summary;

@@ -105,7 +105,7 @@ class RawlogSource {
   /// Returns the next reading; empty at the end of the log.
   std::optional<Reading> next();
   size_t entry() const { return reader_.entry(); }
-  /// Number of readings before the first odometry that are dropped, once the first reading is read.
+  /// Readings dropped before the first odometry; final once `next` has returned a reading.
   size_t dropped() const { return assembler_.dropped(); }
   /// Names the last object read: `entry 12 of FILE`.
   std::string place() const;

@@ -87,6 +87,29 @@ TEST(RawlogSource, WithATimeOffsetFewerScansAreEarly) {
   EXPECT_EQ(adapted.early.count, 0u);
 }
 
+TEST(RawlogSource, WithATimeOffsetTheScansOfTwoLasersFormTheSameReadings) {
+  test::Log log;
+  for (int i = 0; i < 60; ++i) {
+    const double time = 1000 + 0.1 * i;
+    log.push_back(test::odometry(time, {0.1 * i, 0, 0}));
+    if (i > 3) log.push_back(scan(time + 0.02, {}, 3, "FRONT"));
+    log.push_back(i == 20 ? scan(test::kNoTime, {}, 3, "REAR") : scan(time + 0.05, {}, 3, "REAR"));
+  }
+  InputOptions options;
+  const Replayed without = replayed(log);
+  for (const double offset : {-2.0, -0.05, 0.05, 2.0}) {
+    options.odometryTimeOffset = offset;
+    const Replayed r = replayed(log, options);  // expects as many readings as `scans` says
+    EXPECT_EQ(r.summary.scans + r.summary.early.count, without.summary.scans);
+    RawlogSummary adapted = without.summary;
+    const files::TemporaryFolder folder;
+    adapted.adapt(test::writeGzipped(folder.path("log.rawlog"), log), options);
+    EXPECT_EQ(adapted.scans, r.summary.scans);
+    EXPECT_EQ(adapted.early.count, r.summary.early.count);
+    EXPECT_EQ(adapted.early.first, 2u) << "the first scan";
+  }
+}
+
 TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   const test::Log log{test::odometry(10, {0, 0, 0}),
                       scan(10),

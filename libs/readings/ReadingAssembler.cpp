@@ -99,8 +99,13 @@ void ReadingAssembler::take(const mrpt::serialization::CSerializable::Ptr& objec
     const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
     if ((scan && grouper_.useOf(*scan) == ScanGrouper::Use::taken) ||
         (odometry && hasOdometryReadings() && isPossible(odometry->odometry.asTPose()) &&
-         isOfUsedSensor(*odometry)))
+         isOfUsedSensor(*odometry))) {
+      if (scan) {
+        const size_t reading = grouper_.add(*scan);
+        places_.push_back({reading, grouper_.isComplete()});
+      }
       for (const CObservation::Ptr& next : odometryClock_.take(observation)) takeInOrder(next);
+    }
   });
 }
 
@@ -129,8 +134,9 @@ void ReadingAssembler::takeScan(CObservation2DRangeScan::Ptr scan) {
     isInTrack_ = true;
     completeReady();
   }
-  const size_t reading = grouper_.add(*scan);
-  waiting_.push_back({scan, reading, grouper_.isComplete(), settings_.sweeps.of(*scan)});
+  const auto [reading, endsReading] = places_.front();
+  places_.pop_front();
+  waiting_.push_back({scan, reading, endsReading, settings_.sweeps.of(*scan)});
   if (hasOdometryReadings() && !lastOdometry_) {
     while (waiting_.back().reading - waiting_.front().reading >= kMostEarly ||
            (waiting_.size() > 1 && hasManyBeams()))

@@ -130,6 +130,11 @@ class ReadingAssembler {  // NOLINT(clang-analyzer-optin.performance.Padding): t
   ScanGrouper grouper_;
   SensorSettings settings_;
   OdometryClock odometryClock_;
+  struct Place {
+    size_t reading;  ///< number
+    bool endsReading;
+  };
+  std::deque<Place> places_;  ///< of the scans that the clock holds back
   OdometryTrack track_;
   double maxOdometryGap_;
   std::deque<Reading> ready_;

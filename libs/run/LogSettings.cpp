@@ -19,16 +19,16 @@
 namespace hybrid_slam::run {
 namespace {
 
-constexpr size_t kReadings = 2000, kMostBeams = 10'000'000;   // the first of a log
-constexpr double kUsualRange = 20, kLongestRange = 80;        // m
-constexpr double kNoLimit = 200;                              // m; upper bound of grid.max_range
-constexpr double kSparseStep = 0.3;                           // m; the standard proposal's update distance
-constexpr double kCentimetre = 0.01;                          // m
-constexpr double kSparsePoints = 0.1;                         // m between neighbours on a wall
-constexpr double kLeastDriven = 30, kFullTurn = 2 * M_PI;  // m, rad
-constexpr double kMargin = 0.05;                              // m
-constexpr double kFarOff = mrpt::DEG2RAD(15.0);               // the filter copes with less
-constexpr double kLargeOffset = 0.25;                         // s
+constexpr size_t kReadings = 2000, kMostBeams = 10'000'000;  // the first of a log
+constexpr double kUsualRange = 20, kLongestRange = 80;       // m
+constexpr double kNoLimit = 200;                             // m; upper bound of grid.max_range
+constexpr double kSparseStep = 0.3;                          // m; the standard proposal's update distance
+constexpr double kCentimetre = 0.01;                         // m
+constexpr double kSparsePoints = 0.1;                        // m between neighbours on a wall
+constexpr double kLeastDriven = 30, kFullTurn = 2 * M_PI;    // m, rad
+constexpr double kMargin = 0.05;                             // m
+constexpr double kFarOff = mrpt::DEG2RAD(15.0);              // the filter copes with less
+constexpr double kLargeOffset = 0.25;                        // s
 constexpr double kHalfBeam =
     mrpt::DEG2RAD(1.0);  // logs of other formats begin with a beam, not with half a step
 
@@ -163,7 +163,7 @@ std::vector<LogSetting> odometryTimeOffset(const std::vector<readings::Reading>&
   const auto found = offset.seconds();
   if (!found || std::abs(*found) < kLargeOffset) return {};
   return {{"input", "odometry_time_offset", fixedText(*found, 2),
-           std::string("the odometry turns ") + (*found < 0 ? "after" : "before") + " the scans"}};
+           std::string("the odometry turns ") + (*found < 0 ? "later" : "earlier") + " than the scans"}};
 }
 
 /// Returns the first readings, up to one that the run will report as an error: kReadings, and more as long as
@@ -171,6 +171,7 @@ std::vector<LogSetting> odometryTimeOffset(const std::vector<readings::Reading>&
 std::vector<readings::Reading> firstReadings(const std::string& file, readings::InputOptions input,
                                              const readings::RawlogSummary& log) {
   input.scanTime = 0, input.scanRate.reset();  // the ranges as logged, not as corrected by the motion
+  input.odometryTimeOffset = 0;                // to be estimated
   readings::RawlogSource source(file, input, log);
   std::vector<readings::Reading> all;
   size_t beams = 0;

@@ -195,8 +195,8 @@ TEST_F(LogSettingsTest, TheOdometryMayHaveAnotherClock) {
       if (setting.key == "odometry_time_offset") return setting.value + ": " + setting.reason;
     return std::string("none");
   };
-  EXPECT_EQ(offset(1), "-1.00: the odometry turns after the scans");
-  EXPECT_EQ(offset(-0.6), "0.60: the odometry turns before the scans");
+  EXPECT_EQ(offset(1), "-1.00: the odometry turns later than the scans");
+  EXPECT_EQ(offset(-0.6), "0.60: the odometry turns earlier than the scans");
   EXPECT_EQ(offset(0.2), "none") << "the filter copes with it";
 }
 

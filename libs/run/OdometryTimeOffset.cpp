@@ -56,7 +56,7 @@ double turnBetween(const CObservation2DRangeScan& one, const CObservation2DRange
       std::clamp(std::round(kBeamStep / spacing), 1.0, static_cast<double>(one.getScanSize())));
   const double step = spacing * static_cast<double>(stride);
   const std::vector<float> before = rangesOf(one, stride), after = rangesOf(other, stride);
-  const auto most = static_cast<int>(std::min(kLargestTurn / step, static_cast<double>(before.size() / 2)));
+  const auto most = static_cast<int>(std::min(kLargestTurn / step, 0.5 * static_cast<double>(before.size())));
   std::vector<double> differences;
   for (int shift = -most; shift <= most; ++shift) differences.push_back(meanDifference(before, after, shift));
   const auto least = std::min_element(differences.begin(), differences.end());
@@ -89,8 +89,9 @@ void OdometryTimeOffset::add(const readings::Reading& reading) {
   const bool isSoon = reading.timestamp - last_.timestamp < kShortestPause;
   if (reading.scans.empty() || turns_.size() >= kMostPairs || (isSoon && !last_.scans.empty())) return;
   const bool isNext = reading.timestamp - last_.timestamp <= kLongestPause;
-  if (isNext && !last_.scans.empty() && areAlike(*last_.scans[0], *reading.scans[0]))
-    turns_.push_back({last_.timestamp, reading.timestamp, turnBetween(*last_.scans[0], *reading.scans[0])});
+  if (isNext && !last_.scans.empty() && areAlike(*last_.scans.back(), *reading.scans.back()))
+    turns_.push_back(
+        {last_.timestamp, reading.timestamp, turnBetween(*last_.scans.back(), *reading.scans.back())});
   last_ = reading;
 }
 

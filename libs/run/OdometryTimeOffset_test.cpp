@@ -20,12 +20,13 @@ constexpr double kPeriod = 0.2, kDuration = 120;  // s
 /// A robot near the middle of the room that turns at another random speed every 2 s.
 class TurningRobot {
  public:
-  TurningRobot() {
+  /// @param speed  1: up to 30 deg/s
+  explicit TurningRobot(double speed) {
     RandomStream random(1, 0, 0);
     double heading = 0;
     for (double t = 0; t < kDuration + 40; t += 2) {
       headings_.push_back(heading);
-      heading += 60 * kDegree * (2 * random.uniform() - 1);
+      heading += speed * 60 * kDegree * (2 * random.uniform() - 1);
     }
   }
   /// @param time  s, from -20 to kDuration + 15
@@ -40,46 +41,53 @@ class TurningRobot {
   std::vector<double> headings_;
 };
 
-using Change = std::function<void(CObservation2DRangeScan&)>;
+/// A drive whose odometry of the time t is stamped t + late(t).
+struct Drive {
+  std::function<double(double)> late = [](double) { return 0; };
+  std::function<void(CObservation2DRangeScan&)> change = [](CObservation2DRangeScan&) {};
+  double turned = 1;        ///< by the odometry, as a share of the robot's turns
+  double speed = 1;         ///< see TurningRobot
+  double period = kPeriod;  ///< s
+  double duration = kDuration;
+  bool hasOlderScan = false;  ///< of another laser, 0.08 s before each scan
 
-/// Returns the estimate where odometry of the time t is stamped t + late(t).
-std::optional<double> offset(
-    const std::function<double(double)>& late, const Change& change = [](auto&) {}, double turned = 1,
-    double period = kPeriod) {
-  const TurningRobot robot;
-  OdometryTimeOffset found;
-  TPose2D last;
-  for (double t = 0; t < kDuration; t += period) {
-    readings::Reading reading;
-    const auto scan = test::scan(t, robot.at(t));
-    change(*scan);
-    TPose2D odometry = robot.at(t - late(t));
-    odometry.phi *= turned;
-    reading.scans = {scan};
-    reading.timestamp = t;
-    reading.motion = odometry - last;
-    last = odometry;
-    found.add(reading);
+  explicit Drive(double by) : late([by](double) { return by; }) {}
+
+  std::optional<double> offset() const {
+    const TurningRobot robot(speed);
+    OdometryTimeOffset found;
+    TPose2D last;
+    for (double t = 0; t < duration; t += period) {
+      readings::Reading reading;
+      if (hasOlderScan) reading.scans.push_back(test::scan(t - 0.08, robot.at(t - 0.08), 181, "OLDER"));
+      reading.scans.push_back(test::scan(t, robot.at(t)));
+      change(*reading.scans.back());
+      TPose2D odometry = robot.at(t - late(t));
+      odometry.phi *= turned;
+      reading.timestamp = t;
+      reading.motion = odometry - last;
+      last = odometry;
+      found.add(reading);
+    }
+    return found.seconds();
   }
-  return found.seconds();
-}
-
-std::optional<double> offset(double late) {
-  return offset([late](double) { return late; });
-}
+};
 
 TEST(OdometryTimeOffset, IsWhereTheTurnsOfScansAndOdometryAgree) {
   for (const double late : {-9.0, -2.3, -1.0, -0.4, 0.4, 1.0, 2.3, 9.0})
-    EXPECT_NEAR(offset(late).value_or(0), -late, 0.06) << late;
-  EXPECT_FALSE(offset(0)) << "none is as good";
-  const auto late = [](double) { return 2; };
-  const auto asItIs = [](CObservation2DRangeScan&) {};
-  EXPECT_NEAR(offset(late, asItIs, 1, 1).value_or(0), -2, 0.1) << "up to 60 deg between scans";
-  EXPECT_NEAR(offset(late, asItIs, 1, 0.02).value_or(0), -2, 0.06) << "50 Hz";
+    EXPECT_NEAR(Drive(late).offset().value_or(0), -late, 0.06) << late;
+  EXPECT_FALSE(Drive(0).offset()) << "none is as good";
 }
 
-TEST(OdometryTimeOffset, IsThatOfALaserUpsideDown) {
-  const auto upsideDown = [](CObservation2DRangeScan& scan) {
+TEST(OdometryTimeOffset, IsTheSameForOtherSensors) {
+  Drive sparse(2), dense(2), ofTwo(2), upsideDown(2);
+  sparse.period = 1;
+  EXPECT_NEAR(sparse.offset().value_or(0), -2, 0.1) << "up to 30 deg between scans";
+  dense.period = 0.02;
+  EXPECT_NEAR(dense.offset().value_or(0), -2, 0.06) << "50 Hz";
+  ofTwo.hasOlderScan = true;
+  EXPECT_NEAR(ofTwo.offset().value_or(0), -2, 0.06) << "the time of a reading is that of its last scan";
+  upsideDown.change = [](CObservation2DRangeScan& scan) {
     scan.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI);
     for (size_t i = 0, k = scan.getScanSize() - 1; i < k; ++i, --k) {
       const float range = scan.getScanRange(i);
@@ -87,32 +95,38 @@ TEST(OdometryTimeOffset, IsThatOfALaserUpsideDown) {
       scan.setScanRange(k, range);
     }
   };
-  EXPECT_NEAR(offset([](double) { return 1; }, upsideDown).value_or(0), -1, 0.06);
+  EXPECT_NEAR(upsideDown.offset().value_or(0), -2, 0.06);
 }
 
 TEST(OdometryTimeOffset, NeedsOdometryThatTurnsLikeTheScans) {
-  const auto late = [](double) { return 1; };
-  const auto asItIs = [](CObservation2DRangeScan&) {};
-  EXPECT_FALSE(offset(late, asItIs, -1)) << "mirrored";
-  EXPECT_FALSE(offset(late, asItIs, 0)) << "no turns";
-  EXPECT_FALSE(offset([](double t) { return t < kDuration / 2 ? 1 : -1; })) << "not the same in both halves";
-  EXPECT_FALSE(offset(late, [](auto& scan) {
-    for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
-  })) << "no returns";
-  EXPECT_FALSE(offset(late, [](auto& scan) { scan.resizeScan(1); })) << "a single beam";
-  EXPECT_FALSE(offset(late, [](auto& scan) { scan.aperture = 1e-25F; })) << "all beams in one direction";
+  Drive mirrored(1), straight(1), changing(1);
+  mirrored.turned = -1;
+  EXPECT_FALSE(mirrored.offset());
+  straight.turned = 0;
+  EXPECT_FALSE(straight.offset());
+  changing.late = [](double t) { return t < kDuration / 2 ? 1 : -1; };
+  EXPECT_FALSE(changing.offset()) << "not the same in both halves";
 }
 
 TEST(OdometryTimeOffset, NeedsTurns) {
-  OdometryTimeOffset none, standing;
-  EXPECT_FALSE(none.seconds());
-  for (int i = 0; i < 1000; ++i) {
-    readings::Reading reading;
-    reading.timestamp = kPeriod * i;
-    reading.scans = {test::scan(reading.timestamp)};
-    standing.add(reading);
-  }
-  EXPECT_FALSE(standing.seconds());
+  EXPECT_FALSE(OdometryTimeOffset().seconds());
+  Drive brief(1), slow(1);
+  brief.duration = 15;
+  EXPECT_FALSE(brief.offset()) << "75 scans";
+  slow.speed = 0.05;
+  EXPECT_FALSE(slow.offset()) << "90 deg in all";
+}
+
+TEST(OdometryTimeOffset, NeedsScans) {
+  Drive blind(1), ofOneBeam(1), narrow(1);
+  blind.change = [](CObservation2DRangeScan& scan) {
+    for (size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRangeValidity(i, false);
+  };
+  EXPECT_FALSE(blind.offset());
+  ofOneBeam.change = [](CObservation2DRangeScan& scan) { scan.resizeScan(1); };
+  EXPECT_FALSE(ofOneBeam.offset());
+  narrow.change = [](CObservation2DRangeScan& scan) { scan.aperture = 1e-25F; };
+  EXPECT_FALSE(narrow.offset()) << "all beams in one direction";
 }
 
 }  // namespace
