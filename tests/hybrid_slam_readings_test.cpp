@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "HybridSlamProgram.h"
+#include "base/Degree.h"
+#include "base/RandomStream.h"
 #include "files/Trajectory.h"
 
 namespace hybrid_slam {
@@ -41,6 +43,33 @@ TEST_F(HybridSlamReadings, InvalidReadingsAreIgnoredBeamByBeam) {
     expectDone(replay(unmarked, "-m " + method));
     EXPECT_EQ(result("trajectory.tum"), expected);
   }
+}
+
+TEST_F(HybridSlamReadings, TheOdometryMayHaveAnotherClock) {
+  const auto turning = [](double late) {
+    RandomStream random(1, 0, 0);
+    test::Log log;
+    test::TPose2D pose;
+    double turn = 0;
+    for (int i = 0; i < 300; ++i) {
+      const double time = 1000 + 0.2 * i;
+      if (i % 10 == 0) turn = 6 * kDegree * (2 * random.uniform() - 1);
+      pose = {std::sin(0.5 * time), 0.5 * std::cos(0.5 * time), pose.phi + turn};
+      log.push_back(test::odometry(time + late, pose));
+      log.push_back(test::scan(time, pose));
+      log.push_back(test::scan(time + 0.05, pose, 91, "SECOND"));
+    }
+    return log;
+  };
+  expectDone(replay(turning(0)));
+  const auto right = files::loadTum(output + "/trajectory.tum");
+  EXPECT_THAT(result("config.ini"), HasSubstr("odometry_time_offset = 0\n"));
+  expectDone(replay(turning(1)));
+  EXPECT_THAT(result("config.ini"), HasSubstr("odometry_time_offset = -1\n"));
+  const auto found = files::loadTum(output + "/trajectory.tum");
+  ASSERT_EQ(found.size(), right.size());
+  for (size_t i = 0; i < found.size(); ++i)
+    EXPECT_LT((found[i].pose - right[i].pose).norm(), 0.05) << "reading " << i;
 }
 
 TEST_F(HybridSlamReadings, AllReadingsInvalid) {
