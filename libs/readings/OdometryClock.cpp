@@ -47,7 +47,7 @@ std::vector<CObservation::Ptr> OdometryClock::take(const CObservation::Ptr& obse
     // Times of text logs may begin at zero, and negative ones would overflow.
     current->timestamp = mrpt::Clock::fromDouble(std::max(stamp + offset_, 0.0));
   }
-  const bool isLate = offset_ < 0;  // the odometry: scans are held
+  const bool isLate = offset_ < 0;  // scans wait for late odometry, early odometry waits for scans
   if (isLate == static_cast<bool>(odometry)) {
     release(timeOrEarliest(*current), !odometry, released);  // at equal times odometry is first
     released.push_back(current);

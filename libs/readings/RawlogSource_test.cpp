@@ -64,52 +64,6 @@ TEST(RawlogSource, ScansLongBeforeTheFirstOdometryAreCounted) {
   EXPECT_EQ(replayed(log).summary.early.count, 0u) << "no odometry at all";
 }
 
-/// Its odometry is stamped 3 s late, so that 30 scans come before the first reading.
-TEST(RawlogSource, WithATimeOffsetFewerScansAreEarly) {
-  test::Log log;
-  for (int i = 0; i < 130; ++i) {
-    const double time = 1000 + 0.1 * i;
-    if (i >= 30) log.push_back(test::odometry(time, {0.1 * (i - 30), 0, 0}));
-    log.push_back(scan(time, {}, 3));
-  }
-  InputOptions options;
-  const Replayed without = replayed(log, options);
-  EXPECT_EQ(without.summary.early.count, 25u);
-  options.odometryTimeOffset = -3;
-  const Replayed r = replayed(log, options);  // expects as many readings as `scans` says
-  EXPECT_EQ(r.summary.scans, 130u);
-  EXPECT_NEAR(r.x[20], 2, 1e-6);
-
-  RawlogSummary adapted = without.summary;
-  const files::TemporaryFolder folder;
-  adapted.adapt(test::writeGzipped(folder.path("log.rawlog"), log), options);
-  EXPECT_EQ(adapted.scans, 130u);
-  EXPECT_EQ(adapted.early.count, 0u);
-}
-
-TEST(RawlogSource, WithATimeOffsetTheScansOfTwoLasersFormTheSameReadings) {
-  test::Log log;
-  for (int i = 0; i < 60; ++i) {
-    const double time = 1000 + 0.1 * i;
-    log.push_back(test::odometry(time, {0.1 * i, 0, 0}));
-    if (i > 3) log.push_back(scan(time + 0.02, {}, 3, "FRONT"));
-    log.push_back(i == 20 ? scan(test::kNoTime, {}, 3, "REAR") : scan(time + 0.05, {}, 3, "REAR"));
-  }
-  InputOptions options;
-  const Replayed without = replayed(log);
-  for (const double offset : {-2.0, -0.05, 0.05, 2.0}) {
-    options.odometryTimeOffset = offset;
-    const Replayed r = replayed(log, options);  // expects as many readings as `scans` says
-    EXPECT_EQ(r.summary.scans + r.summary.early.count, without.summary.scans);
-    RawlogSummary adapted = without.summary;
-    const files::TemporaryFolder folder;
-    adapted.adapt(test::writeGzipped(folder.path("log.rawlog"), log), options);
-    EXPECT_EQ(adapted.scans, r.summary.scans);
-    EXPECT_EQ(adapted.early.count, r.summary.early.count);
-    EXPECT_EQ(adapted.early.first, 2u) << "the first scan";
-  }
-}
-
 TEST(RawlogSource, OdometryIsInterpolatedAtTheScansOwnTime) {
   const test::Log log{test::odometry(10, {0, 0, 0}),
                       scan(10),

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 
 #include "base/BeamFan.h"
 #include "base/Degree.h"
@@ -86,13 +84,13 @@ void OdometryTimeOffset::add(const readings::Reading& reading) {
   if (!times_.empty() && reading.timestamp <= times_.back()) return;
   times_.push_back(reading.timestamp);
   headings_.push_back(heading_);
-  const bool isSoon = reading.timestamp - last_.timestamp < kShortestPause;
-  if (reading.scans.empty() || turns_.size() >= kMostPairs || (isSoon && !last_.scans.empty())) return;
-  const bool isNext = reading.timestamp - last_.timestamp <= kLongestPause;
-  if (isNext && !last_.scans.empty() && areAlike(*last_.scans.back(), *reading.scans.back()))
-    turns_.push_back(
-        {last_.timestamp, reading.timestamp, turnBetween(*last_.scans.back(), *reading.scans.back())});
-  last_ = reading;
+  if (reading.scans.empty() || turns_.size() >= kMostPairs) return;
+  const auto& scan = reading.scans.back();
+  const double pause = reading.timestamp - lastTime_;
+  if (lastScan_ && pause < kShortestPause) return;
+  if (lastScan_ && pause <= kLongestPause && areAlike(*lastScan_, *scan))
+    turns_.push_back({lastTime_, reading.timestamp, turnBetween(*lastScan_, *scan)});
+  lastScan_ = scan, lastTime_ = reading.timestamp;
 }
 
 double OdometryTimeOffset::headingAt(double time) const {
@@ -126,8 +124,8 @@ std::optional<double> OdometryTimeOffset::seconds() const {
   if (turns_.size() < kFewestPairs || turned < kLeastTurned) return std::nullopt;
   const std::vector<double> first = misfits(0, turns_.size() / 2);
   const std::vector<double> second = misfits(turns_.size() / 2, turns_.size());
-  std::vector<double> both;
-  std::transform(first.begin(), first.end(), second.begin(), std::back_inserter(both), std::plus<>());
+  std::vector<double> both = first;
+  for (size_t k = 0; k < both.size(); ++k) both[k] += second[k];
   const double offset = bestOffset(both), least = *std::min_element(both.begin(), both.end());
   const double none = both[static_cast<size_t>(std::lround(kLargestOffset / kOffsetStep))];
   const bool isClear = least < kBetterThanNone * none && least < kBetterThanNoTurns * noTurns;

@@ -31,7 +31,8 @@ class OdometryTimeOffset {
 
   std::vector<double> times_, headings_;  ///< of the readings, by time
   double heading_ = 0;                    ///< of the last reading
-  readings::Reading last_;
+  Scans::value_type lastScan_;
+  double lastTime_ = 0;      ///< s
   std::vector<Turn> turns_;  ///< between neighbouring scans
 };
 
