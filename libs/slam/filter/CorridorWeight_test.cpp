@@ -27,5 +27,14 @@ TEST(CorridorWeight, KeepsTheLengthOfACorridor) {
   EXPECT_LT(endWith(c), weighted - 0.5);
 }
 
+// Without lines, the heading in a corridor depends on the beams.
+TEST(CorridorWeight, NeedsLines) {
+  FilterConfiguration c;
+  c.useLines = false;
+  const double end = endWith(c);
+  c.improved.corridorWeight = 1;
+  EXPECT_EQ(endWith(c), end);
+}
+
 }  // namespace
 }  // namespace hybrid_slam

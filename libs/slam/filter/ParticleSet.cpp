@@ -38,7 +38,7 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       grid_(c.grid),
       exponent_(c.useGrid ? c.gridWeight.exponent : c.lineMap.exponent),
       improvedExponent_(c.improved.exponent),
-      corridorWeight_(c.improved.corridorWeight),
+      corridorWeight_(c.useLines ? c.improved.corridorWeight : 1),
       association_(c.association),
       database_(c.databaseOptions()),
       features_(c.features),
@@ -178,7 +178,8 @@ void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedSca
 }
 
 // In a corridor, a scan fits better a little behind its true pose: walls are mapped best where most scans
-// have seen them. Where walls across the corridor determine the pose, that is insignificant.
+// have seen them. Where walls across the corridor determine the pose, that is insignificant. Without lines,
+// all beams are needed for the heading.
 double ParticleSet::scanWeight(const PreparedScan& scan, const TPose2D& pose) const {
   constexpr double kDetermined = 0.2;  // degeneracy; most scans in furnished rooms exceed it
   if (corridorWeight_ == 1) return 1;
