@@ -55,8 +55,7 @@ ImprovedProposal::ImprovedProposal(const ImprovedProposalOptions& options, const
     : options_(options), motion_(motion), terms_(terms), matcher_(matcher), sigma_(matcher.sigma) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
-                                   const PreparedScan& scan, RandomStream& random,
-                                   double scanWeight) const {
+                                   const PreparedScan& scan, RandomStream& random, double scanWeight) const {
   const MotionDistribution motion = motionAfter(particle, stepMotion, motion_, options_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const TPose2D start = particle.path.back() + stepMotion.start;
