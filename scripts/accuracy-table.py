@@ -34,6 +34,7 @@ VARIANTS = {
     "sixty": "60 particles",
     "no-learning": "odometry not learned",
     "no-refining": "no refinement",
+    "features": "with features",
 }
 # Mean translation errors (m): scan matching, GMapping and graph mapping from Kuemmerle et al. 2009, Cartographer from
 # Hess et al. 2016.

@@ -15,7 +15,7 @@ bin=$PWD/build/release/bin
 source scripts/worlds.sh
 public="intel-lab csail fr079 mit-killian dpslam-loop5 intel-lab-scans csail-scans"
 read -ra logs <<<"${LOGS:-$public csie csie-30 csie-80 csie-170 csie-mixed csie-jumps}"
-read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting sixty no-learning no-refining}"
+read -ra variants <<<"${VARIANTS:-default no-lines no-closing no-adapting sixty no-learning no-refining features}"
 
 mkdir -p "$out/logs"
 out=$(realpath "$out")
@@ -43,6 +43,7 @@ options() {
     sixty) echo "-n 60" ;;
     no-learning) printf -- "--set motion_model.%s_mean_std=0 " distance drift turn ;;
     no-refining) echo "--set run.refine=0" ;;
+    features) echo "--set features.enabled=true" ;;
     *) echo "error: unknown variant $1" >&2 && exit 2 ;;
   esac
 }

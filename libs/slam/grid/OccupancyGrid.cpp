@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/grid/RaySamples.h"
+#include "slam/grid/WallGaps.h"
 
 namespace hybrid_slam {
 namespace {
@@ -19,23 +20,23 @@ class Footprint {
  public:
   static constexpr uint8_t kHit = 255;
 
-  Footprint(const ScanBeams& scan, const GridPose& pose, double cellSize) : counts_(buffer()) {
+  Footprint(const ScanBeams& scan, const GridPose& pose, double cellSize, double wallGap)
+      : counts_(buffer()) {
     const double perMetre = 1 / cellSize;
-    thread_local std::vector<CellIndex> ends;
+    thread_local std::vector<mrpt::math::TPoint2D> ends;  // in cells
     ends.clear();
     CellIndex low{floorOf(pose.origins[0].x), floorOf(pose.origins[0].y)};
     CellIndex high = low;
-    const auto extend = [&](const CellIndex& cell) {
+    const auto extend = [&](const mrpt::math::TPoint2D& point) {
+      const CellIndex cell = cellAt(point);
       low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
       high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
     };
-    for (size_t i = 1; i < scan.origins.size(); ++i)
-      extend({floorOf(pose.origins[i].x), floorOf(pose.origins[i].y)});
+    for (size_t i = 1; i < scan.origins.size(); ++i) extend({pose.origins[i].x, pose.origins[i].y});
     for (const auto& ray : scan.rays) {
       const double range = ray.range * perMetre;
       const auto& origin = pose.origin(ray);
-      ends.push_back(
-          {floorOf(origin.x + range * pose.dirX(ray)), floorOf(origin.y + range * pose.dirY(ray))});
+      ends.emplace_back(origin.x + range * pose.dirX(ray), origin.y + range * pose.dirY(ray));
       extend(ends.back());
     }
     // One cell more on each side: rounding may move an end point across a border.
@@ -51,7 +52,9 @@ class Footprint {
                            pose.dirY(ray), ray.range * perMetre);
     };
     scan.rays.size() < kHit ? crossAll(std::false_type()) : crossAll(std::true_type());
-    for (const CellIndex& end : ends) at(end.x, end.y) = kHit;
+    for (const auto& end : ends) hit(end);
+    if (wallGap == 0) return;
+    for (const size_t i : wallGaps(scan, wallGap)) hitBetween(ends[i], ends[i + 1]);
   }
 
   CellIndex firstTile() const { return first_; }
@@ -93,7 +96,17 @@ class Footprint {
     if (kMayOverflow && count >= kHit - 1) return;  // enough to reach any floor
     count = static_cast<uint8_t>(count + crossings);
   }
-  uint8_t& at(int x, int y) { return counts_[index(x, y)]; }
+  static CellIndex cellAt(const mrpt::math::TPoint2D& point) { return {floorOf(point.x), floorOf(point.y)}; }
+  void hit(const mrpt::math::TPoint2D& point) {
+    const CellIndex cell = cellAt(point);
+    counts_[index(cell.x, cell.y)] = kHit;
+  }
+  /// Hits points half a cell apart.
+  void hitBetween(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to) {
+    const mrpt::math::TPoint2D way = to - from;
+    const int steps = static_cast<int>(std::ceil(2 * way.norm()));
+    for (int k = 1; k < steps; ++k) hit(from + way * (static_cast<double>(k) / steps));
+  }
   size_t index(int x, int y) const {
     return static_cast<size_t>(y - first_.y * Tile::kSize) * width_ +
            static_cast<size_t>(x - first_.x * Tile::kSize);
@@ -152,6 +165,10 @@ void GridOptions::describe(OptionTable& t) {
   t.add("p_min", pMin, 0.001, 0.49, "",
         "minimum occupancy of a cell; bounded so that the map can still change");
   t.add("p_max", pMax, 0.51, 0.999, "", "maximum occupancy of a cell");
+  t.add("wall_gap", wallGap, 0, 10, "m",
+        "a straight wall between the returns of neighbouring beams counts as hit up to this length; 0: only "
+        "the "
+        "cells of the returns, as in the paper");
 }
 
 GridOptions decisive(GridOptions options) {
@@ -174,7 +191,7 @@ CellIndex OccupancyGrid::cellOf(double x, double y) const {
 void OccupancyGrid::insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot,
                            const GridOptions& options) {
   const Steps steps(options);
-  const Footprint footprint(scan, GridPose(robot, scan, resolution_), resolution_);
+  const Footprint footprint(scan, GridPose(robot, scan, resolution_), resolution_, options.wallGap);
   const CellIndex first = footprint.firstTile(), last = footprint.lastTile();
   for (int ty = first.y; ty <= last.y; ++ty)
     for (int tx = first.x; tx <= last.x; ++tx) {

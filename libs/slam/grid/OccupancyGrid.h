@@ -18,6 +18,7 @@ struct GridOptions : Options {
   double maxRange = 20;      ///< m
   double pHit = 0.6, pMiss = 0.49;
   double pMin = 0.03, pMax = 0.97;
+  double wallGap = 1;  ///< m
   void describe(OptionTable& table) override;
 };
 
@@ -49,6 +50,10 @@ class OccupancyGrid {
   /// Map estimation (Sec. III-A, step 4): each cell with a beam end point gets one hit per scan, every other
   /// crossed cell a miss. A hit overrides the misses of its scan, so that neighbouring beams do not erase a
   /// wall seen at a grazing angle.
+  ///
+  /// The cells of a straight wall between the end points of neighbouring beams (see wallGaps) also get a hit.
+  /// Otherwise the next scan would fit best where its beams hit the cells of the scans before: that pattern
+  /// moves with the robot, so corridors would become too short.
   void insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const GridOptions& options);
 
   /// Limits every probability, so that later scans can change it.

@@ -59,6 +59,7 @@ void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double dista
   if (!isInReach(pose)) return;
   GridOptions options;
   options.resolution = kResolution;
+  options.wallGap = 0;  // what the scans have measured
   for (; !waiting_.empty() && waiting_.front().distance < distance - delay_; waiting_.pop_front())
     grid_.insert(waiting_.front().beams, waiting_.front().pose, options);
 
