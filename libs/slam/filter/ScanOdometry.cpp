@@ -83,7 +83,9 @@ void ScanOdometry::addKeyframe(const ScanBeams& beams) {
 
 void ScanOdometry::makeMap() {
   map_ = OccupancyGrid(grid_.resolution);
-  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, grid_);
+  GridOptions options = grid_;
+  options.wallGap = 0;  // as in PathScans: a match must not slide along the walls
+  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, options);
 }
 
 }  // namespace hybrid_slam
