@@ -13,7 +13,6 @@
 #include <thread>
 
 #include "base/Errors.h"
-#include "base/RandomStream.h"
 #include "readings/SweepTimes.h"
 #include "testing/LiveRunTest.h"
 
@@ -201,20 +200,9 @@ TEST_F(LiveRunTest, TellsWhenTheMapIsLost) {
   EXPECT_GT(events.count("map: verdict: lost: "), 0u) << events.text();
 }
 
-/// Adds noise of 1 cm to all ranges. The walls lie on borders of cells, where scans without noise contradict
-/// the map by rounding.
-test::Log withNoise(const test::Log& log) {
-  RandomStream random(1, 0, 0);
-  for (const auto& entry : log)
-    if (const auto scan = std::dynamic_pointer_cast<test::CObservation2DRangeScan>(entry))
-      for (size_t i = 0; i < scan->getScanSize(); ++i)
-        scan->setScanRange(i, scan->getScanRange(i) + static_cast<float>(0.01 * random.gaussian()));
-  return log;
-}
-
 TEST_F(LiveRunTest, SaysNothingOfAGoodMap) {
   options.maxWaiting = 1000, stateInterval = 0;
-  runLive(withNoise(test::laps(240)));
+  runLive(test::laps(240));
   EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["verdict"], "consistent");
   EXPECT_EQ(events.count("map: verdict"), 0u) << events.text();
 }

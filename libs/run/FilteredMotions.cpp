@@ -43,8 +43,8 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   const std::string& file = configuration.run.rawlog;
   readings::RawlogSource source(file, configuration.input, log);
   FilterConfiguration filter = configuration.filter;
-  filter.improved.exponent = 1;                                // EM is about the likelihood itself
-  const auto hybrid = std::make_unique<HybridFilter>(filter);  // large for a stack
+  filter.improved.exponent = filter.improved.corridorWeight = 1;  // EM is about the likelihood itself
+  const auto hybrid = std::make_unique<HybridFilter>(filter);     // large for a stack
 
   Expectation expectation;
   size_t scans = 0, updates = 0;

@@ -25,6 +25,8 @@ TEST(CorridorLength, WallsBetweenBeamsKeepIt) {
   double filled = 0, hitsAlone = 0;
   for (int i = 0; i < kWidths; ++i) {
     FilterConfiguration c;
+    c.improved.corridorWeight = 1;
+    c.grid.wallGap = 1;
     const double width = 2.4 + 0.15 * i;
     filled += endOfDrive(c, width) / kWidths;
     c.grid.wallGap = 0;

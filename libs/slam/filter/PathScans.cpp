@@ -23,11 +23,8 @@ size_t PathScans::firstFrom(double distance) const {
 }
 
 void PathScans::insert(size_t i, const TPose2D& pose, OccupancyGrid& map) const {
-  GridOptions options = configuration_.grid;
-  // Between two parts of a path, a match must not slide along the walls: with gaps filled, a jump along a
-  // corridor stays.
-  options.wallGap = 0;
-  map.insert(ScanBeams(toLaserScans(scans_[i], configuration_.grid.maxRange)), pose, options);
+  map.insert(ScanBeams(toLaserScans(scans_[i], configuration_.grid.maxRange)), pose,
+             hitsAlone(configuration_.grid));
 }
 
 ScanBeams PathScans::beams(size_t i) const {

@@ -83,9 +83,7 @@ void ScanOdometry::addKeyframe(const ScanBeams& beams) {
 
 void ScanOdometry::makeMap() {
   map_ = OccupancyGrid(grid_.resolution);
-  GridOptions options = grid_;
-  options.wallGap = 0;  // as in PathScans: a match must not slide along the walls
-  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, options);
+  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, hitsAlone(grid_));
 }
 
 }  // namespace hybrid_slam

@@ -167,13 +167,17 @@ void GridOptions::describe(OptionTable& t) {
   t.add("p_max", pMax, 0.51, 0.999, "", "maximum occupancy of a cell");
   t.add("wall_gap", wallGap, 0, 10, "m",
         "a straight wall between the returns of neighbouring beams counts as hit up to this length; 0: only "
-        "the "
-        "cells of the returns, as in the paper");
+        "the cells of the returns");
 }
 
 GridOptions decisive(GridOptions options) {
   options.pHit = 0.9;
   options.pMiss = 0.4;
+  return options;
+}
+
+GridOptions hitsAlone(GridOptions options) {
+  options.wallGap = 0;
   return options;
 }
 

@@ -18,13 +18,17 @@ struct GridOptions : Options {
   double maxRange = 20;      ///< m
   double pHit = 0.6, pMiss = 0.49;
   double pMin = 0.03, pMax = 0.97;
-  double wallGap = 1;  ///< m
+  double wallGap = 0;  ///< m
   void describe(OptionTable& table) override;
 };
 
 /// Returns options with larger update steps: a map of a few scans must show walls and free space as clearly
 /// as the map of many.
 GridOptions decisive(GridOptions options);
+
+/// Returns options without wall gaps. A match to a map of a few scans must not slide along filled walls, and
+/// what contradicts a map must have been measured.
+GridOptions hitsAlone(GridOptions options);
 
 /// An unbounded occupancy grid; copying costs a few pointers (see TileGrid).
 class OccupancyGrid {
@@ -51,9 +55,9 @@ class OccupancyGrid {
   /// crossed cell a miss. A hit overrides the misses of its scan, so that neighbouring beams do not erase a
   /// wall seen at a grazing angle.
   ///
-  /// The cells of a straight wall between the end points of neighbouring beams (see wallGaps) also get a hit.
-  /// Otherwise the next scan would fit best where its beams hit the cells of the scans before: that pattern
-  /// moves with the robot, so corridors would become too short.
+  /// With `wallGap`, the cells of a straight wall between the end points of neighbouring beams (see wallGaps)
+  /// also get a hit. Without, the next scan fits best where its beams hit the cells of the scans before: that
+  /// pattern moves with the robot, so corridors become too short.
   void insert(const ScanBeams& scan, const mrpt::math::TPose2D& robot, const GridOptions& options);
 
   /// Limits every probability, so that later scans can change it.
