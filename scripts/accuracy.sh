@@ -3,7 +3,7 @@
 # README.md, which scripts/accuracy-table.py prints.
 #   HYBRID_SLAM_DATASETS=FOLDER scripts/accuracy.sh [OUT]     OUT defaults to out/accuracy
 # SEEDS=10 runs from FIRST_SEED=1 on of each log and variant, JOBS at a time (all cores). A seed of everything takes about
-# 11 minutes of one core. LOGS and VARIANTS select some; LOGS=mit-killian-short is Killian Court with 2 cm taken off all
+# 16 minutes of one core. LOGS and VARIANTS select some; LOGS=mit-killian-short is Killian Court with 2 cm taken off all
 # ranges. The variants of a log and seed run one after the other, so that their times can be compared. Resumes after an
 # interruption.
 source "$(dirname "$0")/lib.sh"
