@@ -1,4 +1,5 @@
-// A plain corridor shows nothing of the position along it.
+// A plain corridor shows nothing of the position along it. Beams 1 deg apart leave gaps in the walls ahead,
+// and a scan fits best where its beams hit the cells of the scans before, a little behind its true pose.
 #include <gtest/gtest.h>
 
 #include "slam/filter/HybridFilter.h"
@@ -10,24 +11,39 @@ namespace {
 using namespace test;
 
 /// Returns the end, along x, of the path that the filter finds for a drive of 60 m along a plain corridor of
-/// this width, with exact odometry.
-double endOfDrive(const FilterConfiguration& configuration, double width) {
+/// this width (m), with exact odometry.
+double endOfDrive(const FilterConfiguration& configuration, double width = 2.4) {
   HybridFilter filter(configuration);
   for (const DrivenPose& step : driveAlong(box(-30, -width / 2, 130, width / 2), {{0, 0}, {60, 0}}, 0))
     filter.process(step.motion, observed(step.scans[0]));
   return filter.bestPath().back().x;
 }
 
-// Beams 1 deg apart leave gaps in the walls ahead. If only the cells of the returns are occupied, a scan fits
-// best where its beams hit the cells of the scans before.
+TEST(CorridorLength, LessWeightOfTheBeamsKeepsIt) {
+  FilterConfiguration c;
+  const double weighted = endOfDrive(c);
+  EXPECT_GT(weighted, 58.5);
+  c.improved.corridorWeight = 1;
+  EXPECT_LT(endOfDrive(c), weighted - 0.5);
+}
+
+// Without lines, the heading in a corridor depends on the beams.
+TEST(CorridorLength, LessWeightNeedsLines) {
+  FilterConfiguration c;
+  c.useLines = false;
+  const double end = endOfDrive(c);
+  c.improved.corridorWeight = 1;
+  EXPECT_EQ(endOfDrive(c), end);
+}
+
 TEST(CorridorLength, WallsBetweenBeamsKeepIt) {
   constexpr int kWidths = 5;
   double filled = 0, hitsAlone = 0;
+  FilterConfiguration c;
+  c.improved.corridorWeight = 1;
   for (int i = 0; i < kWidths; ++i) {
-    FilterConfiguration c;
-    c.improved.corridorWeight = 1;
-    c.grid.wallGap = 1;
     const double width = 2.4 + 0.15 * i;
+    c.grid.wallGap = 1;
     filled += endOfDrive(c, width) / kWidths;
     c.grid.wallGap = 0;
     hitsAlone += endOfDrive(c, width) / kWidths;

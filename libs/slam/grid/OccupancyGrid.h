@@ -26,8 +26,7 @@ struct GridOptions : Options {
 /// as the map of many.
 GridOptions decisive(GridOptions options);
 
-/// Returns options without wall gaps. A match to a map of a few scans must not slide along filled walls, and
-/// what contradicts a map must have been measured.
+/// Returns options without wall gaps: a match to a map of a few scans must not slide along filled walls.
 GridOptions hitsAlone(GridOptions options);
 
 /// An unbounded occupancy grid; copying costs a few pointers (see TileGrid).

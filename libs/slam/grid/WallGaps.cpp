@@ -11,10 +11,10 @@ namespace {
 
 double cross(const TPoint2D& a, const TPoint2D& b) { return a.x * b.y - a.y * b.x; }
 
-/// The sine of the angle between the beams i and i + 1; 0 between two lasers.
+/// The sine of the angle between the beams i and i + 1.
 double sineToNext(const ScanBeams& scan, size_t i) {
   const auto &a = scan.rays[i], &b = scan.rays[i + 1];
-  return a.laser == b.laser ? std::abs(cross({a.dirX, a.dirY}, {b.dirX, b.dirY})) : 0;
+  return std::abs(cross({a.dirX, a.dirY}, {b.dirX, b.dirY}));
 }
 
 }  // namespace
@@ -26,6 +26,7 @@ std::vector<size_t> wallGaps(const ScanBeams& scan, double longest) {
   const std::vector<TPoint2D> ends = scan.endPoints();
   std::vector<size_t> gaps;
   for (size_t i = 1; i + 2 < ends.size(); ++i) {
+    if (scan.rays[i - 1].laser != scan.rays[i + 2].laser) continue;
     const TPoint2D &before = ends[i - 1], &from = ends[i], &to = ends[i + 1], &after = ends[i + 2];
     const double length = (to - from).norm(), across = (after - before).norm();
     if (length > longest || across > (1 + 2 * kBeside) * length) continue;
