@@ -128,7 +128,7 @@ TEST_F(HybridSlamReadings, AnotherNumberOfBeamsInMidLog) {
     log[2 * i + 1] = test::scan(1000 + 0.2 * static_cast<double>(i), test::poseOnLap(i, 80), 361);
   for (const std::string method : {"hybrid", "general", "linemap", "ortho", "stock"}) {
     SCOPED_TRACE(method);
-    expectDone(replay(log, "-m " + method));
+    expectDone(replay(log, "-n 20 -m " + method));
     const files::Trajectory trajectory = files::loadTum(output + "/trajectory.tum");
     ASSERT_EQ(trajectory.size(), 40u);
     const auto truth = test::poseOnLap(39, 80) - test::poseOnLap(0, 80);

@@ -15,6 +15,7 @@
 #include "base/Errors.h"
 #include "readings/SweepTimes.h"
 #include "testing/LiveRunTest.h"
+#include "testing/NoisyLog.h"
 
 namespace hybrid_slam::live {
 namespace {
@@ -202,7 +203,9 @@ TEST_F(LiveRunTest, TellsWhenTheMapIsLost) {
 
 TEST_F(LiveRunTest, SaysNothingOfAGoodMap) {
   options.maxWaiting = 1000, stateInterval = 0;
-  runLive(test::laps(240));
+  const test::Log log = test::laps(240);
+  test::addNoise(log);
+  runLive(log);
   EXPECT_EQ(nlohmann::json::parse(result("live/metrics.json"))["verdict"], "consistent");
   EXPECT_EQ(events.count("map: verdict"), 0u) << events.text();
 }

@@ -43,8 +43,10 @@ Expectation filteredMotions(const Configuration& configuration, const readings::
   const std::string& file = configuration.run.rawlog;
   readings::RawlogSource source(file, configuration.input, log);
   FilterConfiguration filter = configuration.filter;
-  filter.improved.exponent = filter.improved.corridorWeight = 1;  // EM is about the likelihood itself
-  const auto hybrid = std::make_unique<HybridFilter>(filter);     // large for a stack
+  filter.improved.exponent = 1;  // EM is about the likelihood itself
+  // With walls between hits, the likelihood varies more from run to run than from model to model.
+  filter.grid = hitsAlone(filter.grid);
+  const auto hybrid = std::make_unique<HybridFilter>(filter);  // large for a stack
 
   Expectation expectation;
   size_t scans = 0, updates = 0;

@@ -234,9 +234,6 @@ LogSettings readLogSettings(const std::string& file, const readings::InputOption
   }
   found.settings = cellSize(ranges, spacings);
   for (const LogSetting& setting : updates(std::move(steps))) found.settings.push_back(setting);
-  if (!log.hasMotion)
-    found.settings.push_back(
-        {"improved_proposal", "corridor_weight", "1", "no odometry measures the position along a corridor"});
   if (!log.hasMotion && log.hasTurns)
     found.settings.push_back({"input", "heading_odometry", "true",
                               "the odometry's position never changes: scan matching gives it"});

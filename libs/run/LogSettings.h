@@ -37,7 +37,6 @@ struct LogSettings {
 /// - `line_weight.sigma_deg`: 0.5 where ranges are logged in steps of 1 cm, else 0.4.
 /// - `improved_proposal.update_distance`, `update_angle_deg`: every scan of a moving robot if scans are
 ///   sparse and overlap little; else 0.1 m and 5 deg.
-/// - `improved_proposal.corridor_weight`: 1 (off) where the odometry's position is missing or never changes.
 /// - `input.require_odometry`: false where odometry is missing or never changes.
 /// - `input.min_range`: 5 cm above the ranges at the robot's own parts, where beams end at them (RobotParts).
 /// - `input.laser_pose`: the heading of the only laser, where the log gives it no place on the robot and the

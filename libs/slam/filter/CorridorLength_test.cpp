@@ -12,35 +12,17 @@ using namespace test;
 
 /// Returns the end, along x, of the path that the filter finds for a drive of 60 m along a plain corridor of
 /// this width (m), with exact odometry.
-double endOfDrive(const FilterConfiguration& configuration, double width = 2.4) {
+double endOfDrive(const FilterConfiguration& configuration, double width) {
   HybridFilter filter(configuration);
   for (const DrivenPose& step : driveAlong(box(-30, -width / 2, 130, width / 2), {{0, 0}, {60, 0}}, 0))
     filter.process(step.motion, observed(step.scans[0]));
   return filter.bestPath().back().x;
 }
 
-TEST(CorridorLength, LessWeightOfTheBeamsKeepsIt) {
-  FilterConfiguration c;
-  const double weighted = endOfDrive(c);
-  EXPECT_GT(weighted, 58.5);
-  c.improved.corridorWeight = 1;
-  EXPECT_LT(endOfDrive(c), weighted - 0.5);
-}
-
-// Without lines, the heading in a corridor depends on the beams.
-TEST(CorridorLength, LessWeightNeedsLines) {
-  FilterConfiguration c;
-  c.useLines = false;
-  const double end = endOfDrive(c);
-  c.improved.corridorWeight = 1;
-  EXPECT_EQ(endOfDrive(c), end);
-}
-
 TEST(CorridorLength, WallsBetweenBeamsKeepIt) {
   constexpr int kWidths = 5;
   double filled = 0, hitsAlone = 0;
   FilterConfiguration c;
-  c.improved.corridorWeight = 1;
   for (int i = 0; i < kWidths; ++i) {
     const double width = 2.4 + 0.15 * i;
     c.grid.wallGap = 1;

@@ -44,10 +44,6 @@ void ImprovedProposalOptions::describe(OptionTable& t) {
   t.add("exponent", exponent, 0, 1, "",
         "exponent of the scan likelihood in the particle weight; small, because beam errors are not "
         "independent");
-  t.add(
-      "corridor_weight", corridorWeight, 0.001, 1, "",
-      "least weight of the beams of a scan in its match, where it shows little along a corridor (degeneracy "
-      "in steps.csv below 0.2): there the odometry knows better; 1: off, as always without lines");
   t.add("min_fit", minFit, 0, 1, "",
         "minimum fit of a match; below it, sample from the motion model; a map of one scan fits 0.04");
   t.addAngle("line_sigma_deg", lineSigma, 0.05, 22.5,

@@ -52,7 +52,6 @@ struct ImprovedProposalOptions : Options {
   double updateAngle = mrpt::DEG2RAD(5.0);  ///< rad
   int samples = 12;
   double exponent = 0.02;
-  double corridorWeight = 0.1;
   double minFit = 0.02;
   double lineSigma = mrpt::DEG2RAD(0.1);   ///< rad
   double lineSigmaRho = 0.05;              ///< m

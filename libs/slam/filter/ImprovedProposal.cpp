@@ -52,10 +52,10 @@ Eigen::Vector3d drawnFrom(const Eigen::Matrix3d& covariance, RandomStream& rando
 
 ImprovedProposal::ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
                                    const ScanMatcherOptions& matcher, const WeightTerms& terms)
-    : options_(options), motion_(motion), terms_(terms), matcher_(matcher), sigma_(matcher.sigma) {}
+    : options_(options), motion_(motion), terms_(terms), matcher_(matcher) {}
 
 Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& stepMotion,
-                                   const PreparedScan& scan, RandomStream& random, double scanWeight) const {
+                                   const PreparedScan& scan, RandomStream& random) const {
   const MotionDistribution motion = motionAfter(particle, stepMotion, motion_, options_);
   const Eigen::Matrix3d motionInformation = motion.covariance.inverse();
   const TPose2D start = particle.path.back() + stepMotion.start;
@@ -66,7 +66,7 @@ Proposed ImprovedProposal::propose(const Particle& particle, const StepMotion& s
     density += terms(pose);
     return density;
   };
-  ScanLikelihood likelihood(scan.matchedBeams, particle.grid, sigma_ / std::sqrt(scanWeight));
+  ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, particle.grid);
   const ScanMatch match = matcher_.match(likelihood, start, prior);
 
   Proposed proposed;

@@ -32,16 +32,14 @@ class ImprovedProposal {
   ImprovedProposal(const ImprovedProposalOptions& options, const MotionModelOptions& motion,
                    const ScanMatcherOptions& matcher, const WeightTerms& terms);
 
-  /// @param scanWeight  exponent of p(scan | x, grid), in (0, 1]
   Proposed propose(const Particle& particle, const StepMotion& motion, const PreparedScan& scan,
-                   RandomStream& random, double scanWeight = 1) const;
+                   RandomStream& random) const;
 
  private:
   ImprovedProposalOptions options_;
   MotionModelOptions motion_;
   WeightTerms terms_;
   ScanMatcher matcher_;
-  double sigma_;  ///< of the matcher
 };
 
 }  // namespace hybrid_slam

@@ -107,18 +107,6 @@ TEST_P(ImprovedProposals, TheWeightIsTheIntegralOfTheTarget) {
   }
 }
 
-TEST_P(ImprovedProposals, TheScanWeightIsTheExponentOfTheLikelihood) {
-  FilterConfiguration c = matchedRoom(GetParam());
-  const Particle particle = test::particleAt(test::room(), kStart);
-  const PreparedScan scan = scanAfterwards(test::room(), kStart);
-  RandomStream a(3, 0, 0), b(3, 0, 0);
-  const Proposed weighted = proposalOf(c).propose(particle, kMotion, scan, a, 0.25);
-  c.matcher.sigma *= 2;
-  const Proposed broad = proposalOf(c).propose(particle, kMotion, scan, b);
-  EXPECT_EQ(weighted.pose, broad.pose);
-  EXPECT_EQ(weighted.logWeight, broad.logWeight);
-}
-
 /// Poses of the motion model give the same integral, so both kinds of particles are comparable.
 TEST_P(ImprovedProposals, WithoutAMatchTheWeightsMeanIsTheSameIntegral) {
   FilterConfiguration c = matchedRoom(GetParam());

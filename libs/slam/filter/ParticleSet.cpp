@@ -38,7 +38,6 @@ ParticleSet::ParticleSet(const FilterConfiguration& c, mrpt::system::CTimeLogger
       grid_(c.grid),
       exponent_(c.useGrid ? c.gridWeight.exponent : c.lineMap.exponent),
       improvedExponent_(c.improved.exponent),
-      corridorWeight_(c.useLines ? c.improved.corridorWeight : 1),
       association_(c.association),
       database_(c.databaseOptions()),
       features_(c.features),
@@ -158,11 +157,10 @@ void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedSca
   const std::vector<StepMotion> motions = slipRecovery_.motionsOf(best(), odometry, observed);
   const PreparedScan scan =
       prepare_.withoutMovedThings(observed, best().path.back() + motions[0].start, best().grid);
-  const double weight = scanWeight(scan, best().path.back() + motions[0].start);
   forEachParticle([&](size_t i, Particle& particle) {
     RandomStream random = stream(i);
     const StepMotion& motion = motions[i % motions.size()];
-    const auto proposed = improvedProposal_.propose(particle, motion, scan, random, weight);
+    const auto proposed = improvedProposal_.propose(particle, motion, scan, random);
     particle.path.push(proposed.pose);
     if (!motion.hasSlipped) particle.motion.learn(motion.odometry, particle.path.lastMotion(), motion_);
     particle.gridWeight = proposed.fit;
@@ -175,16 +173,6 @@ void ParticleSet::sampleAroundMatches(const TPose2D& odometry, const PreparedSca
   const auto matched = std::count_if(m_particles.begin(), m_particles.end(),
                                      [](const auto& particle) { return particle.d->isMatched; });
   step_.matched = static_cast<double>(matched) / static_cast<double>(m_particles.size());
-}
-
-// In a corridor, a scan fits better a little behind its true pose, where its beams hit the cells of the scans
-// before. Where walls across the corridor determine the pose, that is insignificant. Without lines, all beams
-// are needed for the heading.
-double ParticleSet::scanWeight(const PreparedScan& scan, const TPose2D& pose) const {
-  constexpr double kDetermined = 0.2;  // degeneracy; most scans in furnished rooms exceed it
-  if (corridorWeight_ == 1) return 1;
-  ScanLikelihood likelihood = matcher_.likelihood(scan.matchedBeams, best().grid);
-  return std::clamp(degeneracy(scanInformation(likelihood, pose)) / kDetermined, corridorWeight_, 1.0);
 }
 
 // MRPT's auxiliary filters, which resample as they sample.

@@ -91,9 +91,6 @@ class ParticleSet : public MrptParticles {
   };
   void sampleFromMotionModel(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   void sampleAroundMatches(const mrpt::math::TPose2D& odometry, const PreparedScan& observed);
-  /// Weight of the beams of a scan in its matches, in (0, 1]: small where it shows little along a corridor.
-  /// @param pose  where it matches the best particle's map
-  double scanWeight(const PreparedScan& scan, const mrpt::math::TPose2D& pose) const;
   void sampleByMrpt(const mrpt::math::TPose2D& odometry, const PreparedScan& scan);
   Weight weigh(const Particle& particle, const mrpt::math::TPose2D& pose, const PreparedScan& scan) const;
   void setWeight(Particle& particle, const Weight& weight) const;
@@ -110,7 +107,7 @@ class ParticleSet : public MrptParticles {
   ParticleFilterOptions filter_;
   MotionModelOptions motion_;
   GridOptions grid_;
-  double exponent_, improvedExponent_, corridorWeight_;
+  double exponent_, improvedExponent_;
   AssociationOptions association_;
   LineDatabaseOptions database_;
   FeatureOptions features_;

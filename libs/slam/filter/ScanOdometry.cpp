@@ -83,7 +83,7 @@ void ScanOdometry::addKeyframe(const ScanBeams& beams) {
 
 void ScanOdometry::makeMap() {
   map_ = OccupancyGrid(grid_.resolution);
-  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, hitsAlone(grid_));
+  for (const Keyframe& keyframe : keyframes_) map_.insert(keyframe.beams, keyframe.pose, grid_);
 }
 
 }  // namespace hybrid_slam

@@ -79,7 +79,7 @@ TPose2D StuckOdometry::matched(const Scans& scans, double timestamp) {
 
 // People who walk past a robot that stands hide the walls, but do not explain more of them elsewhere.
 bool StuckOdometry::isStandingRefuted(const Scans& scans, const TPose2D& moved) const {
-  GridOptions options = grid_;  // one scan shows walls and free space
+  GridOptions options = hitsAlone(grid_);  // one scan shows walls and free space
   options.pHit = 0.9, options.pMiss = 0.2;
   OccupancyGrid last(grid_.resolution);
   last.insert(ScanBeams(toLaserScans(lastScans_, grid_.maxRange)), TPose2D(), options);

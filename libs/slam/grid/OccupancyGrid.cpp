@@ -170,15 +170,15 @@ void GridOptions::describe(OptionTable& t) {
         "the cells of the returns");
 }
 
-GridOptions decisive(GridOptions options) {
-  options.pHit = 0.9;
-  options.pMiss = 0.4;
-  return options;
-}
-
 GridOptions hitsAlone(GridOptions options) {
   options.wallGap = 0;
   return options;
+}
+
+GridOptions decisive(GridOptions options) {
+  options.pHit = 0.9;
+  options.pMiss = 0.4;
+  return hitsAlone(options);
 }
 
 double OccupancyGrid::occupancy(CellIndex cell) const { return probabilityOf(tiles_.at(cell)); }

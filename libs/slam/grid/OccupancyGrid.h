@@ -18,16 +18,16 @@ struct GridOptions : Options {
   double maxRange = 20;      ///< m
   double pHit = 0.6, pMiss = 0.49;
   double pMin = 0.03, pMax = 0.97;
-  double wallGap = 0;  ///< m
+  double wallGap = 1;  ///< m
   void describe(OptionTable& table) override;
 };
 
-/// Returns options with larger update steps: a map of a few scans must show walls and free space as clearly
-/// as the map of many.
-GridOptions decisive(GridOptions options);
-
 /// Returns options without wall gaps: a match to a map of a few scans must not slide along filled walls.
 GridOptions hitsAlone(GridOptions options);
+
+/// Returns options without wall gaps and with larger update steps: a map of a few scans must show walls and
+/// free space as clearly as the map of many.
+GridOptions decisive(GridOptions options);
 
 /// An unbounded occupancy grid; copying costs a few pointers (see TileGrid).
 class OccupancyGrid {

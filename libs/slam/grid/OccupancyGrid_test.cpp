@@ -21,6 +21,7 @@ constexpr int kHit = 14, kMiss = -6, kHighest = 56, kLowest = -56;
 GridOptions update() {
   GridOptions options;
   options.pHit = 0.7, options.pMiss = 0.4;
+  options.wallGap = 0;
   return options;
 }
 

@@ -50,7 +50,7 @@ void expectNear(const TPose2D& pose, const TPose2D& expected, double distance, d
 /// its rounding (1e-7 of each beam, over the step) shows.
 template <class F>
 Eigen::Vector3d differences(const F& f, const TPose2D& pose) {
-  constexpr double kStep = 1e-4;
+  constexpr double kStep = 5e-5;
   Eigen::Vector3d gradient;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(k);

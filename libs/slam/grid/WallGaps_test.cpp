@@ -76,7 +76,6 @@ TEST(WallGaps, AreHitOnTheGrid) {
     scan.beams.push_back({angle, 1.22 / std::sin(angle), true});
   }
   GridOptions options;
-  options.wallGap = 1;
   const auto hits = [&] {
     OccupancyGrid grid;
     grid.insert(ScanBeams(scan), {}, options);

@@ -57,7 +57,7 @@ RevisitCheck::RevisitCheck(const OccupancyGrid& map) : delay_(INFINITY), grid_(m
 
 void RevisitCheck::add(const TPose2D& pose, const ScanBeams& beams, double distance, size_t update) {
   if (!isInReach(pose)) return;
-  GridOptions options;
+  GridOptions options = hitsAlone({});  // what the scans have measured
   options.resolution = kResolution;
   for (; !waiting_.empty() && waiting_.front().distance < distance - delay_; waiting_.pop_front())
     grid_.insert(waiting_.front().beams, waiting_.front().pose, options);

@@ -24,7 +24,7 @@ constexpr size_t kPlaces = 24;                                     // of a patch
 constexpr double kMinFit = 0.75, kMinOverlap = 0.5;                // of a patch
 constexpr double kElsewhere = 0.6, kElsewhereAngle = 5 * kDegree;  // m, rad: another place
 constexpr double kAgree = 0.4, kAgreeAngle = 3 * kDegree;          // m, rad: a patch agrees with a place
-constexpr double kMinPatchFit = 0.95;  // median of the patches that agree with a place
+constexpr double kMinPatchFit = 0.97;  // median of the patches that agree with a place
 constexpr size_t kLeastPatches = 3;
 constexpr double kLeastCompared = 20, kLeastFit = 0.75, kMostSecond = 0.8;
 
