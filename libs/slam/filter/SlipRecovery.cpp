@@ -27,7 +27,6 @@ constexpr double kExplained = 0.5;       // share of the beams that recent scans
 constexpr size_t kCarriedScans = 4;      // in succession, before the whole map is searched
 constexpr size_t kMapPlaces = 40;
 constexpr SearchWindow kPlace{0.2, mrpt::DEG2RAD(2.0)};  // how far a place of the map's search is off
-constexpr double kTurnPosition = 0.02;                   // m, std; of a robot that turned unseen
 constexpr double kRival = 3;  // ln of the ratio of posteriors between which a scan cannot decide
 constexpr size_t kHypotheses = 6;
 constexpr double kWholeStep = -9.2;  // ln 1e-4: prior of no motion or the opposite one, relative to a slip
@@ -183,34 +182,11 @@ std::vector<SlipRecovery::Hypothesis> SlipRecovery::searchWindow(
       std::log(options_.slipProbability / (8 * window.distance * window.distance * window.angle)) +
       0.5 * std::log(expected.covariance.determinant() * std::pow(2 * M_PI, 3));
   std::vector<Hypothesis> all{usual};
-  const auto add = [&](const ScanMatch& match, double slipped) {
-    const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
-    all.push_back(
-        {match, logWeight(match.pose, best, scan) + std::max(modelled, slipped), slipped > modelled});
-  };
-  const auto places = correlativeSearch(scan.matchedBeams, centre, best.grid, window, kSlipPlaces);
-  for (const TPose2D& place : places) {
+  for (const TPose2D& place : correlativeSearch(scan.matchedBeams, centre, best.grid, window, kSlipPlaces)) {
     const ScanMatch match = matcher_.match(scan.matchedBeams, place, best.grid, noPrior);
-    // Along a wall, a match may slide out of the window.
-    if ((match.pose - centre).norm() <= 2 * window.distance) add(match, slip);
-  }
-  if (window.angle < M_PI) return rivals(std::move(all));
-
-  // A turn alone, of any angle. Where a scan shows much that is new, it may overlap more with the map a
-  // little behind its true position.
-  const Eigen::Matrix2d position =
-      expected.covariance.topLeftCorner<2, 2>() + kTurnPosition * kTurnPosition * Eigen::Matrix2d::Identity();
-  const double turn = std::log(options_.slipProbability / (2 * M_PI)) +
-                      0.5 * std::log(2 * M_PI * expected.covariance.determinant() / position.determinant());
-  Eigen::Matrix3d anyHeading = Eigen::Matrix3d::Zero();
-  anyHeading.topLeftCorner<2, 2>() = position.inverse();
-  const auto turned = [&](const TPose2D& pose) {
-    return gaussianLogDensity(pose, expected.mean, anyHeading);
-  };
-  for (const TPose2D& place : places) {
-    const TPose2D start(expected.mean.x, expected.mean.y, place.phi);
-    const ScanMatch match = matcher_.match(scan.matchedBeams, start, best.grid, turned);
-    add(match, std::max(slip, turn + turned(match.pose).value));
+    if ((match.pose - centre).norm() > 2 * window.distance) continue;  // slid along a wall
+    const double modelled = gaussianLogDensity(match.pose, expected.mean, information).value;
+    all.push_back({match, logWeight(match.pose, best, scan) + std::max(modelled, slip), slip > modelled});
   }
   return rivals(std::move(all));
 }

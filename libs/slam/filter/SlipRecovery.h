@@ -40,8 +40,7 @@ struct StepMotion {
 /// map is searched, since a robot that was carried is elsewhere.
 ///
 /// The motion is a mixture of the motion model and, with slip_probability, a uniform distribution over the
-/// window; where all headings are searched, with slip_probability also a turn by any angle at the odometry's
-/// position (2 cm less certain). No motion and the opposite one are 1e-4 times as probable as a slip. A pose far from the
+/// window; no motion and the opposite one are 1e-4 times as probable as such a slip. A pose far from the
 /// motion model is accepted if its posterior under this mixture is higher; poses of similar posterior are
 /// hypotheses, which are distributed among the particles until later scans decide.
 class SlipRecovery {
