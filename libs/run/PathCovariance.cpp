@@ -22,7 +22,7 @@ constexpr double square(double x) { return x * x; }
 
 // Tuned on simulated logs: doc/verdict.md.
 constexpr double kMatch = 0.01, kMatchAngle = mrpt::DEG2RAD(0.09);  // of a scan match
-constexpr PathDrift kRelaxed{0.002, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.003, mrpt::DEG2RAD(0.038)};
+constexpr PathDrift kRelaxed{0.004, mrpt::DEG2RAD(0.008)}, kRelaxedWithoutLines{0.005, mrpt::DEG2RAD(0.038)};
 constexpr double kBetween = 0.02, kBetweenAngle = mrpt::DEG2RAD(1.0);  // per sqrt(m), odometry alone
 constexpr double kLoops = 4, kNear = 3;                                // m
 
