@@ -19,8 +19,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr double kMatch = 2e-4;                                 // m^2, two scan matches
-const double kTurn = 2 * std::pow(0.09 * M_PI / 180, 2);        // rad^2, the same
+constexpr double kMatch = 2e-4;                                   // m^2, two scan matches
+const double kTurn = 2 * std::pow(0.09 * M_PI / 180, 2);          // rad^2, the same
 constexpr double kDrift = 0.5 * 16e-6, kOpenDrift = 0.5 * 25e-6;  // m^2, over 0.5 m
 
 /// A run of two scans, 0.5 m apart in the direction of the robot.
