@@ -21,7 +21,8 @@ double sineToNext(const ScanBeams& scan, size_t i) {
 
 std::vector<size_t> wallGaps(const ScanBeams& scan, double longest) {
   // m; several times the noise of common lasers. Where beams graze a wall, the mouths of shallow niches are
-  // filled, too, which draws a robot on; but else few gaps would be left in corridors with many niches.
+  // filled too, which makes paths slightly too long. A tolerance along the beams would avoid this, but leave
+  // few gaps in corridors with many niches.
   constexpr double kStraight = 0.05;
   constexpr double kNext = 1.5;    // of the spacing beside: a missing beam doubles it
   constexpr double kBeside = 1.5;  // of the gap: the end points before and after are of the same wall
