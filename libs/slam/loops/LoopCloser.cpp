@@ -1,6 +1,5 @@
 #include "slam/loops/LoopCloser.h"
 
-#include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <algorithm>
@@ -9,8 +8,8 @@
 #include "base/Degree.h"
 #include "base/PoseDistance.h"
 #include "base/PoseRotation.h"
-#include "slam/lines/WallDirections.h"
 #include "slam/loops/PathCorrection.h"
+#include "slam/loops/WallHeadings.h"
 
 namespace hybrid_slam {
 
@@ -31,18 +30,6 @@ constexpr double kMinOverlap = 0.5, kHeldOverlap = 0.3;
 constexpr double kAttempt = 1.5, kAfterHeld = 3;  // m of path between attempts
 constexpr double kMaxAngle = 20 * kDegree;        // searched
 constexpr double kMaxChi2 = 16;                   // of a correction, under the path's uncertainty
-constexpr double kMaxWallAngle = 3 * kDegree;     // off the direction of the others
-constexpr double kLeastWallNoise = 0.1 * kDegree;
-constexpr double kWallSigmas = 2;  // times the noise: neighbouring scans show the same walls
-
-/// Returns the direction of the walls in the lines of a scan, modulo 90 deg.
-std::optional<double> wallDirection(const std::vector<LineSegment>& lines) {
-  double length = 0;
-  for (const LineSegment& line : lines) length += line.length;
-  constexpr double kLeastLength = 3;  // m
-  if (length < kLeastLength) return std::nullopt;
-  return directionModuloRightAngle(lines);
-}
 
 /// Standard deviations in x, y (m) and heading (rad) that a match has at most. A held pair may be unknown
 /// along a corridor; of a match, every other pose in the window scores less.
@@ -277,38 +264,14 @@ std::vector<PoseEdge> LoopCloser::motionEdges(const Track& track) const {
   return edges;
 }
 
-std::vector<PoseEdge> LoopCloser::headingEdges(const Track& track, double direction) const {
-  std::vector<std::optional<double>> errors;  // of the heading, by the walls
-  for (size_t i = 0; i < track.poses.size(); ++i) {
-    errors.push_back(std::nullopt);
-    if (!wallDirections_[i]) continue;
-    const double error = wrapToRightAngle(track.poses[i].phi + *wallDirections_[i] - direction);
-    if (std::abs(error) < kMaxWallAngle) errors.back() = error;
-  }
-  // Walls and motions measure the same rotations between neighbours: their difference is the noise.
-  double squares = 0, count = 0;
-  for (size_t i = 1; i < errors.size(); ++i)
-    if (errors[i - 1] && errors[i]) squares += mrpt::square(*errors[i] - *errors[i - 1]), ++count;
-  if (count == 0) return {};
-  const double sigma = kWallSigmas * std::max(kLeastWallNoise, std::sqrt(squares / count));
-  const Eigen::Matrix3d information = Eigen::Vector3d(0, 0, 1 / (sigma * sigma)).asDiagonal();
-  std::vector<PoseEdge> edges;
-  for (size_t i = 1; i < errors.size(); ++i) {
-    if (!errors[i]) continue;
-    TPose2D relative = track.poses[i] - track.poses[0];
-    relative.phi = mrpt::math::wrapToPi(relative.phi - *errors[i]);
-    edges.push_back({0, i, relative, information});
-  }
-  return edges;
-}
-
 std::optional<LoopClosure> LoopCloser::optimise(const std::vector<TPose2D>& path, const Track& track,
                                                 const std::optional<double>& direction) {
   PoseGraph graph;
   graph.poses = track.poses;
   graph.motions = motionEdges(track);
   if (direction)
-    for (const PoseEdge& edge : headingEdges(track, *direction)) graph.motions.push_back(edge);
+    for (const PoseEdge& edge : wallHeadings(track.poses, track.distances, wallDirections_, *direction))
+      graph.motions.push_back(edge);
   graph.loops = loops_;
   for (const Candidate& candidate : candidates_) graph.loops.push_back(candidate.edge);
   const OptimizedGraph result = optimized(graph);

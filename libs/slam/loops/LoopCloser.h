@@ -108,9 +108,6 @@ class LoopCloser {
   std::vector<Revisit> revisits(const std::vector<mrpt::math::TPose2D>& poses) const;
   /// The motions between keyframes.
   std::vector<PoseEdge> motionEdges(const Track& track) const;
-  /// The headings of the keyframes by the walls that they see, in the frame of the first one.
-  /// @param direction  of the walls, modulo 90 deg, rad, map frame
-  std::vector<PoseEdge> headingEdges(const Track& track, double direction) const;
   std::optional<LoopClosure> optimise(const std::vector<mrpt::math::TPose2D>& path, const Track& track,
                                       const std::optional<double>& direction);
   LocalMap newest(const Track& track, double length) const;
